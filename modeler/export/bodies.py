@@ -172,7 +172,10 @@ def written(ten: np.ndarray, axes: np.ndarray | None = None) -> np.ndarray:
     about = tensor - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
     if axes is not None:
         about = axes.T @ about @ axes
-    return np.concatenate([[mass], centre, about[np.triu_indices(3)]])
+    found = np.concatenate([[mass], centre, about[np.triu_indices(3)]])
+    for own in (found[1:4], found[4:]):  # what differences leave of 0
+        own[np.abs(own) < 1e-15 * np.abs(own).max()] = 0.0
+    return found
 
 
 def deviations(
@@ -235,10 +238,13 @@ def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
 
 
 def _of_robot(robot: Robot, original: Original) -> Physics:
+    """The stated values as they are, what is not stated beside them."""
     values = values_of(robot)
-    links = [j.name for j in robot.moving if robot.inertial(j.name)]
+    links = [joint.name for joint in robot.moving if robot.inertial(joint.name)]
+    effects = [(row.name, e) for row in robot.moving for e in robot.effects_on(row.name)]
+    own = [f"{column.prefix}{row}{instance.label}"
+           for row, (_, form, instance) in effects for column in form.columns]  # fmt: skip
     names = [f"{prefix}{link}" for link in links for prefix in PREFIXES]
-    own = [name for row in robot.moving for terms in _every_name(robot, row.name) for name in terms]
     names += [name for name in own if name in values]
     heavy = any(f"M{link}" in values or f"ZZ{link}" in values for link in links)
     if not heavy and not (original.whole and any(name in values for name in own)):
@@ -250,28 +256,15 @@ def _of_robot(robot: Robot, original: Original) -> Physics:
     given = [name for name in names if name in values]
     K = np.eye(len(names))[[place[name] for name in given]]
     tens = {link: np.array([place[f"{p}{link}"] for p in PREFIXES]) for link in links}
-    positive = {
-        name: place[name]
-        for row in robot.moving
-        for terms in held_by_joint(robot, row.name).values()
-        for name in terms
-        if name in place and not name.startswith("Ks")
-    }
-    machine = Machine(tuple(names), K, tens, positive)
-    beta = np.array([values[name] for name in given])
-    C = np.zeros((len(given), len(given)))
+    loss = {n for row in robot.moving for n, q in _held_names(robot, row.name) if q != "stiffness"}
+    machine = Machine(tuple(names), K, tens, {n: place[n] for n in names if n in loss})
+    beta, C = np.array([values[name] for name in given]), np.zeros((len(given),) * 2)
     before, stated, notes = beforehand(machine, robot, original, beta, C)
     found = conditioned(K, before, beta, C)
     if original.whole:  # what the original states stays as it is, whatever it is
         return Physics(robot, machine, found, stated, values)
     settled, released, more = _settled(robot, machine, before, found, (beta, C), original)
     return Physics(robot, machine, settled, stated, values, None, released, (*notes, *more))
-
-
-def _every_name(robot: Robot, row: str) -> Iterator[list[str]]:
-    """Names of the parameters of each effect of a row."""
-    for _, form, instance in robot.effects_on(row):
-        yield [f"{column.prefix}{row}{instance.label}" for column in form.columns]
 
 
 def values_of(robot: Robot) -> dict[str, float]:

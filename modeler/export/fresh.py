@@ -6,7 +6,7 @@ closes them by points that meet.
 """
 
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +15,8 @@ from modeler.core.errors import DataError
 from modeler.export.bodies import Physics, rest_of, written
 from modeler.export.capsules import Capsule, capsules
 from modeler.export.linkage import BASE, closed, row_pose, sense, to_quaternion, variables
+from modeler.export.original import TENSOR
+from modeler.export.result import numbers
 from modeler.robot import Joint, JointKind, Pose, linear_form, roll_pitch_yaw, turned
 
 LINK, JOINT = "link_", "joint_"
@@ -121,16 +123,18 @@ def _link(row: str) -> str:
     return "base" if row == BASE else LINK + row
 
 
-def numbers(values: Iterable[float]) -> str:
-    """Shortest decimals that read as the same numbers."""
-    return " ".join(repr(float(x) + 0.0).removesuffix(".0") for x in values)
-
-
 Number = float | np.ndarray
 
 
-def _add(parent: ET.Element, tag: str, **attributes: str | Number) -> ET.Element:
-    return ET.SubElement(parent, tag, {key: _written(x) for key, x in attributes.items()})
+def _node(tag: str, *children: ET.Element | str | Number, **attributes: str | Number) -> ET.Element:
+    """An element; of numbers and texts among the children its text."""
+    made = ET.Element(tag, {key: _written(value) for key, value in attributes.items()})
+    for child in children:
+        if isinstance(child, ET.Element):
+            made.append(child)
+        else:
+            made.text = _written(child)
+    return made
 
 
 def _written(value: str | Number) -> str:
@@ -140,9 +144,7 @@ def _written(value: str | Number) -> str:
 def _upright(gravity: np.ndarray) -> np.ndarray:
     """(3, 3) axes of frame 0 in a world whose gravity points along -z."""
     size = float(np.linalg.norm(gravity))
-    if not size:
-        return np.eye(3)
-    down = gravity / size
+    down = gravity / size if size else np.array([0.0, 0.0, -1.0])
     axis = np.cross(down, [0.0, 0.0, -1.0])
     sine = float(np.linalg.norm(axis))
     if sine < 1e-12:
@@ -156,120 +158,113 @@ def gravity_of(physics: Physics) -> np.ndarray:
     return np.array([cell.number(symbols) for cell in physics.robot.gravity])
 
 
-# URDF.
-
-
-def _urdf(physics: Physics, parts: list[Part]) -> ET.Element:
-    root = ET.Element("robot", name=physics.robot.name)
-    lift = _upright(gravity_of(physics))
-    if not np.allclose(lift, np.eye(3), atol=1e-12):
-        _add(root, "link", name="world")
-        joint = _add(root, "joint", name="upright", type="fixed")
-        _origin(joint, Pose(np.zeros(3), lift))
-        _add(joint, "parent", link="world")
-        _add(joint, "child", link="base")
-    _add(root, "link", name="base")
-    for part in parts:
-        link = _add(root, "link", name=part.link)
-        if part.body is not None:
-            inertial = _add(link, "inertial")
-            _add(inertial, "origin", xyz=part.body[1:4], rpy="0 0 0")
-            _add(inertial, "mass", value=part.body[0])
-            keys = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-            _add(inertial, "inertia", **dict(zip(keys, part.body[4:], strict=True)))
-        for capsule in part.drawn if part.row.moves else ():
-            _drawn_urdf(link, capsule)
-        limits = physics.robot.limits.get(part.row.name)
-        slides = part.row.kind is JointKind.PRISMATIC
-        kind = "prismatic" if slides else "revolute" if limits else "continuous"
-        joint = _add(root, "joint", name=part.joint, type=kind if part.row.moves else "fixed")
-        _origin(joint, part.pose)
-        _add(joint, "parent", link=part.parent)
-        _add(joint, "child", link=part.link)
-        if not part.row.moves:
-            continue
-        _add(joint, "axis", xyz=part.axis)
-        if slides or limits:
-            low, high, speed = (
-                (limits.lower, limits.upper, limits.speed) if limits else (-_FAR, _FAR, _FAR)
-            )
-            _add(joint, "limit", lower=low, upper=high, velocity=speed, effort=_EFFORT)
-        if part.drive:
-            _add(joint, "dynamics", **part.drive)
-        for leader, ratio in part.leaders.items():
-            _add(joint, "mimic", joint=leader, multiplier=ratio, offset=part.offset)
-    return root
-
-
-def _origin(parent: ET.Element, pose: Pose) -> None:
-    _add(parent, "origin", xyz=pose.position, rpy=np.array(roll_pitch_yaw(pose.rotation)))
+def _limits(physics: Physics, row: Joint) -> dict[str, float]:
+    limits = physics.robot.limits.get(row.name)
+    if limits is None:
+        far = {"lower": -_FAR, "upper": _FAR, "velocity": _FAR}
+        return far if row.kind is JointKind.PRISMATIC else {}
+    return {"lower": limits.lower, "upper": limits.upper, "velocity": limits.speed}
 
 
 def _along(capsule: Capsule) -> Pose:
     """The middle of a capsule, z along it."""
-    if not capsule.length:
-        return Pose()
-    z = capsule.end / capsule.length
-    return Pose(0.5 * capsule.end, _upright(-z).T)
+    return Pose(0.5 * capsule.end, _upright(-capsule.end).T if capsule.length else np.eye(3))
 
 
-def _drawn_urdf(link: ET.Element, capsule: Capsule) -> None:
-    for end in (np.zeros(3), capsule.end) if capsule.length else (np.zeros(3),):
-        visual = _add(link, "visual")
-        _origin(visual, Pose(end))
-        _add(_add(visual, "geometry"), "sphere", radius=capsule.radius)
+# URDF.
+
+
+def _urdf(physics: Physics, parts: list[Part]) -> ET.Element:
+    root, lift = _node("robot", name=physics.robot.name), _upright(gravity_of(physics))
+    if not np.allclose(lift, np.eye(3), atol=1e-12):
+        ends = _node("parent", link="world"), _node("child", link="base")
+        upright = _origin(Pose(np.zeros(3), lift)), *ends
+        root.append(_node("link", name="world"))
+        root.append(_node("joint", *upright, name="upright", type="fixed"))
+    root.append(_node("link", name="base"))
+    for part in parts:
+        moves, link = part.row.moves, _node("link", name=part.link)
+        if part.body is not None:
+            tensor = _node("inertia", **dict(zip(TENSOR, part.body[4:], strict=True)))
+            mass = _node("mass", value=part.body[0])
+            link.append(_node("inertial", _origin(Pose(part.body[1:4])), mass, tensor))
+        link.extend(shape for capsule in part.drawn if moves for shape in _visuals(capsule))
+        limits = _limits(physics, part.row) if moves else {}
+        kind = "prismatic" if part.row.kind is JointKind.PRISMATIC else "revolute"
+        kind = "fixed" if not moves else kind if limits else "continuous"
+        ends = _node("parent", link=part.parent), _node("child", link=part.link)
+        joint = _node("joint", _origin(part.pose), *ends, name=part.joint, type=kind)
+        if moves:
+            joint.append(_node("axis", xyz=part.axis))
+        if limits:
+            joint.append(_node("limit", **limits, effort=_EFFORT))
+        if part.drive:
+            joint.append(_node("dynamics", **part.drive))
+        for leader, ratio in part.leaders.items():
+            joint.append(_node("mimic", joint=leader, multiplier=ratio, offset=part.offset))
+        root.extend([link, joint])
+    return root
+
+
+def _origin(pose: Pose) -> ET.Element:
+    return _node("origin", xyz=pose.position, rpy=np.array(roll_pitch_yaw(pose.rotation)))
+
+
+def _visuals(capsule: Capsule) -> Iterator[ET.Element]:
+    def shape(pose: Pose, tag: str, **sizes: float) -> ET.Element:
+        return _node("visual", _origin(pose), _node("geometry", _node(tag, **sizes)))
+
+    yield shape(Pose(), "sphere", radius=capsule.radius)
     if capsule.length:
-        visual = _add(link, "visual")
-        _origin(visual, _along(capsule))
-        _add(_add(visual, "geometry"), "cylinder", radius=capsule.radius, length=capsule.length)
+        yield shape(Pose(capsule.end), "sphere", radius=capsule.radius)
+        sizes = {"radius": capsule.radius, "length": capsule.length}
+        yield shape(_along(capsule), "cylinder", **sizes)
 
 
 # MJCF.
 
 
 def _mjcf(physics: Physics, parts: list[Part]) -> ET.Element:
-    robot = physics.robot
-    root = ET.Element("mujoco", model=robot.name)
-    _add(root, "compiler", angle="radian")
-    _add(root, "option", gravity=gravity_of(physics))
-    bodies = {"base": _add(_add(root, "worldbody"), "body", name="base")}
+    robot, base = physics.robot, _node("body", name="base")
+    bodies, zero = {"base": base}, {part.joint: part.zero for part in parts}
     equality, tendons, motors = (ET.Element(x) for x in ("equality", "tendon", "actuator"))
-    zero = {part.joint: part.zero for part in parts}
     for part in parts:
-        body = _add(
-            bodies[part.parent], "body", name=part.link, pos=part.pose.position,
-            quat=to_quaternion(part.pose.rotation),
-        )  # fmt: skip
-        bodies[part.link] = body
+        place = {"pos": part.pose.position, "quat": to_quaternion(part.pose.rotation)}
+        bodies[part.link] = body = _node("body", name=part.link, **place)
+        bodies[part.parent].append(body)
         if not part.row.moves:
             continue
-        if part.body is not None:
-            full = part.body[[4, 7, 9, 5, 6, 8]]
-            _add(body, "inertial", pos=part.body[1:4], mass=part.body[0], fullinertia=full)
-        kind = "slide" if part.row.kind is JointKind.PRISMATIC else "hinge"
+        assert part.body is not None
+        full = part.body[[4, 7, 9, 5, 6, 8]]
+        body.append(_node("inertial", pos=part.body[1:4], mass=part.body[0], fullinertia=full))
         keys = {"friction": "frictionloss", "rest": "springref"}
-        more: dict[str, str | Number] = {keys.get(q, q): x for q, x in part.drive.items()}
+        more: dict[str, Number] = {keys.get(q, q): x for q, x in part.drive.items()}
         if limits := robot.limits.get(part.row.name):
             more["range"] = np.array([limits.lower, limits.upper])
-        if part.zero:
-            more["ref"] = part.zero
-        _add(body, "joint", name=part.joint, type=kind, axis=part.axis, **more)
+        more |= {"ref": part.zero} if part.zero else {}
+        kind = "slide" if part.row.kind is JointKind.PRISMATIC else "hinge"
+        body.append(_node("joint", name=part.joint, type=kind, axis=part.axis, **more))
         for capsule in part.drawn:
+            shape: dict[str, str | Number] = {"type": "sphere", "size": capsule.radius}
             if capsule.length:
-                ends = np.array([*np.zeros(3), *capsule.end])
-                shape: dict[str, str | Number] = {"type": "capsule", "fromto": ends}
-            else:
-                shape = {"type": "sphere"}
-            _add(body, "geom", **shape, size=capsule.radius, mass=0.0, contype="0", conaffinity="0")
-        follows = part.row.name in robot.relations
+                shape |= {"type": "capsule", "fromto": np.array([0.0, 0.0, 0.0, *capsule.end])}
+            body.append(_node("geom", **shape, mass=0.0, contype="0", conaffinity="0"))
         if part.leaders:
             _follow(part, zero, equality, tendons)
-        elif part.row.actuated or follows:
-            _add(motors, "motor", name=part.joint, joint=part.joint)
+        elif part.row.actuated or part.row.name in robot.relations:
+            motors.append(_node("motor", name=part.joint, joint=part.joint))
     for loop in robot.loops:
-        _close(loop.kind, _link(loop.frame), _link(loop.meets), parts[0].drawn[0].radius, equality)
-    root.extend(element for element in (tendons, equality, motors) if len(element))
-    return root
+        ends = {"body1": _link(loop.frame), "body2": _link(loop.meets)}
+        if loop.kind == "rigid":
+            equality.append(_node("weld", **ends))
+            continue
+        size = parts[0].drawn[0].radius  # a second point of the axis
+        for z in (0.0, size) if loop.kind == "revolute" else (0.0,):
+            equality.append(_node("connect", anchor=np.array([0.0, 0.0, z]), **ends))
+    further = [element for element in (tendons, equality, motors) if len(element)]
+    option = _node("option", gravity=gravity_of(physics))
+    head = _node("compiler", angle="radian"), option, _node("worldbody", base)
+    return _node("mujoco", *head, *further, model=robot.name)
 
 
 def _follow(
@@ -278,91 +273,61 @@ def _follow(
     """q = offset + sum ratio q_leader; MuJoCo counts from the positions of `ref`."""
     if len(part.leaders) == 1:
         ((leader, ratio),) = part.leaders.items()
-        start = part.offset + ratio * zero[leader] - part.zero
-        _add(
-            equality, "joint", joint1=part.joint, joint2=leader,
-            polycoef=np.array([start, ratio, 0, 0, 0]),
-        )  # fmt: skip
+        line = np.array([part.offset + ratio * zero[leader] - part.zero, ratio, 0, 0, 0])
+        equality.append(_node("joint", joint1=part.joint, joint2=leader, polycoef=line))
         return
-    name = f"{part.joint}_follows"
-    fixed = _add(tendons, "fixed", name=name)
-    for joint, ratio in {part.joint: -1.0, **part.leaders}.items():
-        _add(fixed, "joint", joint=joint, coef=ratio)
-    _add(equality, "tendon", tendon1=name, polycoef="0 1 0 0 0")
-
-
-def _close(kind: str, one: str, other: str, size: float, equality: ET.Element) -> None:
-    bodies = {"body1": one, "body2": other}
-    if kind == "rigid":
-        _add(equality, "weld", **bodies)
-        return
-    _add(equality, "connect", anchor="0 0 0", **bodies)
-    if kind == "revolute":
-        _add(equality, "connect", anchor=np.array([0.0, 0.0, size]), **bodies)
+    name, shares = f"{part.joint}_follows", {part.joint: -1.0, **part.leaders}
+    joints = [_node("joint", joint=joint, coef=ratio) for joint, ratio in shares.items()]
+    tendons.append(_node("fixed", *joints, name=name))
+    equality.append(_node("tendon", tendon1=name, polycoef="0 1 0 0 0"))
 
 
 # SDF.
 
 
 def _sdf(physics: Physics, parts: list[Part]) -> ET.Element:
-    root = ET.Element("sdf", version="1.9")
-    model = _add(root, "model", name=physics.robot.name)
-    base = _add(model, "link", name="base")
-    _pose(base, Pose(np.zeros(3), _upright(gravity_of(physics))))
-    world = _add(model, "joint", name="upright", type="fixed")
-    _text(world, "parent", "world")
-    _text(world, "child", "base")
+    lift = Pose(np.zeros(3), _upright(gravity_of(physics)))
+    ends = _node("parent", "world"), _node("child", "base")
+    model = _node(
+        "model", _node("link", _pose(lift), name="base"),
+        _node("joint", *ends, name="upright", type="fixed"), name=physics.robot.name,
+    )  # fmt: skip
+    names = {"stiffness": "spring_stiffness", "rest": "spring_reference"}
     for part in parts:
-        if not part.row.moves:
-            frame = _add(model, "frame", name=part.link, attached_to=part.parent)
-            _pose(frame, part.pose)
+        if part.body is None or not part.row.moves:
+            there = {"name": part.link, "attached_to": part.parent}
+            model.append(_node("frame", _pose(part.pose), **there))
             continue
-        link = _add(model, "link", name=part.link)
-        _pose(link, part.pose, relative_to=part.parent)
-        assert part.body is not None
-        inertial = _add(link, "inertial")
-        _pose(inertial, Pose(part.body[1:4]))
-        _text(inertial, "mass", part.body[0])
-        tensor = _add(inertial, "inertia")
-        for key, value in zip(
-            ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), part.body[4:], strict=True
-        ):
-            _text(tensor, key, value)
+        entries = (_node(k, x) for k, x in zip(TENSOR, part.body[4:], strict=True))
+        mass, tensor = _node("mass", part.body[0]), _node("inertia", *entries)
+        link = _node("link", _pose(part.pose, relative_to=part.parent), name=part.link)
+        link.append(_node("inertial", _pose(Pose(part.body[1:4])), mass, tensor))
         for k, capsule in enumerate(part.drawn):
-            visual = _add(link, "visual", name=f"capsule{k}")
-            _pose(visual, _along(capsule))
-            shape = _add(_add(visual, "geometry"), "capsule" if capsule.length else "sphere")
-            _text(shape, "radius", capsule.radius)
-            if capsule.length:
-                _text(shape, "length", capsule.length)
-        slides = part.row.kind is JointKind.PRISMATIC
-        joint = _add(model, "joint", name=part.joint, type="prismatic" if slides else "revolute")
-        _text(joint, "parent", part.parent)
-        _text(joint, "child", part.link)
-        axis = _add(joint, "axis")
-        _text(axis, "xyz", part.axis)
-        if limits := physics.robot.limits.get(part.row.name):
-            limit = _add(axis, "limit")
-            _text(limit, "lower", limits.lower)
-            _text(limit, "upper", limits.upper)
-            _text(limit, "velocity", limits.speed)
+            sizes = {"radius": capsule.radius} | (
+                {"length": capsule.length} if capsule.length else {}
+            )
+            shape = _node("capsule" if capsule.length else "sphere", *_texts(sizes))
+            visual = _pose(_along(capsule)), _node("geometry", shape)
+            link.append(_node("visual", *visual, name=f"capsule{k}"))
+        axis = _node("axis", _node("xyz", part.axis))
+        if limits := _limits(physics, part.row):
+            axis.append(_node("limit", *_texts(limits)))
         if part.drive:
-            dynamics = _add(axis, "dynamics")
-            keys = {"stiffness": "spring_stiffness", "rest": "spring_reference"}
-            for quantity, value in part.drive.items():
-                _text(dynamics, keys.get(quantity, quantity), value)
+            drive = {names.get(quantity, quantity): x for quantity, x in part.drive.items()}
+            axis.append(_node("dynamics", *_texts(drive)))
         for leader, ratio in part.leaders.items():
-            mimic = _add(axis, "mimic", joint=leader)
-            _text(mimic, "multiplier", ratio)
-            _text(mimic, "offset", part.offset)
-            _text(mimic, "reference", 0.0)
-    return root
+            law = {"multiplier": ratio, "offset": part.offset, "reference": 0.0}
+            axis.append(_node("mimic", *_texts(law), joint=leader))
+        kind = "prismatic" if part.row.kind is JointKind.PRISMATIC else "revolute"
+        ends = _node("parent", part.parent), _node("child", part.link)
+        model.extend([link, _node("joint", *ends, axis, name=part.joint, type=kind)])
+    return _node("sdf", model, version="1.9")
 
 
-def _pose(parent: ET.Element, pose: Pose, **attributes: str) -> None:
-    place = [*pose.position, *roll_pitch_yaw(pose.rotation)]
-    _add(parent, "pose", **attributes).text = numbers(place)
+def _texts(values: Mapping[str, float]) -> list[ET.Element]:
+    return [_node(key, value) for key, value in values.items()]
 
 
-def _text(parent: ET.Element, tag: str, value: str | Number) -> None:
-    _add(parent, tag).text = _written(value)
+def _pose(pose: Pose, **attributes: str) -> ET.Element:
+    place = np.array([*pose.position, *roll_pitch_yaw(pose.rotation)])
+    return _node("pose", place, **attributes)

@@ -29,6 +29,8 @@ from modeler.robot import (
 FORMATS = {"robot": "urdf", "mujoco": "mjcf", "sdf": "sdf"}
 """Of a file, by its outermost element."""
 
+TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+
 _SAME = 1e-4  # m, rad: rounded angles of a file are exact in the robot file
 _POSTURES = 5
 
@@ -96,31 +98,44 @@ def first(element: Element, tag: str) -> Element | None:
     return next(iter(element.named(tag)), None)
 
 
-def sdf_pose(element: Element | None) -> Pose:
-    """`<pose>` of an element: x y z roll pitch yaw, rad or `degrees`."""
-    pose = first(element, "pose") if element else None
-    if pose is None or not pose.text:
-        return Pose()
-    numbers = np.array([float(word) for word in pose.text.split()])
-    turn = numbers[3:] * (np.pi / 180 if pose.attributes.get("degrees") == "true" else 1.0)
-    return Pose(numbers[:3], from_rpy(turn.tolist()))
+def text_at(element: Element, path: str) -> str:
+    """The text, or behind @ the attribute, at a path of elements; "" without."""
+    way, _, attribute = path.partition("@")
+    for tag in way.split("/") if way else ():
+        child = first(element, tag)
+        if child is None:
+            return ""
+        element = child
+    return element.attributes.get(attribute, "") if attribute else element.text
+
+
+def inertial_axes(source: Source, link: Element | None) -> np.ndarray | None:
+    """(3, 3) along which the inertia of a link is written; None: along those of its frame."""
+    paths = {"urdf": "inertial/origin@rpy", "sdf": "inertial/pose"}
+    if link is None or source.format not in paths:
+        return None
+    angles = text_at(link, paths[source.format]).split()[-3:]
+    return from_rpy([float(word) for word in angles]) if angles else None
+
+
+def _sdf_pose(element: Element) -> Pose:
+    """`<pose>` of an element: x y z roll pitch yaw."""
+    words = [float(word) for word in text_at(element, "pose").split()] or [0.0] * 6
+    return Pose(np.array(words[:3]), from_rpy(words[3:]))
 
 
 def _sdf_links(root: Element) -> dict[str, Inertial | None]:
     found: dict[str, Inertial | None] = {}
     for link in (element for element in root.walk() if element.tag == "link"):
-        inertial = first(link, "inertial")
-        mass = first(inertial, "mass") if inertial else None
-        tensor = first(inertial, "inertia") if inertial else None
+        texts = [text_at(link, f"inertial/inertia/{key}") for key in TENSOR]
+        numbers = [float(t or (k[1] == k[2])) for t, k in zip(texts, TENSOR, strict=True)]
+        inertial, tensor = first(link, "inertial"), np.zeros((3, 3))
+        tensor[np.triu_indices(3)] = numbers
         body = None
-        if mass is not None and tensor is not None:
-            entry = {child.tag: float(child.text) for child in tensor.children if child.text}
-            xx, xy, xz, yy, yz, zz = (
-                entry.get(key, 1.0 if key[1] == key[2] else 0.0)
-                for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-            )
-            matrix = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-            body = Inertial(float(mass.text), np.zeros(3), matrix).seen_from(sdf_pose(inertial))
+        if inertial is not None:
+            mass = float(text_at(inertial, "mass") or 1.0)
+            tensor = tensor + np.triu(tensor, 1).T
+            body = Inertial(mass, np.zeros(3), tensor).seen_from(_sdf_pose(inertial))
         found[link.attributes.get("name", "")] = body
     return found
 
@@ -242,7 +257,7 @@ def _check_sdf(source: Source, robot: Robot, on: Mapping[str, tuple[str, Pose]])
         if name not in on or (pose is not None and pose.attributes.get("relative_to")):
             continue
         row, own = on[name]
-        base = sdf_pose(link) @ (at[row] @ own).inverse()
+        base = _sdf_pose(link) @ (at[row] @ own).inverse()
         reference = reference or base
         if not _alike(reference, base):
             raise _differs(source, robot, f"link {name} stands elsewhere at 0")
@@ -257,19 +272,23 @@ def _matched(source: Source, robot: Robot) -> tuple[dict[str, tuple[str, Pose]],
         raise _differs(
             source, robot, f"it has {len(links) - 1} moving joints, and the table {len(rows)}"
         )
-    rng, seen = np.random.default_rng(0), dict[int, Pose]()
-    for _ in range(_POSTURES):
-        q = {row: rng.uniform(-1.0, 1.0) for row in rows}
-        at, values, own = poses(robot, q), variables(robot, q), [Pose()]
-        for k, link in enumerate(links[1:]):
-            assert link.joint is not None
-            step = link.joint.pose.inverse() @ link.joint.at(values[f"q{rows[k]}"])
-            own.append(own[link.parent] @ link.pose @ step)
-            there = at[rows[k]].inverse() @ own[-1]
-            if not _alike(seen.setdefault(k, there), there):
-                raise _differs(
-                    source, robot, f"joint {link.joint.name} moves otherwise than row {rows[k]}"
-                )
+    for base in links[0].bodies.values():  # any of them may be frame 0
+        seen = dict[int, Pose]()
+        rng, wrong = np.random.default_rng(0), ""
+        for _ in range(_POSTURES):
+            q = {row: rng.uniform(-1.0, 1.0) for row in rows}
+            at, values, own = poses(robot, q), variables(robot, q), [base.inverse()]
+            for link, row in zip(links[1:], rows, strict=True):
+                assert link.joint is not None
+                step = link.joint.pose.inverse() @ link.joint.at(values[f"q{row}"])
+                own.append(own[link.parent] @ link.pose @ step)
+                there = at[row].inverse() @ own[-1]
+                if not wrong and not _alike(seen.setdefault(len(own) - 2, there), there):
+                    wrong = f"joint {link.joint.name} moves otherwise than row {row}"
+        if not wrong:
+            break
+    if wrong:
+        raise _differs(source, robot, wrong)
     on = {name: (BASE, pose) for name, pose in links[0].bodies.items()}
     moved = {}
     for k, link in enumerate(links[1:]):

@@ -1,7 +1,7 @@
 """What was written: every number as it was and is, and what the file cannot hold."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -95,6 +95,11 @@ class Exported(Presented):
         }
 
 
+def numbers(values: Iterable[float]) -> str:
+    """Shortest decimals that read as the same numbers."""
+    return " ".join(repr(float(x) + 0.0).removesuffix(".0") for x in values)
+
+
 def body_values(
     physics: Physics,
     row: str,
@@ -117,13 +122,13 @@ def body_values(
     """
     places = physics.ten_places(row)
 
-    def numbers(ten: np.ndarray) -> np.ndarray:
+    def of_file(ten: np.ndarray) -> np.ndarray:
         own = ten if hung is None else ten - hung
         return written(own if pose is None else carried(own, pose.inverse()), axes)
 
     spread = physics.now.covariance[np.ix_(places, places)]
-    sigma = deviations(numbers, physics.now.chi[places], spread) if physics.fit else None
-    yield from plain_values(part, was, numbers(physics.now.chi[places]), sigma)
+    sigma = deviations(of_file, physics.now.chi[places], spread) if physics.fit else None
+    yield from plain_values(part, was, of_file(physics.now.chi[places]), sigma)
 
 
 def plain_values(

@@ -64,7 +64,12 @@ def exported(
                 given = physics.stated_before(joint.name)
                 was = None if given is None else written(given)
                 values += body_values(physics, joint.name, LINK + joint.name, was)
-            values += drive_values(physics, joint, JOINT + joint.name, to, {})
+            stated = {
+                quantity: sum(c * physics.nominal[name] for name, c in terms.items())
+                for quantity, terms in physics.drive(joint.name, to).items()
+                if terms.keys() <= physics.nominal.keys()
+            }
+            values += drive_values(physics, joint, JOINT + joint.name, to, stated)
     else:
         source = source_of(like)
         if to and to != source.format:

@@ -210,12 +210,16 @@ class _Writing:
 
     def _having(self, key: str) -> list[str]:
         """Rows of the joints that have what an attribute says: friction and rotors all of them."""
+        if key == "stiffness" and self.loops:  # the C of a robot with loops has no springs
+            return []
         every = {"armature": self.driven, "stiffness": []}.get(key, self.free)
         return [n for n, joint in self.joints.items() if getattr(joint, key) or n in every]
 
     def effects(self) -> list[str]:
         """Friction and rotors of every joint, and springs that the file states."""
         having = {effect: self._having(key) for effect, (key, _) in _EFFECTS.items()}
+        if self.loops and any(joint.stiffness for joint in self.joints.values()):
+            self.symbols.notes.append("springs are left out: robots with loops have none here")
         springs = [
             f'{{joint = "{name}", q0 = {number(self.joints[name].rest)}, h = 0}}'
             for name in having.pop("spring")
