@@ -5,10 +5,11 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, generate, load, read_logs
+from modeler.api import compile_model, derive, generate, load, look_at, read_logs
 from modeler.api.log_maps import log_maps, read_mapped
 from modeler.core.errors import DataError
 from modeler.estimation import identify
+from modeler.logs import EITHER
 from modeler.observation import observe
 
 from .servos import Servo, mjcf_of, recorded, write_dataset
@@ -100,3 +101,21 @@ def test_the_table_places_links_as_the_file_does():
     assert load("vx300s").symbol_values()["psi"] == pytest.approx(
         np.arctan2(0.05955, 0.3), abs=1e-9
     )
+
+
+@pytest.mark.parametrize(("reach", "doubted"), [(95.0, True), (130.0, False)])
+def test_degrees_that_may_be_parts_of_a_range_are_told(arm, reach, doubted):
+    t = np.arange(500) / 50
+    names = [f"observation.state[{motor}.pos]" for motor in MOTORS]
+    columns = {"timestamp": t} | {name: reach * np.sin(t + k) for k, name in enumerate(names)}
+    columns |= {f"observation.load[{motor}.load]": 300 * np.cos(t) for motor in MOTORS}
+    lines = look_at(columns, arm).doubts
+    assert any(EITHER in line for line in lines) == doubted
+    (found,) = log_maps(arm, [columns], ["auto"])
+    assert any(EITHER in line for line in found.told) == (doubted and "[deg]" in found.told[0])
+    given = {"time": t} | {f"q{j}": columns[name] for j, name in enumerate(names_of(columns), 1)}
+    assert not any(EITHER in line for line in look_at(given, arm).doubts)
+
+
+def names_of(columns):
+    return [name for name in columns if name.startswith("observation.state")]
