@@ -31,7 +31,8 @@ RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "d
        "docs/logs.md", "docs/motion-noise.md",
        "docs/emitted-c.md", "docs/fitted-c.md", "docs/parallel-robots.md",
        "docs/orthoglide.md", "docs/evra.md", "docs/sr400.md", "docs/parallel-examples.md",
-       "docs/diagnosis.md", "docs/converting.md", "docs/exporting.md", "docs/better-urdf.md", "docs/servo-arms.md",
+       "docs/diagnosis.md", "docs/converting.md", "docs/exporting.md",
+       "docs/better-urdf.md", "docs/servo-arms.md",
        "docs/closed-forms.md",
        "docs/drive-gains.md",
        "docs/motor-side.md",
@@ -224,7 +225,13 @@ def _labels(picture: Path) -> list[str]:
 
 
 # Pages that take ten seconds and more: of their subjects, the README and the tutorial run some.
-LONG = ("docs/servo-arms.md", "docs/drive-gains.md", "docs/diagnosis.md", "docs/excitation.md", "docs/motor-side.md")
+LONG = (
+    "docs/servo-arms.md",
+    "docs/drive-gains.md",
+    "docs/diagnosis.md",
+    "docs/excitation.md",
+    "docs/motor-side.md",
+)
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from modeler import observation
 from modeler.core.errors import DataError, ModelerError, file_and_window
 from modeler.estimation import identify, log_findings, with_verdict
 from modeler.logs import (
+    EITHER,
     InMemory,
     LogInspection,
     LogMap,
@@ -121,7 +122,8 @@ def _guessed(
         told = f"--map auto took {'; '.join(said) or 'the columns as they are called'}"
         # A name that the robot file has for a column that is not here is for other logs.
         stated = dataclasses.replace(names, auto=False, layers=_present(names, there, joints))
-        return dataclasses.replace(stated.overriding(guess), told=(told,))
+        either = tuple(line for line in seen.doubts if EITHER in line and "[deg]" in told)
+        return dataclasses.replace(stated.overriding(guess), told=(told, *either))
 
     if seen.suggested == seen.plain:
         return under(seen.plain)

@@ -30,8 +30,8 @@ NOMINAL = ""
 
 # What several commands share.
 
-_ROBOT_FILE = "a robot file, or the name of a built-in robot"
-_ROBOT_OR_MODEL = "a robot file, the name of a built-in robot, or a model file of `modeler fit`"
+_ROBOT_FILE = "a robot file, URDF or MJCF, or the name of a built-in robot"
+_ROBOT_OR_MODEL = f"{_ROBOT_FILE}, or a model file of `modeler fit`"
 _WINDOW = "FILE@START:END takes the rows between these seconds"
 _LOGS = f"Parquet, CSV, MAT, HDF5 or MCAP logs, ROS bags; {_WINDOW}"
 _EFFECTS = 'effects instead of those of the file, for all joints: "viscous,coulomb"'

@@ -12,7 +12,7 @@ from .frames import (
     columns_given as columns_given,
     split_joints as split_joints,
 )
-from .guess import template_of as template_of
+from .guess import EITHER as EITHER, template_of as template_of
 from .inspect import (
     Clock as Clock,
     LogInspection as LogInspection,

@@ -37,6 +37,7 @@ _TURNS = 7.0  # rad; a joint that goes further in either way is likely in degree
 _LONG = 3.0  # m; an axis that is longer is likely in mm
 _FAR = 30.0  # rad; with a speed that agrees: nearly five turns
 _STRONG = 200.0  # A
+_HUNDRED = 100.5  # parts of a normalised range
 _SHARES = 2.5  # span of a duty from -1 to 1, and a little more
 _HEAVY = 1e4  # N m
 _MIGHTY = 1e6  # N
@@ -310,6 +311,22 @@ def unlike_si(found: Sequence[Guess]) -> list[str]:
                 f"{columns} {looks} like {what}, by its range; say so in [log] or with --map"
             )
     return lines
+
+
+EITHER = "degrees, or -100..100 of each joint's calibrated range"
+"""What a data set of LeRobot does not say of its positions."""
+
+
+def doubtful_degrees(found: Sequence[Guess], columns: Mapping[str, np.ndarray]) -> list[str]:
+    """Positions of LeRobot that look like degrees and never leave -100..100."""
+    return [
+        f"{one.template.replace('{}', '*')} may be {EITHER}: the data set does not say which; for "
+        "the latter, one of 200 parts is (range_max - range_min) / 200 of a unit rev/4096"
+        for one in found
+        if one.own == "q" and one.template.startswith("observation.state") and "deg" in one.units
+        and one.why == "by its range"
+        and max(np.nanmax(np.abs(columns[name])) for name in one.columns) <= _HUNDRED
+    ]  # fmt: skip
 
 
 def log_text(

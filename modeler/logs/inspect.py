@@ -16,6 +16,7 @@ from modeler.logs.columns import Stream
 from modeler.logs.guess import (
     Guess,
     absent_roles,
+    doubtful_degrees,
     guesses,
     log_text,
     slides_of,
@@ -222,6 +223,7 @@ def inspect_log(
     if every is not None:
         notes = (*notes, _TOLD.format(rows, len(time)))
     doubts = [*_of_clock(clock), *absent_roles(found), *unlike_si(found)]
+    doubts += doubtful_degrees(found, values)
     rest = {speed for position, speed in pairs if not moves(values[position])}
     doubts += rate_doubts(pairs, values, time)
     doubts += _repeats(found, values, rows, clock)

@@ -32,7 +32,8 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
     """The `Log` of one file; columns `time`, `q<j>`, optional `qd<j> qdd<j> qc<j>`, `tau<j>`.
 
     The torque of a joint is `tau<j>` if the log has it, else `current<j>` times the drive gain of
-    the robot file, else that of the current that `duty<j>` makes, (duty voltage - k_e qd) / R. A passive joint without `tau<j>` has torque 0.
+    the robot file, else that of the current that `duty<j>` makes, (duty voltage - k_e qd) / R. A
+    passive joint without `tau<j>` has torque 0.
 
     Args:
         path: a file of any format of `modeler.logs`.

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from modeler.core.builtin import OTHER_PROGRAMS
 from modeler.core.errors import RobotError
@@ -15,23 +16,15 @@ _PROLOG = 65536
 _FIRST = re.compile(rb"(?>\s+|<\?.*?\?>|<!--.*?-->)*+<(?:robot|mujoco|sdf)\b", re.DOTALL)
 
 
-def converted(
-    path: str | Path,
-    base: str = "",
-    tip: str = "",
-    lock: Mapping[str, str | float] | None = None,
-    exact_decimals: bool = False,
-) -> Converted:
+def converted(path: str | Path, exact_decimals: bool = False, **part: Any) -> Converted:
     """Another program's robot file as the text of ours.
 
     What begins with `<robot>` is a URDF, with `<mujoco>` an MJCF, whatever the file is called.
 
     Args:
         path: the file.
-        base: link that stands still; by default the first.
-        tip: last link of the chain that is meant; by default all branches are.
-        lock: joint -> position at which it is held.
         exact_decimals: take printed angles and lengths as they are: 1.5708 is no pi/2.
+        part: base, tip, locks of `tree_cuts.cut`.
 
     Raises:
         RobotError: no such file, a format that is not read, or a mistake in it.
@@ -47,8 +40,8 @@ def converted(
             "x.xml or x.par"
         )
     if path.suffix.lower() in OTHER_PROGRAMS[1:] or is_robot_xml(data):
-        return _tree_text(path, data, base, tip, lock, exact_decimals)
-    if base or tip or lock or exact_decimals:
+        return _tree_text(path, data, exact_decimals, part)
+    if exact_decimals or any(part.values()):
         raise RobotError(
             f"{path}: --base, --tip, --lock and --exact-decimals are for URDF and MJCF; leave them "
             "out"
@@ -61,14 +54,7 @@ def is_robot_xml(data: bytes) -> bool:
     return bool(_FIRST.match(data.removeprefix(b"\xef\xbb\xbf")[:_PROLOG]))
 
 
-def _tree_text(
-    path: Path,
-    data: bytes,
-    base: str,
-    tip: str,
-    lock: Mapping[str, str | float] | None,
-    exact_decimals: bool,
-) -> Converted:
+def _tree_text(path: Path, data: bytes, exact_decimals: bool, part: Mapping[str, Any]) -> Converted:
     from modeler.robot.tree_cuts import cut
     from modeler.robot.tree_text import tree_to_toml
     from modeler.robot.urdf import urdf_tree
@@ -85,4 +71,4 @@ def _tree_text(
         tree = mjcf_tree(path, exact_decimals)
     else:
         tree = urdf_tree(data, str(path), exact_decimals)
-    return tree_to_toml(cut(tree, base, tip, lock), str(path))
+    return tree_to_toml(cut(tree, **part), str(path))

@@ -20,7 +20,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from modeler.robot.angles import cosine_sine
 from modeler.robot.body_tree import MovingLink, Pose, TreeJoint
+from modeler.robot.conventions import GEOMETRY
 from modeler.robot.robot import JointKind
 
 PARALLEL = 1e-9
@@ -90,30 +92,16 @@ def exact_turn(angle: float) -> float:
 
 def row_pose(cells: Mapping[str, float]) -> Pose:
     """Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
-    gamma, b, alpha, d, theta, r = (
-        cells.get(c, 0.0) for c in ("gamma", "b", "alpha", "d", "theta", "r")
-    )
-    c, s = _cos(alpha), _sin(alpha)
+    gamma, b, alpha, d, theta, r = (cells.get(column, 0.0) for column in GEOMETRY)
+    c, s = cosine_sine(alpha)
     middle = Pose(np.array([d, 0.0, 0.0]), np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
     return _screw(gamma, b) @ middle @ _screw(theta, r)
 
 
 def _screw(angle: float, length: float) -> Pose:
-    c, s = _cos(angle), _sin(angle)
+    c, s = cosine_sine(angle)
     turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     return Pose(np.array([0.0, 0.0, length]), turn)
-
-
-def _cos(angle: float) -> float:
-    return _sin(angle + math.pi / 2)
-
-
-def _sin(angle: float) -> float:
-    """Sine that is exact at multiples of pi/2."""
-    quarters = round(angle / (math.pi / 2))
-    if abs(angle - quarters * (math.pi / 2)) < 1e-14:
-        return (0.0, 1.0, 0.0, -1.0)[quarters % 4]
-    return math.sin(angle)
 
 
 @dataclass(frozen=True, eq=False)

@@ -188,22 +188,22 @@ def _lighten(spec: Any) -> list[str]:
     for name in dir(spec):
         if name.startswith("nuser_"):
             setattr(spec, name, -1)
-    without, used = [], set()
+    without, used, here = [], set(), spec.modelfiledir
     for body in spec.bodies:
         shapes = [geom for geom in body.geoms if geom.meshname or geom.hfieldname]
         stated = body.explicitinertial and body.compiler.inertiafromgeom != _ALWAYS
-        bare = not (body.geoms or stated)
+        absent = False
         for geom in shapes:
             mesh = spec.mesh(geom.meshname) if geom.meshname else None
             if stated or mesh is None or not _weighs(body, geom):
                 spec.delete(geom)
-            elif mesh.file and not (_folder(spec, mesh) / mesh.file).is_file():
+            elif mesh.file and not Path(here, mesh.compiler.meshdir, mesh.file).is_file():
                 without.append(f"{body.name} ({Path(mesh.file).name})")
-                bare = True
+                absent = True
             else:
                 used.add(mesh.name)
                 geom.contype = geom.conaffinity = 0  # it needs no hull then
-        if bare and body.name != "world":
+        if body.name != "world" and (absent or not (stated or body.geoms)):
             for geom in body.geoms:
                 spec.delete(geom)
             body.explicitinertial, body.mass, body.inertia = True, LIGHT, [LIGHT] * 3
@@ -225,10 +225,6 @@ def _weighs(body: Any, geom: Any) -> bool:
     return bool(weight != 0 and low <= geom.group <= high)
 
 
-def _folder(spec: Any, mesh: Any) -> Path:
-    return Path(spec.modelfiledir, mesh.compiler.meshdir)
-
-
 def _some(names: Iterable[str]) -> str:
     """The first of them, and how many more there are."""
     every = list(names)
@@ -242,14 +238,19 @@ def _unround(spec: Any) -> list[str]:
     """Put multiples of pi/12 for their roundings, 0 for lengths below 1 um; says so."""
     told: dict[str, None] = {}
     for part in [*spec.bodies, *spec.frames]:
-        if part.alt.type.name == "mjORIENTATION_EULER" and not part.compiler.degree:
-            part.alt.euler = [_angle(float(x), told) for x in part.alt.euler]
-        elif part.alt.type.name == "mjORIENTATION_QUAT":
+        way, degree = part.alt.type.name, part.compiler.degree
+        if way == "mjORIENTATION_QUAT":
             part.quat = _near(np.array(part.quat), _rotations(), told)
+        elif way == "mjORIENTATION_EULER":
+            part.alt.euler = [_angle(float(x), degree, told) for x in part.alt.euler]
+        elif way == "mjORIENTATION_AXISANGLE":
+            *axis, angle = part.alt.axisangle
+            axis = _near(np.array(axis), _directions(), told)
+            part.alt.axisangle = [*axis, _angle(float(angle), degree, told)]
     for joint in spec.joints:
         joint.axis = _near(np.array(joint.axis), _directions(), told)
-        if joint.type == _HINGE and not joint.compiler.degree:
-            joint.ref = _angle(joint.ref, told)
+        if joint.type == _HINGE:
+            joint.ref = _angle(joint.ref, joint.compiler.degree, told)
     for part in [*spec.bodies, *spec.frames, *spec.joints, *spec.sites]:
         small = np.abs(part.pos) < NOUGHT
         if np.any(part.pos[small]):
@@ -261,9 +262,9 @@ def _unround(spec: Any) -> list[str]:
     return [f"{means}: {_some(told)}; --exact-decimals keeps them"]
 
 
-def _angle(value: float, told: dict[str, None]) -> float:
+def _angle(value: float, degree: bool, told: dict[str, None]) -> float:
     count = twelfths(f"{Decimal(repr(value)):f}") if abs(value) >= NOUGHT else 0
-    if count is None or value == (exact := count * math.pi / 12):
+    if degree or count is None or value == (exact := count * math.pi / 12):
         return value
     told[f"{value:g}"] = None
     return exact
@@ -271,9 +272,11 @@ def _angle(value: float, told: dict[str, None]) -> float:
 
 def _near(given: np.ndarray, known: np.ndarray, told: dict[str, None]) -> np.ndarray:
     """The unit vector among the known ones that the printed one rounds; itself if there is none."""
-    digits = max(-int(Decimal(repr(float(x))).as_tuple().exponent) for x in given)
     length = float(np.linalg.norm(given))
-    if digits < 3 or not 0.99 < length < 1.01:
+    if not 0.99 < length < 1.01:
+        return given
+    digits = max(-int(Decimal(repr(float(x))).as_tuple().exponent) for x in given)
+    if digits < 3:
         return given
     allowed = 0.51 * 10.0**-digits if digits < 5 else max(10.0**-digits, HIDDEN)
     best: np.ndarray = known[np.argmax(known @ given)]
@@ -517,10 +520,11 @@ class _Reading:
         model, first = self._model, int(self._model.tendon_adr[tendon])
         parts = range(first, first + int(model.tendon_num[tendon]))
         joints = [int(model.wrap_objid[p]) for p in parts]
-        if other >= 0 or len(joints) != 2 or any(model.wrap_type[p] != _WRAP_JOINT for p in parts):
+        shares = [float(model.wrap_prm[p]) for p in parts]
+        fixed = all(model.wrap_type[p] == _WRAP_JOINT for p in parts) and other < 0
+        if not fixed or len(joints) != 2 or not all(shares):
             raise self._refused(f"{name} holds a tendon; expected a fixed one over two joints")
-        first_share, second_share = (float(model.wrap_prm[p]) for p in parts)
-        return joints[0], joints[1], -second_share / first_share, constant / first_share
+        return joints[0], joints[1], -shares[1] / shares[0], constant / shares[0]
 
     def _meetings(self) -> Iterator[Meeting]:
         """Points that `connect` holds together."""
@@ -572,25 +576,25 @@ class _Reading:
         idle = model.neq - int(np.sum(model.eq_active0))
         lifted = [n for n, share in zip(self._bodies, model.body_gravcomp, strict=True) if share]
         fluid = model.opt.density or model.opt.viscosity or np.any(model.opt.wind)
-        passive = ("stiffness", "damping", "frictionloss", "armature")
+        of_tendons = [
+            getattr(model, f"tendon_{p}") for p in ("stiffness", "damping", "frictionloss")
+        ]
         curved = np.any(model.jnt_stiffnesspoly) or np.any(model.dof_dampingpoly)
         driven = [i for j in self._kept for i in self._motors(j)]
         gear = np.any(model.actuator_gear[driven, 0] != 1) and np.any(model.dof_armature)
         inner = np.any(model.actuator_armature[driven]) or np.any(model.actuator_damping[driven])
-        for is_so, what in (
-            (idle, f"{idle} inactive equalities are left out"),
-            (lifted, f"gravcomp of {_some(lifted)} is left out: torques here carry gravity"),
-            (fluid, "forces of the fluid (density, viscosity, wind) are left out"),
-            (
-                any(np.any(getattr(model, f"tendon_{p}")) for p in passive),
-                "springs, damping, friction and armature of tendons are left out",
+        notes = {
+            f"{idle} inactive equalities are left out": idle,
+            f"gravcomp of {_some(lifted)} is left out: torques here carry gravity": lifted,
+            "forces of the fluid (density, viscosity, wind) are left out": fluid,
+            "springs, damping, friction and armature of tendons are left out": any(
+                np.any(values) for values in (*of_tendons, model.tendon_armature)
             ),
-            (curved, "of polynomial springs and damping the linear term is taken"),
-            (inner, "armature and damping of actuators are the motor's: gear^2 as much at a joint"),
-            (gear, "armature of joints is taken at the joint; gear scales commands alone"),
-        ):
-            if is_so:
-                self._notes.append(what)
+            "of polynomial springs and damping the linear term is taken": curved,
+            "armature and damping of actuators are the motor's: gear^2 as much at a joint": inner,
+            "armature of joints is taken at the joint; gear scales commands alone": gear,
+        }
+        self._notes += [what for what, is_so in notes.items() if is_so]
 
 
 def _named(kind: str, names: list[str]) -> list[str]:
@@ -608,10 +612,10 @@ def _other(name: str, taken: set[str]) -> str:
 
 
 def _matrix(quaternion: np.ndarray) -> np.ndarray:
-    """(3, 3) the rotation; what ought to be 0 is."""
+    """(3, 3) the rotation; what ought to be 0 or 1 is."""
     w, x, y, z = quaternion
     axis = np.array([x, y, z])
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     turn = np.eye(3) * (w * w - axis @ axis) + 2 * np.outer(axis, axis) + 2 * w * cross
-    turn[np.abs(turn) < EXACT] = 0.0
-    return np.asarray(turn)
+    whole = np.round(turn)
+    return np.where(np.abs(turn - whole) < EXACT, whole, turn) + 0.0

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import PurePath
 
+import modeler.robot.robot_text as toml
 from modeler.core.toml_cells import listed
 from modeler.robot.cells import robot_name
 from modeler.robot.conventions import GEOMETRY
@@ -17,20 +18,7 @@ from modeler.robot.par_table import (
     variables,
 )
 from modeler.robot.par_text import BASE, FORCES, INERTIA, JOINTS, ParFormula, Statements, scan
-from modeler.robot.robot_text import (
-    LINKS,
-    PARAMETERS,
-    Converted,
-    TextRow,
-    effect_lines,
-    head_lines,
-    joined,
-    loop_lines,
-    mdh_lines,
-    name_list,
-    section,
-    symbol_lines,
-)
+from modeler.robot.robot_text import Converted, TextRow
 
 # What a `.par` file says of the links: which parameters they have, values, friction, rotors.
 
@@ -222,8 +210,8 @@ def par_to_toml(data: bytes, where: str) -> Converted:
         )
     name = robot_name(statements.name, PurePath(where).stem)
     source = f"SYMORO file {PurePath(where).name}"
-    head = head_lines(name, statements.name, source, notes, pull)
-    return Converted(joined([*head, *_tables(symbols, found, links, made)]), tuple(notes))
+    head = toml.head_lines(name, statements.name, source, notes, pull)
+    return Converted(toml.joined([*head, *_tables(symbols, found, links, made)]), tuple(notes))
 
 
 def _tables(symbols: Symbols, found: Counts, links: Bodies, made: list[ParFrame]) -> list[str]:
@@ -238,14 +226,14 @@ def _tables(symbols: Symbols, found: Counts, links: Bodies, made: list[ParFrame]
         (f"cut{k + 1}", f"{found.links + k + 1}", f"{found.joints + k + 1}", "rigid")
         for k in range(found.loops)
     ]
-    has = [f"{name} = {name_list(keys)}" for name, keys in links.links.items()]
+    has = [f"{name} = {toml.name_list(keys)}" for name, keys in links.links.items()]
     actuated = [f"{frame.number}" for frame in made if frame.mu]
     numbers = [f"{name} = {worth!r}" for name, worth in links.parameters.items()]
     return [
-        *section("[symbols]", symbol_lines(symbols.values, symbols.comments)),
-        *mdh_lines(rows),
-        *loop_lines(loops),
-        *section(LINKS, has),
-        *section("[effects]", effect_lines(links.effects, actuated)),
-        *section(PARAMETERS, numbers),
+        *toml.section("[symbols]", toml.symbol_lines(symbols.values, symbols.comments)),
+        *toml.mdh_lines(rows),
+        *toml.loop_lines(loops),
+        *toml.section(toml.LINKS, has),
+        *toml.section("[effects]", toml.effect_lines(links.effects, actuated)),
+        *toml.section(toml.PARAMETERS, numbers),
     ]

@@ -89,7 +89,7 @@ def convert(
         RobotError: no such file, a format that is not read, or a mistake in it.
         DataError: a file that is there.
     """
-    found = converted(file, base, tip, lock, exact_decimals)
+    found = converted(file, exact_decimals, base=base, tip=tip, locks=lock)
     robot = robot_from_text(found.text, f"{file}, as a robot file")
     if out is not None:
         there = destination(Path(out)).kind is Kind.FILE

@@ -8,46 +8,36 @@ from pathlib import PurePath
 
 import numpy as np
 
+import modeler.robot.robot_text as toml
 from modeler.core.errors import RobotError
 from modeler.core.toml_cells import listed
 from modeler.robot.angles import pi_multiple
-from modeler.robot.body_tree import (
-    BodyTree,
-    Inertial,
-    MovingLink,
-    TreeJoint,
-    about_origin,
-    moving_links,
-)
+from modeler.robot.body_tree import BodyTree, Inertial, MovingLink, about_origin, moving_links
 from modeler.robot.cells import robot_name
 from modeler.robot.conventions import ANGLES
 from modeler.robot.mdh_rows import MdhRow, exact_length, mdh_table, roll_pitch_yaw, towards
 from modeler.robot.par_table import LETTER, Symbols, gravity
 from modeler.robot.robot import INERTIAL, JointKind, Place
-from modeler.robot.robot_text import (
-    LINKS,
-    PARAMETERS,
-    Converted,
-    TextRow,
-    columns_and_rows,
-    effect_lines,
-    head_lines,
-    joined,
-    loop_lines,
-    mdh_lines,
-    number,
-    section,
-    symbol_lines,
-)
+from modeler.robot.robot_text import Converted, TextRow
 from modeler.robot.sections import FRAME_COLUMNS
 
 UNCERTAINTY = 0.3
 """How sure masses, centres and inertias of another program's file are, over their scale."""
+_EFFECTS = {
+    "rotor_inertia": ("armature", "Ia"),
+    "viscous": ("damping", "Fv"),
+    "coulomb": ("friction", "Fs"),
+    "spring": ("stiffness", "Ks"),
+}
+"""Effect -> attribute of a joint, and its parameter."""
 _SPEED = {JointKind.REVOLUTE: 2.0, JointKind.PRISMATIC: 0.5}
 """rad/s, m/s where a file states none."""
 _ACCELERATION = 4.0
 """Over the speed, 1/s: no such file states it."""
-_LIMITS = "[limits]                              # lower, upper, speed, acceleration"
+_LIMITS = (
+    "[limits]                              # lower, upper, speed; acceleration: "
+    f"{_ACCELERATION:g} times that, no file states it"
+)
 
 
 def tree_to_toml(tree: BodyTree, where: str) -> Converted:
@@ -69,22 +59,22 @@ def tree_to_toml(tree: BodyTree, where: str) -> Converted:
         )
     made = _Writing(tree, where)
     parts = [
-        *section("[symbols]", symbol_lines(made.symbols.values, made.symbols.comments)),
-        *mdh_lines(made.rows),
-        *section("[relations]", made.relations()),
-        *loop_lines(made.loops),
-        *section("[home]", made.home()),
+        *toml.section("[symbols]", toml.symbol_lines(made.symbols.values, made.symbols.comments)),
+        *toml.mdh_lines(made.rows),
+        *toml.section("[relations]", made.relations()),
+        *toml.loop_lines(made.loops),
+        *toml.section("[home]", made.home()),
         *made.frames(),
-        *section(LINKS, made.without_mass()),
-        *section("[effects]", made.effects()),
+        *toml.section(toml.LINKS, made.without_mass()),
+        *toml.section("[effects]", made.effects()),
         *made.parameters(),
-        *section(_LIMITS, made.limits()),
+        *toml.section(_LIMITS, made.limits()),
     ]
     name = robot_name(tree.name, PurePath(where).stem)[:40]
     source = f"{tree.format} {PurePath(where).name}"
     notes = made.symbols.notes
-    head = head_lines(name, tree.name, source, notes, made.gravity)
-    return Converted(joined([*head, *parts]), tuple(notes))
+    head = toml.head_lines(name, tree.name, source, notes, made.gravity)
+    return Converted(toml.joined([*head, *parts]), tuple(notes))
 
 
 class _Writing:
@@ -99,7 +89,8 @@ class _Writing:
         self.table = mdh_table(self.links, points)
         self.symbols = Symbols(notes=list(tree.notes))
         self._equal: dict[float, str] = {}
-        self.joints = {f"{k}": joint for k, joint in enumerate(self._joints(), start=1)}
+        moved = [link.joint for link in self.links if link.joint is not None]
+        self.joints = {f"{k}": joint for k, joint in enumerate(moved, start=1)}
         self.row_of = {joint.name: name for name, joint in self.joints.items()}
         free = [name for name, joint in self.joints.items() if not joint.leader]
         self.driven = [name for name in free if self.joints[name].actuated]
@@ -109,11 +100,8 @@ class _Writing:
         self.free = self.driven if tree.meetings else free
         self.rows = [self._row(row) for row in self.table.rows]
         self.loops = self._loops()
-        entries = tuple(repr(float(entry)) for entry in tree.gravity)
+        entries = tuple(repr(exact_length(float(entry))) for entry in tree.gravity)
         self.gravity = gravity(entries, self.symbols, Place(where))
-
-    def _joints(self) -> list[TreeJoint]:
-        return [link.joint for link in self.links if link.joint is not None]
 
     def _row(self, row: MdhRow) -> TextRow:
         cells = {c: self._cell(c, worth, row.name) for c, worth in row.cells.items()}
@@ -172,7 +160,7 @@ class _Writing:
         if not self.loops:
             return []
         places = {joint.name: joint.zero for joint in self.joints.values()} | dict(self.tree.home)
-        return [f"q{name} = {number(places[j.name])}" for name, j in self.joints.items()]
+        return [f"q{name} = {toml.number(places[j.name])}" for name, j in self.joints.items()]
 
     def relations(self) -> list[str]:
         """Joints that follow others."""
@@ -198,49 +186,51 @@ class _Writing:
                 names = [json.dumps(text, ensure_ascii=False) for text in (body, f"{k}", joint)]
                 cells.append([*names, *numbers, *angles])
         head = "[frames]                              # links of the file on their rows: m, rad"
-        return [head, *columns_and_rows(FRAME_COLUMNS, cells)]
+        return [head, *toml.columns_and_rows(FRAME_COLUMNS, cells)]
 
     def without_mass(self) -> list[str]:
         """Links between the joints of one body: they are nothing."""
-        return [f"{k} = []" for k, link in self._moved() if link.bodies.keys() <= self.tree.hidden]
+        return [f"{k} = []" for k, link in enumerate(self.links) if self._is_hidden(link)]
 
-    def _moved(self) -> list[tuple[int, MovingLink]]:
-        return list(enumerate(self.links))[1:]
+    def _is_hidden(self, link: MovingLink) -> bool:
+        return link.bodies.keys() <= self.tree.hidden
+
+    def _having(self, key: str) -> list[str]:
+        """Rows of the joints that have what an attribute says: friction and rotors all of them."""
+        if key == "stiffness" and self.loops:  # the C of a robot with loops has no springs
+            return []
+        every = {"armature": self.driven, "stiffness": []}.get(key, self.free)
+        return [n for n, joint in self.joints.items() if getattr(joint, key) or n in every]
 
     def effects(self) -> list[str]:
-        """Friction of every joint, and what else the file states."""
-
-        def those(key: str, everywhere: bool = False) -> list[str]:
-            return [
-                name
-                for name, joint in self.joints.items()
-                if getattr(joint, key) or (everywhere and name in self.free)
-            ]
-
-        rubbing = {"viscous": those("damping", True), "coulomb": those("friction", True)}
-        turning = {*those("armature"), *self.driven}
-        rotors = {"rotor_inertia": [name for name in self.joints if name in turning]}
-        names = {"viscous": "damping", "coulomb": "friction", "rotor_inertia": "armature"}
-        silent = [effect for effect, key in names.items() if not those(key)]
+        """Friction and rotors of every joint, and springs that the file states."""
+        having = {effect: self._having(key) for effect, (key, _) in _EFFECTS.items()}
+        if self.loops and any(joint.stiffness for joint in self.joints.values()):
+            self.symbols.notes.append("springs are left out: robots with loops have none here")
+        springs = [
+            f'{{joint = "{name}", q0 = {toml.number(self.joints[name].rest)}, h = 0}}'
+            for name in having.pop("spring")
+        ]
+        silent = [
+            effect
+            for effect in having
+            if not any(getattr(joint, _EFFECTS[effect][0]) for joint in self.joints.values())
+        ]
         if silent:
             self.symbols.notes.append(
-                f"added to the joints: {', '.join(silent)}, of which the file says nothing; a fit "
+                f"added to the joints: {listed(silent)}, of which the file says nothing; a fit "
                 "without would be wrong"
             )
-        lines = effect_lines({k: v for k, v in (rotors | rubbing).items() if v}, self.driven)
-        springs = [
-            f'{{joint = "{name}", q0 = {number(self.joints[name].rest)}, h = 0}}'
-            for name in those("stiffness")
-        ]
+        lines = toml.effect_lines({k: v for k, v in having.items() if v}, self.driven)
         return lines + ([f"spring = [{', '.join(springs)}]"] if springs else [])
 
     def parameters(self) -> list[str]:
         """Nominal values, and how sure those of the links are."""
         lines, missing, doubted = list[str](), list[str](), list[str]()
-        for k, link in self._moved():
-            if link.bodies.keys() <= self.tree.hidden:
-                continue
+        for k, link in enumerate(self.links):
             whole = link.inertial
+            if k == 0 or self._is_hidden(link):
+                continue
             if whole is None or not (whole.mass or whole.inertia.any()):
                 missing.append(f"{k}")
             elif not self._is_body(link, whole):
@@ -249,10 +239,10 @@ class _Writing:
                 ten = about_origin(whole.seen_from(self.table.places[k]))
                 small = 1e-15 * np.abs(ten).max()
                 lines += [
-                    f"{prefix}{k} = {number(worth if abs(worth) > small else 0.0)}"
+                    f"{prefix}{k} = {toml.number(worth if abs(worth) > small else 0.0)}"
                     for prefix, worth in zip(INERTIAL, ten, strict=True)
                 ]
-        bodies = bool(lines)
+        prior = [f"inertial = {UNCERTAINTY}"] if lines else []
         lines += self._of_joints()
         notes = self.symbols.notes
         if missing:
@@ -262,15 +252,16 @@ class _Writing:
                 f"the links of rows {listed(doubted)} have no values, for a body of theirs can not "
                 "be what the file says"
             )
-        prior = [f"inertial = {UNCERTAINTY}"] if bodies else []
-        if bodies:
+        if prior:
             notes.append(
                 f"masses, centres and inertias are a prior, sure to {UNCERTAINTY:.0%} of their "
                 "scale; all other values are nominal only"
             )
         return [
-            *section(PARAMETERS, lines),
-            *section("[parameters.uncertainty]              # over the scale of a body", prior),
+            *toml.section(toml.PARAMETERS, lines),
+            *toml.section(
+                "[parameters.uncertainty]              # over the scale of a body", prior
+            ),
         ]
 
     def _is_body(self, link: MovingLink, whole: Inertial) -> bool:
@@ -281,19 +272,13 @@ class _Writing:
         return harmless and whole.mass > 0.0 and bool(whole.inertia.any())
 
     def _of_joints(self) -> list[str]:
-        """Friction, rotors and springs of the joints that have them."""
-        lines = []
-        for name, joint in self.joints.items():
-            free = name in self.free
-            for prefix, worth, always in (
-                ("Ia", joint.armature, name in self.driven),
-                ("Fv", joint.damping, free),
-                ("Fs", joint.friction, free),
-                ("Ks", joint.stiffness, False),
-            ):
-                if worth is not None and (worth or always):
-                    lines.append(f"{prefix}{name} = {number(worth)}")
-        return lines
+        """What the file states of friction, rotors and springs."""
+        return [
+            f"{prefix}{name} = {toml.number(worth)}"
+            for key, prefix in _EFFECTS.values()
+            for name in self._having(key)
+            if (worth := getattr(self.joints[name], key)) is not None
+        ]
 
     def limits(self) -> list[str]:
         """Ranges of motion of the joints for which the file states some."""
@@ -306,13 +291,8 @@ class _Writing:
                     continue
                 lower, upper = -math.pi, math.pi
             speed = speed or _SPEED[joint.kind]
-            cells = [number(x) for x in (lower, upper, speed, _ACCELERATION * speed)]
+            cells = [toml.number(x) for x in (lower, upper, speed, _ACCELERATION * speed)]
             lines.append(f"{name} = [{', '.join(cells)}]")
-        if lines:
-            self.symbols.notes.append(
-                f"accelerations in [limits] are {_ACCELERATION:g} times the speeds, for the file "
-                "states none"
-            )
         return lines
 
 

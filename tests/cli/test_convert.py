@@ -111,6 +111,18 @@ def test_every_command_reads_a_par(capsys, par, tmp_path, monkeypatch):
     assert "[mdh]" in json.loads((tmp_path / "m.json").read_text())["robot_text"]
 
 
+def test_every_command_reads_a_urdf(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "turn.urdf"
+    path.write_text(TURN)
+    assert run(capsys, "simulate", path, "--duration", "6", "--out", "a.parquet")[0] == 0
+    status, out, err = run(capsys, "fit", path, "a.parquet", "--out", "m.json")
+    assert status == 0 and "prior" in out and f"modeler: {path}, read as" in err
+    path.unlink()  # the model holds all of it
+    assert run(capsys, "compare", "m.json", "a.parquet")[0] == 0
+    assert "[frames]" in json.loads((tmp_path / "m.json").read_text())["robot_text"]
+
+
 def test_a_mistake_in_a_par_is_one_line_of_every_command(capsys, tmp_path):
     bad = tmp_path / "bad.par"
     bad.write_text(TWO.replace("Ant", "Antt"))

@@ -62,6 +62,13 @@ TEXTS = {
         "rod slider 0.1 0.05 0.4",
         "arm",
     ),
+    "pinned to the world": (
+        PLANAR,
+        CRANK.replace("</body></body>", """<body name="last" pos="0.45 0 0.1"><joint name="last"/>
+        <geom fromto="0 0 0 0.02 0 -0.35"/></body></body></body>"""),
+        "last - 0.02 0 -0.35",
+        "crank",
+    ),
     "parallelogram": (
         PLANAR,
         CRANK.replace("0.45 0 0.1", "0.4 0 0") + (ROCKER % "").replace("0.05 0 0.3", "0 0 0.2"),
@@ -77,7 +84,8 @@ def mjcf(name):
     ties = ""
     for meeting in meetings.split("; "):
         one, two, *anchor = meeting.split()
-        ties += f'<connect body1="{one}" body2="{two}" anchor="{" ".join(anchor)}"/>'
+        other = "" if two == "-" else f'body2="{two}"'
+        ties += f'<connect body1="{one}" {other} anchor="{" ".join(anchor)}"/>'
     motors = "".join(f'<motor joint="{motor}"/>' for motor in motors.split())
     return (
         f'<mujoco model="{name}"><compiler angle="radian"/><option gravity="0.4 0.2 -9.81"/>'
@@ -232,7 +240,7 @@ def basis(m, body):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_there_are_as_many_base_parameters_as_mujoco_feels(name, folder):
-    """tau = G' (M qdd + h) is linear in each body's values; columns of one body at a time."""
+    """tau is linear in each body's values and rotor; columns of one at a time."""
     loop = Loop(mjcf(name))
     m = loop.model
     motions = list(zip(*states(loop, 40), strict=True))
@@ -242,9 +250,14 @@ def test_there_are_as_many_base_parameters_as_mujoco_feels(name, folder):
     for body in range(1, m.nbody):
         for _ in basis(m, body):
             columns.append(np.ravel([loop.torques(*motion) for motion in motions]))
+    for dof in loop.driven:
+        m.dof_armature[dof] = 1.0
+        columns.append(np.ravel([loop.torques(*motion) for motion in motions]))
+        m.dof_armature[dof] = 0.0
     matrix = np.array(columns).T
     lengths = np.linalg.norm(matrix, axis=0)
     matrix = matrix[:, lengths > 1e-9] / lengths[lengths > 1e-9]
     singular = np.linalg.svd(matrix, compute_uv=False)
     rank = int(np.sum(singular > 1e-9 * singular[0]))
-    assert rank == ours(mjcf(name), folder).base.counts()["inertial"]
+    counts = ours(mjcf(name), folder).base.counts()
+    assert rank == counts["inertial"] + counts["rotor_inertia"]

@@ -274,6 +274,22 @@ def test_text_of_a_tree():
     assert {f.joint for f in robot.frames.values()} == {"", "a", "b", "c"}
 
 
+@pytest.mark.parametrize(
+    ("pull", "cells"),
+    [
+        ((1e-16, 0.0, -9.81), ["0", "0", "-g"]),
+        ((9.80665, 0.0, 0.0), ["g", "0", "0"]),
+        ((-3.1, 2e-5, -1.62), ["-3.1", "2e-05", "-1.62"]),
+        ((0.0, 0.0, 0.0), ["0", "0", "0"]),
+    ],
+)
+def test_gravity_is_a_symbol_along_an_axis(pull, cells):
+    robot = read(tree_of(turning("a", "base"), gravity=np.array(pull)))
+    values = robot.symbol_values()
+    assert [e.number(values) for e in robot.gravity] == pytest.approx(pull, abs=1e-15)
+    assert [cell.text for cell in robot.gravity] == cells
+
+
 def test_bodies_without_values_have_no_prior():
     """Nothing stated, hidden between joints, doubted; a frame without mass does no harm."""
     ways = ("base", "a_link", "b_link", "c_link", "d_link")

@@ -43,13 +43,23 @@ FILES = [
 ]  # fmt: skip
 
 
-def public(file):
-    """A file of a package, which is not imported for it."""
+def there(file):
+    """The file in the folder of its package, which is not imported for it; None without."""
     package, _, inside = file.partition("/")
     spec = find_spec(package)
-    if spec is None or not spec.submodule_search_locations:
-        pytest.skip(f"NOT CHECKED: {file}, for {package.replace('_', '-')} is not installed")
-    return Path(spec.submodule_search_locations[0]) / inside
+    return Path(spec.submodule_search_locations[0]) / inside if spec else None
+
+
+def each_of(files):
+    """The test for every one of the files, as `path`; what is not installed is skipped, loudly."""
+    packages = sorted({file.split("/")[0] for file in files if there(file) is None})
+    name = "{0[0]}-{0[1]}".format
+    return pytest.mark.parametrize("path", [
+        *(pytest.param(there(f), id=name(f.removesuffix("/robot.xml").split("/")[-2:]))
+          for f in files if there(f)),
+        *(pytest.param(None, id=p, marks=pytest.mark.skip(
+            f"NOT CHECKED: {p}, which is not installed")) for p in packages),
+    ])  # fmt: skip
 
 
 @contextmanager
@@ -170,9 +180,7 @@ def alike(ours, theirs, tolerance):
     return np.max(np.abs(ours - theirs) / size) < tolerance
 
 
-each_file = pytest.mark.parametrize(
-    "file", FILES, ids=lambda file: "-".join(file.removesuffix("/robot.xml").split("/")[-2:])
-)
+each_file = each_of(FILES)
 
 
 def check_places(both, found):
@@ -189,9 +197,9 @@ def check_places(both, found):
 
 
 @each_file
-def test_every_body_is_where_mujoco_has_it(file):
+def test_every_body_is_where_mujoco_has_it(path):
     """From the rows of the table and `[frames]`, where roundings are made good."""
-    both = Both(public(file))
+    both = Both(path)
     names = [joint.name for joint in both.robot.moving]
 
     def found(q):
@@ -202,9 +210,9 @@ def test_every_body_is_where_mujoco_has_it(file):
 
 
 @each_file
-def test_every_body_is_there_as_printed(file):
+def test_every_body_is_there_as_printed(path):
     """Along the joints of the tree, with the decimals that the file prints."""
-    both = Both(public(file), exact=True)
+    both = Both(path, exact=True)
     names = [joint.name for joint in both.moving]
 
     def found(q):
@@ -220,8 +228,8 @@ def test_every_body_is_there_as_printed(file):
 
 
 @each_file
-def test_torques_are_mujocos(file):
-    both = Both(public(file))
+def test_torques_are_mujocos(path):
+    both = Both(path)
     model, chi = derive_model(both.robot), both.standard()
     states = both.states(50)
     values = np.array([chi.get(name, 0.0) for name in model.names])
@@ -231,9 +239,9 @@ def test_torques_are_mujocos(file):
             assert abs(worth - chi[name]) < 1e-12 * max(abs(x) for x in chi.values()), name
 
 
-@pytest.mark.parametrize("file", FILES[3:4] + FILES[-2:], ids=["pusher", "ur5e", "hand"])
-def test_torques_of_the_c_are_mujocos(file):
-    both = Both(public(file))
+@each_of([FILES[3], FILES[7], FILES[-1]])
+def test_torques_of_the_c_are_mujocos(path):
+    both = Both(path)
     model, chi = derive_model(both.robot), both.standard()
     c = loaded(emit(model, base_parameters(model)))
     beta = c.base_parameters(np.array([chi.get(name, 0.0) for name in model.names]))
@@ -242,9 +250,9 @@ def test_torques_of_the_c_are_mujocos(file):
 
 
 @each_file
-def test_there_are_as_many_base_parameters_as_mujoco_feels(file):
+def test_there_are_as_many_base_parameters_as_mujoco_feels(path):
     """Rank of MuJoCo's torques with one body at a time, of ten different sets of values."""
-    both = Both(public(file))
+    both = Both(path)
     base = base_parameters(derive_model(both.robot)).counts()
     m, states = both.model, both.states(30)
     m.body_mass[:], m.body_inertia[:] = 0.0, 0.0

@@ -156,7 +156,7 @@ def frame_poses(robot: Robot, q) -> dict[str, np.ndarray]:
 
 
 def read(path: Path, locked: tuple[str, ...] = ()) -> Robot:
-    text = converted(path, lock=dict.fromkeys(locked, 0.0)).text
+    text = converted(path, locks=dict.fromkeys(locked, 0.0)).text
     return dataclasses.replace(robot_from_text(text, path.name), effects=())
 
 

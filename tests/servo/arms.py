@@ -1,10 +1,11 @@
-"""Arms made up for these tests, as a URDF and as an MJCF with the same numbers, and as MuJoCo moves them."""
+"""Arms made up for these tests: as a URDF, as an MJCF, and as MuJoCo moves them."""
 
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.signal import savgol_filter
 from scipy.spatial.transform import Rotation
 
 
@@ -65,7 +66,7 @@ def spoilt(links: Sequence[Link], seed: int, share: float = 0.3) -> tuple[Link, 
     for link in links:
         mass = wrong(link.mass)
         scale = np.sqrt(1.0 + draw.uniform(-share, share, 3))
-        box = np.diag(link.inertia[:3]) * 0.0 + np.diag(_spread(link.inertia) * scale**2)
+        box = np.diag(_spread(link.inertia) * scale**2)
         tensor = np.trace(box) * np.eye(3) - box
         found.append(
             dataclasses.replace(
@@ -171,7 +172,7 @@ def moved(truth: str, believed: str, links: Sequence[Link], seed: int, seconds: 
     time = np.arange(int(seconds * rate)) / rate
     asked = sines(links, seed, time)
     every = round(1.0 / rate / plant.opt.timestep)
-    data.qpos[:] = asked[0, 0]
+    data.qpos[:], data.qvel[:] = asked[0, 0], asked[1, 0]
     q, qd, tau = (np.zeros((len(time), len(links))) for _ in range(3))
     stiff, damp = 18.0**2, 2 * 0.9 * 18.0
     mass = np.zeros((plant.nv, plant.nv))
@@ -213,34 +214,34 @@ def sines(links: Sequence[Link], seed: int, time: np.ndarray) -> np.ndarray:
     return found
 
 
-def logged(
-    run: Run, seed: int, counts: float = 2**18, noise: float = 0.01
-) -> dict[str, np.ndarray]:
-    """A log: positions in steps of the encoder, torques with white noise of a share of their rms."""
+def logged(run: Run, links: Sequence[Link], seed: int, counts: float = 2**18,
+           noise: float = 0.01) -> dict[str, np.ndarray]:  # fmt: skip
+    """A log by joints' names: positions in counts, torques with noise of a share of their rms."""
     draw = np.random.default_rng(seed)
     step = 2 * np.pi / counts
     q = np.round(run.q / step) * step
     tau = run.tau + noise * np.sqrt(np.mean(run.tau**2, axis=0)) * draw.normal(size=run.tau.shape)
     columns = {"time": run.time}
-    for j in range(q.shape[1]):
-        columns[f"q{j + 1}"] = q[:, j]
-    for j in range(q.shape[1]):
-        columns[f"tau{j + 1}"] = tau[:, j]
+    for j in draw.permutation(len(links)):  # a recorder knows no order
+        columns[f"{links[j].joint}_position"] = q[:, j]
+        columns[f"{links[j].joint}_effort"] = tau[:, j]
     return columns
 
 
-def followed(xml: str, time: np.ndarray, q: np.ndarray, tau: np.ndarray, seconds: float = 1.0
-             ) -> np.ndarray:  # fmt: skip
-    """(windows, joints) rms distance of positions, in windows from the logged states on.
+def followed(
+    xml: str, links: Sequence[Link], log: dict[str, np.ndarray], seconds: float = 1.0
+) -> np.ndarray:
+    """(windows, joints) rms distance of positions, each window from the logged state on.
 
-    MuJoCo runs the file under the logged torques; each window begins at the state that the log has there.
+    MuJoCo runs the file under the logged torques.
     """
     import mujoco
-    from scipy.signal import savgol_filter
 
     model = mujoco.MjModel.from_xml_string(xml)
     data = mujoco.MjData(model)
-    step = float(np.median(np.diff(time)))
+    q, tau = (np.column_stack([log[f"{link.joint}_{kind}"] for link in links])
+              for kind in ("position", "effort"))  # fmt: skip
+    step = float(np.median(np.diff(log["time"])))
     every, length = round(step / model.opt.timestep), round(seconds / step)
     qd = savgol_filter(q, 21, 3, deriv=1, delta=step, axis=0)
     found = []

@@ -16,7 +16,7 @@ COUNTS = 4096  # of the encoder, a turn
 
 @dataclass(frozen=True)
 class Servo:
-    """What moves a joint, SI: the bridge, the motor, the gear, and the gain of the position loop."""
+    """What moves a joint, SI: bridge, motor, gear, and the gain of the position loop."""
 
     voltage: float
     resistance: float
@@ -50,7 +50,9 @@ def mjcf_of(robot: Robot, servos: list[Servo], step: float = 0.0005) -> str:
         mass, n = values[f"M{joint.name}"], joint.name
         centre = np.array([values[f"M{axis}{n}"] for axis in "XYZ"]) / mass
         tensor = np.zeros((3, 3))
-        tensor[np.triu_indices(3)] = [values[f"{p}{n}"] for p in ("XX", "XY", "XZ", "YY", "YZ", "ZZ")]
+        tensor[np.triu_indices(3)] = [
+            values[f"{p}{n}"] for p in ("XX", "XY", "XZ", "YY", "YZ", "ZZ")
+        ]
         tensor = tensor + np.triu(tensor, 1).T
         tensor -= mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
         full = [*np.diag(tensor), tensor[0, 1], tensor[0, 2], tensor[1, 2]]
@@ -79,9 +81,7 @@ class Frames:
     duty: np.ndarray
 
 
-def recorded(
-    xml: str, servos: list[Servo], goals: np.ndarray, fps: float
-) -> Frames:
+def recorded(xml: str, servos: list[Servo], goals: np.ndarray, fps: float) -> Frames:
     """Position servos that follow goals (frames, joints), seen through encoders of 12 bits."""
     import mujoco
 
@@ -131,7 +131,9 @@ def write_dataset(
             columns["observation.load"] = _lists(1000.0 * frames.duty)
         tables.append(pa.table(columns))
         index += n
-    features = {name: {"dtype": "float32", "names": names} for name in ("observation.state", "action")}
+    features = {
+        name: {"dtype": "float32", "names": names} for name in ("observation.state", "action")
+    }
     features["observation.load"] = {"names": [f"{motor}.load" for motor in motors]}
     (folder / "meta").mkdir(parents=True)
     (folder / "data" / "chunk-000").mkdir(parents=True)

@@ -1,0 +1,478 @@
+"""MJCF as body trees: what is read of each element, what is told, what is refused in one line."""
+
+import builtins
+import math
+import random
+import re
+import resource
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import RobotError
+from modeler.robot.body_tree import BodyTree, TreeJoint
+from modeler.robot.mjcf import mjcf_tree
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import JointKind
+from modeler.robot.tree_cuts import cut
+from modeler.robot.tree_text import tree_to_toml
+
+mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")
+
+ARM = """<mujoco model="arm">
+  <compiler angle="radian" autolimits="true"/>
+  <option gravity="0 0 -9.8"/>
+  <asset><mesh name="cover" file="cover.stl"/><texture name="wood" type="2d" file="wood.png"/>
+    <material name="wood" texture="wood"/></asset>
+  <default>
+    <joint damping="0.7" armature="0.02"/>
+    <default class="light"><joint damping="0.1" frictionloss="0.3"/></default>
+  </default>
+  <worldbody>
+    <geom type="plane" size="1 1 1"/>
+    <body name="upper" pos="0 0 0.4" quat="0.707107 0.707107 0 0">
+      <inertial pos="0.1 0 0" mass="2" fullinertia="0.02 0.03 0.025 0.001 -0.002 0.0005"/>
+      <joint name="pan" axis="0 1 0" range="-1.5 2" stiffness="3" springref="0.2"/>
+      <geom type="mesh" mesh="cover" material="wood"/>
+      <body name="fore" pos="0.3 0 1e-9" euler="0 1.5708 0">
+        <joint name="lift" type="slide" axis="0 0 2" ref="0.1" class="light"/>
+        <joint name="roll" axis="0.866025 0.5 0" pos="0 0.05 0"/>
+        <joint name="bend" axis="0 1 0"/>
+        <geom type="box" size="0.1 0.02 0.03" density="500" contype="0"/>
+        <body name="tip" pos="0 0 0.2"><geom size="0.02" mass="0.3"/></body>
+      </body>
+    </body>
+  </worldbody>
+  <actuator>
+    <motor joint="pan" gear="50" armature="2e-4" damping="1e-4"/><position joint="lift"/>
+  </actuator>
+</mujoco>
+"""
+
+
+def read(folder: Path, text: str = ARM, exact_decimals: bool = False) -> BodyTree:
+    path = folder / "arm.xml"
+    path.write_text(text, encoding="utf-8")
+    return mjcf_tree(path, exact_decimals)
+
+
+def edited(*pairs: tuple[str, str], text: str = ARM) -> str:
+    for old, new in pairs:
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    return text
+
+
+def with_section(section: str, *pairs: tuple[str, str]) -> str:
+    return edited(("</mujoco>", f"{section}</mujoco>"), *pairs)
+
+
+def joints(tree: BodyTree) -> dict[str, TreeJoint]:
+    return {joint.name: joint for joint in tree.joints}
+
+
+def told(tree: BodyTree) -> str:
+    return "\n".join(tree.notes)
+
+
+# What is read.
+
+
+def test_what_stands_in_the_file_is_in_the_tree(tmp_path: Path) -> None:
+    tree = read(tmp_path)
+    assert (tree.name, tree.format, tree.root) == ("arm", "MJCF", "world")
+    assert tree.gravity.tolist() == [0, 0, -9.8]
+    assert [joint.name for joint in tree.joints] == ["pan", "lift", "roll", "bend", "tip"]
+    pan, lift, roll, bend, tip = tree.joints
+    assert (pan.parent, pan.child, pan.kind) == ("world", "upper", JointKind.REVOLUTE)
+    assert (pan.lower, pan.upper, pan.stiffness, pan.rest) == (-1.5, 2.0, 3.0, 0.2)
+    # On the motor's side, through the gear: 0.02 + 50^2 2e-4, 0.7 + 50^2 1e-4.
+    assert pan.armature == pytest.approx(0.52) and pan.damping == pytest.approx(0.95)
+    assert pan.friction is None and pan.actuated and lift.actuated and not bend.actuated
+    assert (lift.kind, lift.zero, lift.damping, lift.friction) == (
+        JointKind.PRISMATIC,
+        0.1,
+        0.1,
+        0.3,
+    )
+    assert lift.lower is None and lift.upper is None
+    assert lift.axis.tolist() == [0, 0, 1] and roll.point.tolist() == [0, 0.05, 0]
+    assert tip.kind is JointKind.FIXED and tip.parent == "fore"
+    assert "motor" in told(tree)
+
+
+def test_joints_of_one_body_turn_each_other_in_order(tmp_path: Path) -> None:
+    tree = read(tmp_path)
+    _, lift, roll, bend, _ = tree.joints
+    assert [lift.parent, roll.parent, bend.parent] == ["upper", lift.child, roll.child]
+    assert bend.child == "fore" and tree.hidden == {lift.child, roll.child}
+    assert all(tree.bodies[name] is None for name in tree.hidden)
+    assert np.array_equal(roll.pose.rotation, np.eye(3)) and not roll.pose.position.any()
+
+
+def test_bodies_weigh_what_is_stated_or_what_geoms_weigh(tmp_path: Path) -> None:
+    bodies = read(tmp_path).bodies
+    upper, fore, tip = bodies["upper"], bodies["fore"], bodies["tip"]
+    assert upper is not None and fore is not None and tip is not None and bodies["world"] is None
+    assert upper.mass == 2 and upper.centre.tolist() == [0.1, 0, 0]
+    stated = np.array([[0.02, 0.001, -0.002], [0.001, 0.03, 0.0005], [-0.002, 0.0005, 0.025]])
+    assert np.allclose(upper.inertia, stated, rtol=1e-14, atol=1e-17)
+    mass = 500 * 8 * 0.1 * 0.02 * 0.03  # a box, along its own axes
+    sides = np.array([0.2, 0.04, 0.06]) ** 2
+    assert fore.mass == pytest.approx(mass)
+    assert np.allclose(np.diag(fore.inertia), mass / 12 * (sides.sum() - sides))
+    assert tip.mass == 0.3 and np.allclose(tip.inertia, 0.4 * 0.3 * 0.02**2 * np.eye(3))
+
+
+def test_roundings_of_angles_are_made_good_and_told(tmp_path: Path) -> None:
+    tree = read(tmp_path)
+    _, lift, roll, _, _ = tree.joints
+    assert np.allclose(tree.joints[0].pose.rotation @ [0, 0, 1], [0, -1, 0], rtol=0, atol=4e-16)
+    assert np.allclose(lift.pose.rotation @ [0, 0, 1], [1, 0, 0], rtol=0, atol=4e-16)
+    assert lift.pose.position.tolist() == [0.3, 0, 0]
+    assert np.allclose(roll.axis, [math.sqrt(0.75), 0.5, 0], rtol=0, atol=2e-16)
+    (line,) = [note for note in tree.notes if "rounded" in note]
+    for printed in ("1.5708", "0.866025 0.5 0", "lengths below 1 um", "--exact-decimals"):
+        assert printed in line
+    tree = read(tmp_path, exact_decimals=True)
+    _, lift, roll, _, _ = tree.joints
+    assert lift.pose.rotation[2, 2] == pytest.approx(math.cos(1.5708), rel=1e-9)
+    assert lift.pose.position[2] == 1e-9 and "rounded" not in told(tree)
+
+
+@pytest.mark.parametrize(
+    ("printed", "turns"),
+    [
+        ("0.653281 0.270598 0.653281 0.270598", (("y", 90), ("z", 45))),
+        ("0.183013 0.683013 -0.683013 0.183013", None),
+        ("0.707105 0 0 0.707108", (("z", 90),)),  # of 1.5708
+        ("0.9659 0.2588 0 0", (("x", 30),)),
+        ("0.976 0 0.216 0", (("y", 25),)),  # no multiple of 15 degrees: as printed
+    ],
+)
+def test_printed_quaternions(printed: str, turns: tuple | None, tmp_path: Path) -> None:
+    text = edited(('quat="0.707107 0.707107 0 0"', f'quat="{printed}"'))
+    rotation = read(tmp_path, text).joints[0].pose.rotation
+    as_printed = read(tmp_path, text, exact_decimals=True).joints[0].pose.rotation
+    assert np.abs(rotation - as_printed).max() < 2e-4
+    if printed.startswith("0.976"):
+        assert np.array_equal(rotation, as_printed)
+    else:  # the double next to a whole multiple of pi/12, whatever the order of the turns
+        twelfths = {round(math.sin(k * math.pi / 12), 9) for k in range(24)}
+        products = {round(a * b, 9) for a in twelfths for b in twelfths}
+        sums = {round(a + s * b, 6) for a in products for b in products for s in (1, -1)}
+        assert all(round(float(x), 6) in sums for x in np.ravel(rotation))
+    if turns and not printed.startswith("0.976"):
+        expected = np.eye(3)
+        for axis, degrees in turns:
+            c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+            i, j = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}[axis]
+            turn = np.eye(3)
+            turn[[i, i, j, j], [i, j, i, j]] = c, -s, s, c
+            expected = expected @ turn
+        assert np.allclose(rotation, expected, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("printed", ['axisangle="0.5 0 0.866025 1.5708"', 'euler="1e-8 0 -3.1416"'])
+def test_other_printed_orientations(printed: str, tmp_path: Path) -> None:
+    """What is made good is what the digits round, and is exact."""
+    text = edited(('quat="0.707107 0.707107 0 0"', printed))
+    rotation = read(tmp_path, text).joints[0].pose.rotation
+    as_printed = read(tmp_path, text, exact_decimals=True).joints[0].pose.rotation
+    assert 1e-7 < np.abs(rotation - as_printed).max() < 1e-5
+    c, s = 0.5, math.sqrt(0.75)  # a right angle about (c, 0, s)
+    right = np.array([[c * c, -s, c * s], [s, 0, -c], [c * s, c, s * s]])
+    expected = right if "axis" in printed else np.diag([-1, -1, 1])
+    assert np.allclose(rotation, expected, rtol=0, atol=4e-16)
+
+
+def test_degrees_frames_includes_and_names(tmp_path: Path) -> None:
+    (tmp_path / "part.xml").write_text(
+        '<mujocoinclude><body pos="1 0 0"><joint range="-90 30"/><geom size="0.1"/></body>'
+        "</mujocoinclude>"
+    )
+    tree = read(
+        tmp_path,
+        '<mujoco><worldbody><frame euler="0 0 90"><body name="body2"><joint/><geom size="0.1"/>'
+        '<include file="part.xml"/></body></frame></worldbody></mujoco>',
+    )
+    assert tree.name == "arm" and list(tree.bodies) == ["world", "body2", "body2_"]
+    assert [joint.name for joint in tree.joints] == ["joint0", "joint1"]
+    assert np.allclose(tree.joints[0].pose.rotation @ [1, 0, 0], [0, 1, 0], rtol=0, atol=4e-16)
+    assert tree.joints[1].lower == pytest.approx(-math.pi / 2)
+    assert all(joint.actuated for joint in tree.joints)  # for the file has no actuator
+
+
+def test_meshes_that_are_not_there_matter_where_they_weigh(tmp_path: Path) -> None:
+    text = re.sub(r"<inertial.*/>", "", ARM)
+    tree = read(tmp_path, text)
+    assert tree.bodies["upper"] is None and tree.bodies["fore"] is not None
+    assert "no values of upper (cover.stl)" in told(tree)
+    weightless = edited(('mesh="cover"', 'mesh="cover" mass="0"'), text=text)
+    assert "cover" not in told(read(tmp_path, weightless))
+    robot = robot_from_text(tree_to_toml(tree, "arm.xml").text, "arm.toml")
+    assert "M1" not in robot.parameters and "M4" in robot.parameters
+
+
+def test_gravity_that_is_switched_off(tmp_path: Path) -> None:
+    text = edited(('<option gravity="0 0 -9.8"/>', '<option><flag gravity="disable"/></option>'))
+    assert read(tmp_path, text).gravity.tolist() == [0, 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("tie", "follower", "leader", "ratio", "offset"),
+    [
+        # q1 - q1_0 = a0 + a1 (q2 - q2_0): of a joint without motor and one with
+        ('<joint joint1="roll" joint2="lift" polycoef="0.2 3"/>', "roll", "lift", 3, -0.1),
+        # turned round, for pan has a motor and roll has none
+        ('<joint joint1="pan" joint2="roll" polycoef="0.2 -2"/>', "roll", "pan", -0.5, 0.1),
+        ('<tendon tendon1="pair" polycoef="0.4"/>', "roll", "bend", -0.5, 0.2),
+    ],
+)
+def test_linear_equalities_are_relations(
+    tie: str, follower: str, leader: str, ratio: float, offset: float, tmp_path: Path
+) -> None:
+    pair = '<tendon><fixed name="pair"><joint joint="roll" coef="2"/><joint joint="bend" coef="1"/>'
+    text = with_section(f"{pair}</fixed></tendon><equality>{tie}</equality>")
+    joint = joints(read(tmp_path, text))[follower]
+    assert (joint.leader, joint.actuated) == (leader, False)
+    assert (joint.ratio, joint.offset) == pytest.approx((ratio, offset))
+    # MuJoCo's own residual is 0 where the relation holds, and only there.
+    bare = re.sub(r"<asset>.*</asset>|<geom type=.mesh.[^>]*>", "", text, flags=re.S)
+    model = mujoco.MjModel.from_xml_string(bare)
+    data = mujoco.MjData(model)
+    for slip in (0.0, 0.1):
+        data.joint(leader).qpos = 0.3
+        data.joint(follower).qpos = joint.ratio * 0.3 + joint.offset + slip
+        mujoco.mj_forward(model, data)
+        (residual,) = data.efc_pos[data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY]
+        assert (abs(residual) < 1e-12) == (slip == 0.0)
+
+
+def test_chains_of_equalities_and_joints_that_stand_still(tmp_path: Path) -> None:
+    tree = read(
+        tmp_path,
+        with_section(
+            '<equality><joint joint1="bend" joint2="roll" polycoef="0 2"/>'
+            '<joint joint1="roll" joint2="pan" polycoef="0.1 -1"/><joint joint1="lift" '
+            'polycoef="0.3"/><joint joint1="pan" joint2="bend" polycoef="9 9 9" active="false"/>'
+            "</equality>"
+        ),
+    )
+    bend, lift = joints(tree)["bend"], joints(tree)["lift"]
+    assert (bend.leader, bend.ratio) == ("pan", -2) and bend.offset == pytest.approx(0.2)
+    assert lift.kind is JointKind.FIXED and "lift stands still" in told(tree)
+    assert np.allclose(lift.pose.position, [0.6, 0, 0])  # along its axis, by what it is held at
+    assert "1 inactive equalities" in told(tree)
+
+
+LOOP = edited(
+    ('<body name="tip"', '<site name="a" pos="0 0 0.1"/><body name="tip"'),
+    ("</worldbody>", '<body name="rod" pos="0.5 0 0.4"><joint name="free" axis="0 1 0"/>'
+     '<site name="b" pos="0 0 1e-8"/><geom size="0.1"/></body></worldbody>'),
+)  # fmt: skip
+
+
+def test_connect_is_a_meeting(tmp_path: Path) -> None:
+    section = '<equality><connect name="pin" body1="tip" body2="rod" anchor="0 0 0.1"/></equality>'
+    tree = read(tmp_path, edited(("</mujoco>", section + "</mujoco>"), text=LOOP))
+    (meeting,) = tree.meetings
+    assert (meeting.name, meeting.body, meeting.other) == ("pin", "tip", "rod")
+    poses = {"world": np.eye(4)}  # where the file draws the robot, both points are one
+    for joint in tree.joints:
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = joint.pose.rotation, joint.pose.position
+        poses[joint.child] = poses[joint.parent] @ pose
+    ends = [poses["tip"] @ [*meeting.point, 1], poses["rod"] @ [*meeting.other_point, 1]]
+    assert np.allclose(*ends, rtol=0, atol=1e-15)
+    assert tree.home == {"pan": 0, "lift": 0.1, "roll": 0, "bend": 0, "free": 0}
+
+
+def test_connect_of_sites_and_the_posture_of_a_keyframe(tmp_path: Path) -> None:
+    section = '<keyframe><key name="home" qpos="0.2 0.15 0 -0.3 0.4"/></keyframe><equality>'
+    section += '<connect site1="a" site2="b"/></equality>'
+    tree = read(tmp_path, edited(("</mujoco>", section + "</mujoco>"), text=LOOP))
+    (meeting,) = tree.meetings
+    assert (meeting.body, meeting.other) == ("fore", "rod")
+    assert meeting.point.tolist() == [0, 0, 0.1] and meeting.other_point.tolist() == [0, 0, 0]
+    assert tree.home == {"pan": 0.2, "lift": 0.15, "roll": 0, "bend": -0.3, "free": 0.4}
+    text = tree_to_toml(tree, "arm.xml")
+    home = robot_from_text(text.text, "arm.toml").home
+    assert [home[f"{k}"] for k in range(1, 6)] == list(tree.home.values())
+    assert (
+        any("springs are left out" in note for note in text.notes) and "spring =" not in text.text
+    )
+
+
+FLOATING = """<mujoco><worldbody>
+  <body name="table"><geom type="box" size="1 1 1"/></body>
+  <body name="hand" mocap="true"/>
+  <body name="cube" pos="1 0 0"><freejoint/><geom size="0.1"/></body>
+  <body name="base" pos="0 0 1"><freejoint name="root"/><geom size="0.1"/>
+    <body name="leg"><joint name="hip"/><geom size="0.1"/>
+      <body name="foot" pos="0 0 1" gravcomp="1"><joint name="ankle" type="ball"/>
+        <geom size="0.1"/></body></body></body>
+  </worldbody><equality><weld body1="hand" body2="leg"/>
+  <connect body1="cube" body2="leg" anchor="0 0 0"/>
+  <weld body1="base"/></equality></mujoco>"""
+
+
+def test_what_floats_stands_still_or_is_left_out(tmp_path: Path) -> None:
+    tree = read(tmp_path, FLOATING)
+    assert set(tree.bodies) == {"world", "table", "base", "leg", "foot"}
+    assert joints(tree)["root"].kind is JointKind.FIXED
+    assert joints(tree)["root"].pose.position.tolist() == [0, 0, 1]
+    assert not tree.meetings
+    for words in (
+        "base floats; here it stands still", "cube floats; it is left out", "hand is dragged",
+        "of hand and leg is left out", "of cube and leg is left out", "move as one",
+        "gravcomp of foot",
+    ):  # fmt: skip
+        assert words in told(tree)
+
+
+def test_ball_joints_wait_until_they_are_cut_off(tmp_path: Path) -> None:
+    tree = read(tmp_path, FLOATING)
+    assert list(tree.unread) == ["ankle"]
+    with pytest.raises(RobotError, match=r"joint ankle: ball joints are not read; cut it off"):
+        cut(tree)
+    assert "foot" not in cut(tree, tip="leg").bodies
+    assert "foot" in cut(tree, locks={"ankle": 0}).bodies
+
+
+def test_what_is_left_out_is_told(tmp_path: Path) -> None:
+    text = edited(
+        ('gravity="0 0 -9.8"', 'viscosity="0.1"'),
+        ('stiffness="3"', 'stiffness="3 1"'),
+        ("</actuator>", '</actuator><tendon><fixed damping="1"><joint joint="pan" coef="1"/>'
+         "</fixed></tendon>"),
+    )  # fmt: skip
+    notes = told(read(tmp_path, text))
+    for words in ("forces of the fluid", "of polynomial springs", "of tendons are left out"):
+        assert words in notes
+    assert "gear scales commands alone" in told(
+        read(tmp_path, edited((' armature="2e-4"', ""), (' damping="1e-4"', "")))
+    )
+
+
+# What is refused.
+
+TIE = "<equality>{}</equality>"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (with_section(TIE.format('<joint joint1="roll" joint2="pan" polycoef="0 1 2"/>')),
+         "joint equality 1 lets roll follow pan by a polynomial; expected a straight line"),
+        (with_section(TIE.format('<joint joint1="roll" joint2="bend"/>'
+                                 '<joint joint1="bend" joint2="roll"/>')),
+         "equalities let joint roll follow itself; take one out"),
+        (with_section(TIE.format('<joint joint1="roll" joint2="pan"/>'
+                                 '<joint joint1="roll" joint2="pan" polycoef="1 1"/>')),
+         "joint equality 2: roll follows another joint already"),
+        (with_section(TIE.format('<weld name="glue" body1="tip" body2="upper"/>')),
+         "glue holds tip and upper rigidly; expected connect"),
+        (with_section('<tendon><fixed name="t"><joint joint="pan" coef="1"/></fixed></tendon>'
+                      + TIE.format('<tendon name="rope" tendon1="t"/>')),
+         "rope holds a tendon; expected a fixed one over two joints"),
+        (edited(("<worldbody>", '<worldbody><include file="gone.xml"/>')),
+         r"line 10: includes .*gone\.xml, which cannot be read \(No such file"),
+        (edited((' axis="0 1 0" range', ' axs="0 1 0" range')),
+         r"MuJoCo does not take it: .*unrecognized attribute: 'axs' .*line 14; correct it there"),
+        (edited(('mass="2"', 'mass="two"')), "MuJoCo does not take it: .*'mass'"),
+        (edited(("fullinertia=\"0.02", "fullinertia=\"2.0")), "MuJoCo does not take it: .*inertia"),
+        (edited(("</worldbody>", "</worldbdy>")), "line 24: not well-formed XML"),
+        (edited(("<mujoco", "<!DOCTYPE m [<!ENTITY a 'aaaa'>]><mujoco")), "DOCTYPE"),
+        ("<robot name='r'><link name='a'/></robot>", "got <robot>, a URDF; name it .urdf"),
+        ("<sdf/>", "got <sdf>, no robot; expected <mujoco>"),
+        ("<mujoco><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>",
+         "no hinge or slide moves anything"),
+        (edited(("<geom size", '<replicate count="40"><replicate count="41"><geom size'),
+                ("</body>\n      </body>", "</replicate></replicate></body></body>")),
+         r'<replicate>: count: got "41"; expected at most 1000 in all'),
+        (edited(("<asset>", '<asset><hfield name="h" nrow="90000" ncol="90000" size="1 1 1 1"/>')),
+         '<hfield>: nrow ncol: got "90000 90000"'),
+        (edited(("<geom size", '<composite type="cable" count="9 1 1"/><geom size')), "is soft"),
+        (edited(('gear="50"', 'gear="1e200"')), r"actuator_gear: got more than 1e\+12"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_is_refused_in_one_line(text: str, message: str, tmp_path: Path) -> None:
+    with pytest.raises(RobotError, match=message) as error:
+        read(tmp_path, text)
+    assert "\n" not in str(error.value) and str(tmp_path) in str(error.value)
+
+
+def test_a_bomb_in_an_included_file_is_refused(tmp_path: Path) -> None:
+    bomb = "<!DOCTYPE b [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;&a;'>]><mujoco>&b;</mujoco>"
+    (tmp_path / "bomb.xml").write_text(bomb)
+    with pytest.raises(RobotError, match=r"bomb\.xml: line 1: <!DOCTYPE>"):
+        read(tmp_path, edited(("<asset>", '<include file="bomb.xml"/><asset>')))
+
+
+def test_sizes_without_bound_cost_nothing(tmp_path: Path) -> None:
+    sizes = '<size memory="1000G" nuserdata="2000000000" nuser_body="900000000"/>'
+    picture = '<texture name="t" type="2d" builtin="flat" width="90000" height="90000"/>'
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    read(tmp_path, edited(("<asset>", f"{sizes}<asset>{picture}")))
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 300_000  # kB
+
+
+def test_without_mujoco_it_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = builtins.__import__
+
+    def no_mujoco(name: str, *args: object, **options: object) -> object:
+        if name == "mujoco":
+            raise ModuleNotFoundError("No module named 'mujoco'", name="mujoco")
+        return real(name, *args, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(builtins, "__import__", no_mujoco)
+    with pytest.raises(
+        RobotError, match=r'not installed; run: pip install "modeler-robotics\[mjcf\]"'
+    ):
+        read(tmp_path)
+
+
+def test_nothing_is_printed_and_no_log_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    old = edited(('autolimits="true"', 'autolimits="true" settotalmass="5"'))  # MuJoCo warns of it
+    tree = read(tmp_path, old)
+    assert sum(body.mass for body in tree.bodies.values() if body) == pytest.approx(5)
+    with pytest.raises(RobotError):
+        read(tmp_path, old.replace('mass="2"', 'mass="-2"'))
+    assert capfd.readouterr() == ("", "") and not list(tmp_path.glob("MUJOCO*"))
+
+
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("text", [ARM, LOOP, FLOATING], ids=["arm", "loop", "floating"])
+def test_mutated_files_are_read_or_refused_in_one_line(
+    text: str, seed: int, tmp_path: Path
+) -> None:
+    rng, raw = random.Random(seed), bytearray(text, "utf-8")
+    for _ in range(rng.choice((1, 1, 2, 4))):
+        at, length = rng.randrange(len(raw)), rng.randrange(1, 40)
+        match rng.randrange(5):
+            case 0:
+                del raw[at : at + length]
+            case 1:
+                raw[at:at] = raw[at : at + length]
+            case 2:
+                raw[at] = rng.randrange(256)
+            case _:
+                number = rng.choice(list(re.finditer(rb"-?\d+\.?\d*", bytes(raw))))
+                worse = (b"nan", b"1e308", b"-1", b"0", b"1000000000", b"1e-320", b"x", b"")
+                raw[number.start() : number.end()] = rng.choice(worse)
+    path = tmp_path / "arm.xml"
+    path.write_bytes(bytes(raw))
+    start = time.process_time()
+    try:
+        assert mjcf_tree(path).joints
+    except RobotError as error:
+        assert str(path) in str(error) and "\n" not in str(error) and len(str(error)) < 1000
+    assert time.process_time() - start < 5

@@ -1,0 +1,121 @@
+"""Position servos of 12 bits at 30 and 50 Hz: armature, friction and damping from a data set."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from modeler.api import compile_model, derive, generate, load, look_at, read_logs
+from modeler.api.log_maps import log_maps, read_mapped
+from modeler.core.errors import DataError
+from modeler.estimation import identify
+from modeler.logs import EITHER
+from modeler.observation import observe
+
+from .servos import Servo, mjcf_of, recorded, write_dataset
+
+pytest.importorskip("mujoco", reason="NOT CHECKED: servo arms, for mujoco-core is not installed")
+
+MOTORS = ["shoulder_pan", "shoulder_lift", "elbow_flex", "wrist_flex", "wrist_roll", "gripper"]
+TRUTH = Servo(12.0, 4.4, 2.4, 1.1, armature=0.028, damping=0.06, friction=0.12)
+VALUES = {"Ia": TRUTH.armature, "Fv": TRUTH.damping, "Fs": TRUTH.friction}
+
+
+@pytest.fixture(scope="module")
+def arm():
+    return compile_model(generate(derive(load("so101"))))
+
+
+def episodes(robot, servos, fps, count=3, seconds=15.0):
+    """Frames of free motion of all joints."""
+    rng = np.random.default_rng()
+    limits = [robot.limits[joint.name] for joint in robot.joints]
+    middle = np.array([(own.lower + own.upper) / 2 for own in limits])
+    reach = np.array([(own.upper - own.lower) / 2 for own in limits]) * 0.75
+    t = np.arange(int(seconds * fps)) / fps
+    for _ in range(count):
+        w = 2 * np.pi * rng.uniform(0.08, 0.13) * np.arange(1, 6)
+        sines = np.sin(w * t[:, None, None] + rng.uniform(0, 6.3, (6, 5))) @ rng.normal(size=5)
+        sines *= np.minimum(
+            1.0 / np.abs(sines).max(axis=0),
+            2.5 / np.abs(np.gradient(sines, 1 / fps, axis=0)).max(axis=0) / reach,
+        )
+        yield recorded(mjcf_of(robot, servos), servos, middle + reach * sines, fps)  # fmt: skip
+
+
+def fitted(compiled, folder):
+    rows = observe(compiled, read_logs(compiled, [folder], ["auto"]))
+    return identify(rows, "weighted", compiled)
+
+
+def in_sigmas(result):
+    """(value - truth) / sigma of what moves a joint, and sigma over the truth."""
+    own = [(p, VALUES[p.name[:2]]) for p in result.parameters if p.name[:2] in VALUES]
+    assert len(own) == 16  # the rotors of the first two joints group
+    return {p.name: ((p.value - true) / p.sigma, p.sigma / true) for p, true in own}
+
+
+@pytest.mark.parametrize("fps", [30.0, pytest.param(50.0, marks=pytest.mark.slow)])
+def test_a_data_set_tells_armature_friction_and_damping(arm, tmp_path, fps):
+    robot, servos = load("so101"), [TRUTH] * 6
+    folder = write_dataset(tmp_path / "set", list(episodes(robot, servos, fps)), MOTORS, fps)
+    found = in_sigmas(fitted(arm, folder))
+    off, sure = np.array(list(found.values())).T
+    assert np.abs(off).max() < 5.0, found
+    assert np.sqrt(np.mean(off**2)) < 2.0, found
+    assert sure.max() < 0.15
+
+
+def test_without_k_e_what_the_motor_induces_is_damping(arm, tmp_path):
+    robot, servos = load("so101"), [TRUTH] * 6
+    folder = write_dataset(tmp_path / "set", list(episodes(robot, servos, 50.0, 1)), MOTORS, 50.0)
+    joints = (dataclasses.replace(j, drive=dataclasses.replace(j.drive, k_e=0.0))
+              for j in arm.spec.joints)  # fmt: skip
+    spec = dataclasses.replace(arm.spec, joints=tuple(joints))
+    (log,) = (read_mapped(str(folder), spec, log_maps(arm, [folder], ["auto"])[0]),)
+    result = identify(observe(arm, [log]), "weighted", arm)
+    induced = TRUTH.gain * TRUTH.k_e / TRUTH.resistance
+    values = [p.value for p in result.parameters if p.name.startswith("Fv")]
+    assert np.allclose(values, TRUTH.damping + induced, rtol=0.02)
+
+
+def test_a_data_set_without_loads_is_refused(arm, tmp_path):
+    frames = list(episodes(load("so101"), [TRUTH] * 6, 50.0, 1, 4.0))
+    folder = write_dataset(tmp_path / "set", frames, MOTORS, 50.0, load=False)
+    with pytest.raises(DataError, match="no column tau1 or current1 or duty1"):
+        fitted(arm, folder)
+
+
+def test_the_table_places_links_as_the_file_does():
+    """Lengths and zero angles of the arms, by plain trigonometry."""
+    for name, reach in (("so101", (0.11600, 0.13500)), ("vx300s", (0.30585, None))):
+        robot = load(name)
+        values = robot.symbol_values()
+        assert values["D3"] == pytest.approx(reach[0], abs=2e-5)
+        if reach[1]:
+            assert values["D4"] == pytest.approx(reach[1], abs=2e-5)
+    so101 = load("so101").symbol_values()
+    assert so101["phi"] == pytest.approx(np.arctan2(0.028, 0.11257), abs=1e-9)
+    assert so101["psi"] == pytest.approx(np.arctan2(0.0052, 0.1349), abs=1e-9)
+    assert so101["D3"] == pytest.approx(np.hypot(0.028, 0.11257), abs=1e-9)
+    assert load("vx300s").symbol_values()["psi"] == pytest.approx(
+        np.arctan2(0.05955, 0.3), abs=1e-9
+    )
+
+
+@pytest.mark.parametrize(("reach", "doubted"), [(95.0, True), (130.0, False)])
+def test_degrees_that_may_be_parts_of_a_range_are_told(arm, reach, doubted):
+    t = np.arange(500) / 50
+    names = [f"observation.state[{motor}.pos]" for motor in MOTORS]
+    columns = {"timestamp": t} | {name: reach * np.sin(t + k) for k, name in enumerate(names)}
+    columns |= {f"observation.load[{motor}.load]": 300 * np.cos(t) for motor in MOTORS}
+    lines = look_at(columns, arm).doubts
+    assert any(EITHER in line for line in lines) == doubted
+    (found,) = log_maps(arm, [columns], ["auto"])
+    assert any(EITHER in line for line in found.told) == (doubted and "[deg]" in found.told[0])
+    given = {"time": t} | {f"q{j}": columns[name] for j, name in enumerate(names_of(columns), 1)}
+    assert not any(EITHER in line for line in look_at(given, arm).doubts)
+
+
+def names_of(columns):
+    return [name for name in columns if name.startswith("observation.state")]
