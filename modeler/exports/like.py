@@ -234,7 +234,9 @@ class _Edits:
 
 
 def _elements(root: Element) -> dict[tuple[str, str], Element]:
-    return {(e.tag, e.attributes.get("name", "").strip()): e for e in root.walk()
+    """Links and joints of URDF (<transmission> names joints too) and SDF."""
+    parts = root.children if root.tag == "robot" else root.walk()
+    return {(e.tag, e.attributes.get("name", "").strip()): e for e in parts
             if e.tag in ("link", "joint")}  # fmt: skip
 
 
@@ -264,7 +266,13 @@ def _of_motors(root: Element) -> bool:
 
 
 def _check_mjcf(source: Source) -> None:
-    """Refuse files of which MuJoCo changes the masses that they state."""
+    """Refuse files of which MuJoCo changes the numbers that they state."""
+    for element in source.root.walk():
+        if "springdamper" in element.attributes:
+            raise DataError(
+                f"--like {source.path}: line {element.line}: springdamper makes damping of masses; "
+                "write stiffness and damping instead"
+            )
     for compiler in (element for element in source.root.walk() if element.tag == "compiler"):
         where = f"--like {source.path}: line {compiler.line}"
         if compiler.attributes.get("inertiafromgeom") == "true":

@@ -55,6 +55,7 @@ URDF = b"""<?xml version='1.0'?>
       <inertia ixx="0.0002" ixy="0" ixz="0" iyy="0.0003" iyz="0" izz="0.0003"/></inertial>
   </link>
   <joint name="tip" type="fixed"><parent link="slider"/><child link="finger"/></joint>
+  <transmission name="t"><joint name="shoulder"/><actuator name="m"/></transmission>
 </robot>
 """
 """Quotes of both kinds, elements in one line, turned inertia, a tool and a finger on fixed joints,

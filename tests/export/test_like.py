@@ -142,6 +142,7 @@ def test_another_robot_is_refused(tmp_path, old, new, word) -> None:
 @pytest.mark.parametrize(("name", "old", "new", "word"), [
     ("a.xml", b'angle="degree"', b'angle="degree" inertiafromgeom="true"', 'write "auto" there'),
     ("a.xml", b'angle="degree"', b'angle="degree" settotalmass="9"', "settotalmass changes"),
+    ("a.xml", b'armature="0.05"', b'springdamper="1 1"', "springdamper makes damping"),
     ("a.xml", b'gear="2"', b'gear="2" armature="0.1"', "actuators state armature or damping"),
     ("a.txt", MJCF, b"<x/>", r"expected <robot> \(URDF\)"),
     ("a.urdf", MJCF, URDF, "URDF, and --to says mjcf"),
