@@ -5,7 +5,11 @@ import math
 import numpy as np
 import pytest
 
+from modeler.codegen.emit import emit
 from modeler.core.errors import RobotError
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.estimation.prior import prior_of
 from modeler.robot import mdh_rows
 from modeler.robot.body_tree import (
     BodyTree,
@@ -291,29 +295,40 @@ def test_gravity_is_a_symbol_along_an_axis(pull, cells):
 
 
 def test_bodies_without_values_have_no_prior():
-    """Nothing stated, hidden between joints, doubted; a frame without mass does no harm."""
+    """Nothing stated, hidden between joints, placeholders; a frame without mass does no harm.
+
+    What a file states of one body stays, however odd: no fit makes a prior of it. Among others
+    it would be believed.
+    """
     ways = ("base", "a_link", "b_link", "c_link", "d_link")
     joints = [
         turning(name, parent, (0.1, 0, 0)) for name, parent in zip("abcde", ways, strict=True)
     ]
     frame = TreeJoint("mount", FIXED, "e_link", "flange", Pose(np.array([0.1, 0.0, 0.0])))
+    fake = TreeJoint("glue", FIXED, "d_link", "marker", Pose(np.array([0.1, 0.0, 0.0])))
     nothing = Inertial(0.0, np.zeros(3), np.zeros((3, 3)))
     tree = tree_of(
         *joints,
         frame,
+        fake,
         bodies={
             "a_link": None, "b_link": None, "c_link": Inertial(1.0, np.zeros(3), np.eye(3)),
-            "flange": nothing,
+            "flange": nothing, "marker": Inertial(1.0, np.zeros(3), np.eye(3)),
         },
         hidden=frozenset({"b_link"}),
-        doubted={"c_link": "the identity as inertia", "flange": "mass 0"},
+        doubted={name: "the identity as inertia" for name in ("c_link", "marker")}
+        | {"flange": "mass 0"},
     )  # fmt: skip
     made = tree_to_toml(tree, "drawn.xml")
     robot = robot_from_text(made.text, "drawn.toml")
-    assert {n[1:] for n in robot.parameters if n.startswith("M") and n[1:].isdigit()} == {"4", "5"}
+    assert {n[1:] for n in robot.parameters if n.startswith("M") and n[1:].isdigit()} == {"3", "5"}
     assert robot.links == {"2": ()}
-    assert "the file states no mass of the links of rows 1" in made.notes
-    assert any(note.startswith("the links of rows 3 have no values") for note in made.notes)
+    assert 'the file states no mass of "a_link"' in made.notes
+    told = 'no values of "d_link", "marker", which move as one with such a body'
+    assert told in made.notes
+    model = derive_model(robot)
+    without = prior_of(emit(model, base_parameters(model)).spec).without
+    assert without["link 3"] == "identity inertia" and "link 5" not in without
     assert robot.frames["flange"].row == "5" and robot.frames["flange"].joint == ""
 
 
