@@ -131,7 +131,9 @@ def _pendulum(
     loaded = np.array([joint.actuated for joint in model.spec.joints])
     loaded &= (weight > LOADED * torque) & (weight > 0.0)
     swings = (inertia * _GRAVITY / np.where(loaded, weight, 1.0) / length)[loaded]
-    return float(np.min(swings)) if loaded.any() else 0.0, float(mass.max() / reach**3)
+    swing = float(np.min(swings)) if loaded.any() else 0.0
+    beyond = max(swing, 1.0)  # axes alone place the frames: links reach as far as they swing
+    return swing, float(mass.max() / beyond**2 / (reach * beyond) ** 3)
 
 
 CHANCE = 1e-3

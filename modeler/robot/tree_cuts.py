@@ -204,7 +204,7 @@ def _weights(tree: BodyTree) -> Iterator[str]:
     named: dict[str, list[str]] = {}
     for name, body in tree.bodies.items():
         if name in tree.doubted:
-            named.setdefault(f"{tree.doubted[name]}: {{}}; no prior is made of it", []).append(name)
+            named.setdefault(f"{tree.doubted[name]}: {{}}", []).append(name)
         elif body is None and name not in {tree.root, *tree.hidden}:
             named.setdefault("no inertia is stated of {}; they weigh nothing", []).append(name)
     return (told.format(several(names)) for told, names in named.items())

@@ -12,7 +12,7 @@ import modeler.robot.robot_text as toml
 from modeler.core.errors import RobotError
 from modeler.core.toml_cells import listed
 from modeler.robot.angles import pi_multiple
-from modeler.robot.body_tree import BodyTree, Inertial, MovingLink, about_origin, moving_links
+from modeler.robot.body_tree import BodyTree, MovingLink, about_origin, moving_links
 from modeler.robot.cells import robot_name
 from modeler.robot.conventions import ANGLES
 from modeler.robot.mdh_rows import MdhRow, exact_length, mdh_table, roll_pitch_yaw, towards
@@ -20,6 +20,7 @@ from modeler.robot.par_table import LETTER, Symbols, gravity
 from modeler.robot.robot import INERTIAL, JointKind, Place
 from modeler.robot.robot_text import Converted, TextRow
 from modeler.robot.sections import FRAME_COLUMNS
+from modeler.robot.tree_cuts import several
 
 UNCERTAINTY = 0.3
 """How sure masses, centres and inertias of another program's file are, over their scale."""
@@ -232,9 +233,9 @@ class _Writing:
             if k == 0 or self._is_hidden(link):
                 continue
             if whole is None or not (whole.mass or whole.inertia.any()):
-                missing.append(f"{k}")
-            elif not self._is_body(link, whole):
-                doubted.append(f"{k}")
+                missing.extend(link.bodies)
+            elif not self._is_measured(link):
+                doubted.extend(link.bodies)
             else:
                 ten = about_origin(whole.seen_from(self.table.places[k]))
                 small = 1e-15 * np.abs(ten).max()
@@ -246,12 +247,9 @@ class _Writing:
         lines += self._of_joints()
         notes = self.symbols.notes
         if missing:
-            notes.append(f"the file states no mass of the links of rows {listed(missing)}")
+            notes.append(f"the file states no mass of {several(missing)}")
         if doubted:
-            notes.append(
-                f"the links of rows {listed(doubted)} have no values, for a body of theirs can not "
-                "be what the file says"
-            )
+            notes.append(f"no values of {several(doubted)}, which move as one with such a body")
         if prior:
             notes.append(
                 f"masses, centres and inertias are a prior, sure to {UNCERTAINTY:.0%} of their "
@@ -264,12 +262,11 @@ class _Writing:
             ),
         ]
 
-    def _is_body(self, link: MovingLink, whole: Inertial) -> bool:
-        """False for values that nobody has weighed; a frame without mass does no harm."""
-        odd = [name for name in link.bodies if name in self.tree.doubted]
-        stated = [body for name in odd if (body := self.tree.bodies[name]) is not None]
-        harmless = all(body.mass >= 0.0 and not body.inertia.any() for body in stated)
-        return harmless and whole.mass > 0.0 and bool(whole.inertia.any())
+    def _is_measured(self, link: MovingLink) -> bool:
+        """False where a placeholder is among bodies that were weighed: a prior would believe it."""
+        odd = [self.tree.bodies[name] for name in link.bodies if name in self.tree.doubted]
+        fake = [b for b in odd if b and (b.mass < 0.0 or np.array_equal(b.inertia, np.eye(3)))]
+        return not fake or len(link.bodies) == 1
 
     def _of_joints(self) -> list[str]:
         """What the file states of friction, rotors and springs."""

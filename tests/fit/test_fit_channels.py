@@ -117,6 +117,54 @@ def test_the_torque_in_another_unit_is_named_where_joints_are_coupled(runs):
 
 
 @pytest.mark.parametrize("name", ROBOTS)
+def test_torques_in_mN_m_make_no_machine(runs, name):
+    machine, (log, _) = runs[name]
+    observation = observe(machine, [replace(log, tau=1e3 * log.tau)])
+    fit = with_verdict(machine, observation, identify(observation, "weighted", machine))
+    assert fit.verdict.line.startswith("not usable: the links would weigh ")
+    assert "mN m" in fit.verdict.line
+
+
+PAN_TILT = """
+name = "pan-tilt"
+gravity = [0, 0, -9.81]
+
+[mdh]
+columns = ["j", "alpha", "d", "theta"]
+rows = [["1", 0, 0, "q1"], ["2", "pi/2", 0.05, "q2"]]
+
+[effects]
+viscous = "all"
+
+[parameters]
+ZZ1 = 0.02
+XX2 = 0.02
+YY2 = 0.05
+ZZ2 = 0.06
+MX2 = 0.36
+M2 = 3.0
+Fv1 = 0.5
+Fv2 = 0.5
+"""
+
+
+def test_links_that_reach_beyond_their_frames_are_a_machine(capsys, tmp_path):
+    """A camera of 3 kg in 0.12 m from the tilting axis; the frames are 0.05 m apart."""
+    robot, log = tmp_path / "pan.toml", tmp_path / "pan.parquet"
+    robot.write_text(PAN_TILT)
+    assert main(["simulate", str(robot), "--duration", "10", "--seed", "3", "--out", str(log)]) == 0
+    for factor, usable in ((1.0, True), (1e3, False)):
+        table = pq.read_table(log).to_pydict()
+        scaled = {n: factor * np.array(v) if n[:3] == "tau" else v for n, v in table.items()}
+        pq.write_table(pa.table(scaled), log)
+        capsys.readouterr()
+        out = str(tmp_path / "model.json")
+        assert main(["fit", str(robot), str(log), "--out", out, "--json", "-"]) == 0
+        found = json.loads(capsys.readouterr().out)
+        assert found["usable"] == usable, found["doubts"]
+
+
+@pytest.mark.parametrize("name", ROBOTS)
 def test_a_clock_that_is_wrong_is_named_without_speeds(runs, name):
     """By the rule, or, where rotors of any inertia would do, by inertias beyond all measure."""
     machine, (log, _) = runs[name]
