@@ -3,10 +3,12 @@
 import dataclasses
 from pathlib import Path
 
+import numpy as np
+
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.exports.bodies import Original, physics_of, written
-from modeler.exports.fresh import LINK, fresh, joint_names
+from modeler.exports.fresh import LINK, fresh, gravity_of, joint_names
 from modeler.exports.held import Torques, not_held
 from modeler.exports.like import rewritten
 from modeler.exports.original import original_of, placed, source_of
@@ -59,6 +61,9 @@ def exported(
     if like is None:
         physics = physics_of(thing, Original())
         notes, data, values = list(physics.notes), fresh(physics, to), list[Value]()
+        g = float(np.linalg.norm(gravity_of(physics)))
+        if to != "mjcf" and abs(g - 9.81) > 0.02:
+            notes.append(f"gravity is {g:.4g} m/s2 here; {to.upper()} states none, most take 9.81")
         names = joint_names(robot)
         for joint in robot.moving:
             if physics.ten_places(joint.name):
