@@ -17,7 +17,7 @@ from modeler.exports.capsules import Capsule, capsules
 from modeler.exports.linkage import BASE, closed, row_pose, sense, to_quaternion, variables
 from modeler.exports.original import TENSOR
 from modeler.exports.result import numbers
-from modeler.robot import Joint, JointKind, Pose, linear_form, roll_pitch_yaw, turned
+from modeler.robot import Joint, JointKind, Pose, Robot, linear_form, roll_pitch_yaw, turned
 
 LINK, JOINT = "link_", "joint_"
 """Before the name of a row."""
@@ -82,8 +82,7 @@ def _parts(physics: Physics, to: str, at: Mapping[str, float]) -> list[Part]:
     if not at:
         values |= {joint.variable: 0.0 for joint in robot.moving}
     symbols, drawn = robot.symbol_values(), capsules(robot, at)
-    named = {frame.row: frame.joint for frame in robot.frames.values() if frame.joint}
-    joints = {joint.name: named.get(joint.name, JOINT + joint.name) for joint in robot.joints}
+    joints = joint_names(robot)
     heavy = sum(float(t[9]) for j in robot.moving if (t := physics.ten(j.name)) is not None)
     found = []
     for row in robot.joints:
@@ -117,6 +116,12 @@ def _parts(physics: Physics, to: str, at: Mapping[str, float]) -> list[Part]:
             )
         )  # fmt: skip
     return found
+
+
+def joint_names(robot: Robot) -> dict[str, str]:
+    """Names of joints by row: those of the file that the robot came from, where it has them."""
+    named = {frame.row: frame.joint for frame in robot.frames.values() if frame.joint}
+    return {joint.name: named.get(joint.name, JOINT + joint.name) for joint in robot.joints}
 
 
 def _link(row: str) -> str:

@@ -3,10 +3,12 @@
 import dataclasses
 from pathlib import Path
 
+import numpy as np
+
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.exports.bodies import Original, physics_of, written
-from modeler.exports.fresh import JOINT, LINK, fresh
+from modeler.exports.fresh import LINK, fresh, gravity_of, joint_names
 from modeler.exports.held import Torques, not_held
 from modeler.exports.like import rewritten
 from modeler.exports.original import original_of, placed, source_of
@@ -59,6 +61,10 @@ def exported(
     if like is None:
         physics = physics_of(thing, Original())
         notes, data, values = list(physics.notes), fresh(physics, to), list[Value]()
+        g = float(np.linalg.norm(gravity_of(physics)))
+        if to != "mjcf" and abs(g - 9.81) > 0.02:
+            notes.append(f"gravity is {g:.4g} m/s2 here; {to.upper()} states none, most take 9.81")
+        names = joint_names(robot)
         for joint in robot.moving:
             if physics.ten_places(joint.name):
                 given = physics.stated_before(joint.name)
@@ -69,7 +75,7 @@ def exported(
                 for quantity, terms in physics.drive(joint.name, to).items()
                 if terms.keys() <= physics.nominal.keys()
             }
-            values += drive_values(physics, joint, JOINT + joint.name, to, stated)
+            values += drive_values(physics, joint, names[joint.name], to, stated)
     else:
         source = source_of(like)
         if to and to != source.format:

@@ -55,7 +55,9 @@ def test_the_exported_file_has_the_torques_of_the_fit(fitted) -> None:
     assert close(pinocchio_torques(exact, joints, q, qd, qdd), ours)
     assert not close(pinocchio_torques(URDF, joints, q, qd, qdd), ours, 0.05)
     whole = torques_without(model, q, qd, qdd, ("Fs",))
-    fresh = export(model, to="mjcf").data
+    standing = export(model, to="mjcf")
+    fresh = standing.data
+    assert all(f'name="{value.part}"'.encode() in fresh for value in standing.values)
     assert close(mujoco_torques(fresh, [f"{j}" for j in joints], q, qd, qdd), whole)
 
 
