@@ -40,6 +40,7 @@ from .geometry import (
     Geometry as Geometry,
     GeometryRow as GeometryRow,
     geometric_symbol as geometric_symbol,
+    quarter_turns as quarter_turns,
 )
 from .graph import Expr as Expr, Graph as Graph, GraphAlgebra as GraphAlgebra, Vector as Vector
 from .kinematics import (

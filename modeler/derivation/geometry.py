@@ -46,6 +46,15 @@ def cos_sin(angle: sympy.Expr) -> Pair:
     return _sum((pair[0], pair[1]), _of_number(constant))
 
 
+def quarter_turns(angle: sympy.Expr) -> tuple[int, sympy.Expr]:
+    """The right angles in a constant, `phi - pi/2` is -1 and phi; and what else it is made of."""
+    number = (
+        angle.as_independent(*angle.free_symbols, as_Add=True)[0] if angle.free_symbols else angle
+    )
+    quarters = number / (sympy.pi / 2)
+    return (int(quarters), angle - number) if quarters.is_Integer else (0, angle)
+
+
 def is_short(angle: sympy.Expr) -> bool:
     """True if sums and whole multiples in the angle are few enough to be written out."""
     turns = 0

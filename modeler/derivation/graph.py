@@ -26,7 +26,7 @@ import sympy
 
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS
-from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
+from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, quarter_turns
 
 # Values of expressions by steps that are listed once: closing loops asks hundreds of times.
 
@@ -517,12 +517,11 @@ class GraphAlgebra:
             return self.static(c), self.static(s)
         q = self.combined("q", row)
         angle = q if row.rate > 0 else -q
-        quarters = row.theta / (sympy.pi / 2)
-        if not quarters.is_Integer:
-            angle = angle + self.static(row.theta)
-            quarters = sympy.Integer(0)
+        quarters, rest = quarter_turns(row.theta)
+        if rest:
+            angle = angle + self.static(rest)
         c, s = self.graph.call("cos", angle), self.graph.call("sin", angle)
-        for _ in range(int(quarters) % 4):
+        for _ in range(quarters % 4):
             c, s = -s, c
         return c, s
 

@@ -48,6 +48,7 @@ from modeler.derivation import (
     in_block,
     plus,
     project,
+    quarter_turns,
     screws,
     with_square,
 )
@@ -153,8 +154,9 @@ def _turn(row: GeometryRow, algebra: GraphAlgebra) -> Expr:
         q = algebra.combined("q", row)
         angle = q if row.rate > 0 else -q
     for constant in (row.theta, row.gamma):
-        if not (constant / (sympy.pi / 2)).is_Integer:
-            angle = angle + algebra.static(constant)
+        _, rest = quarter_turns(constant)
+        if rest:
+            angle = angle + algebra.static(rest)
     return angle
 
 

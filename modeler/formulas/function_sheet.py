@@ -210,7 +210,12 @@ class SheetWriter:
         return sorted(found)
 
     def _args(self, node: int) -> tuple[int, ...]:
-        return () if self._is_atom(node) else self.graph.nodes[node].args
+        """Sines and cosines have a line of their own, in which their angles stand in full."""
+        found = self.graph.nodes[node]
+        return () if self._is_atom(node) or found.op in ("sin", "cos") else found.args
+
+
+_LONGEST_LABEL = 16  # letters; a longer sum is a number, and told where it is defined
 
 
 def angle_names(
@@ -236,6 +241,8 @@ def angle_names(
         angle = found.args[0]
         if angle not in labels:
             label = _label(graph, angle, letters)
+            if len(label) > _LONGEST_LABEL:
+                label = f"_{len(labels) + 1}"
             while {f"s{label}", f"c{label}"} & taken:
                 label += "_"
             labels[angle] = label
