@@ -27,6 +27,7 @@ SHARE = 0.3
 _UNKNOWN = 1.0  # the same of a capsule
 _WIDE = 100.0  # how sure a value is of which nothing is known, over what the torques allow
 _LOOSE = (1e-2, 0.1, 1.0)  # of what is known beforehand: by how much values of no body may move
+_ROUNDING = 1e-15  # of the size of a number
 _DENSITIES = (1e-3, 1e3)  # what a fit may say of a capsule's
 
 HELD = {
@@ -173,9 +174,20 @@ def written(ten: np.ndarray, axes: np.ndarray | None = None) -> np.ndarray:
     if axes is not None:
         about = axes.T @ about @ axes
     found = np.concatenate([[mass], centre, about[np.triu_indices(3)]])
-    for own in (found[1:4], found[4:]):  # what differences leave of 0
-        own[np.abs(own) < 1e-15 * np.abs(own).max()] = 0.0
-    return found
+    nothing = np.abs(found) <= _ROUNDING * sizes(found)  # what differences leave of 0
+    return found - np.where(nothing, found.real, 0.0)
+
+
+def sizes(body: np.ndarray) -> np.ndarray:
+    """(10,) how large the numbers of a body are, as `written`: those of a kind are alike.
+
+    Of the centre its distance and the radius of gyration count, of the inertia that about the
+    origin: these are what differences are taken of.
+    """
+    mass, far, about = abs(body[0]), np.abs(body[1:4]).max(), np.abs(body[4:]).max()
+    inertia = about + mass * far**2
+    radius = (inertia / mass) ** 0.5 if mass else 0.0
+    return np.repeat([mass, radius, inertia], [1, 3, 6])
 
 
 def deviations(

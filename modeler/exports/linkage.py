@@ -12,6 +12,9 @@ from modeler.robot import Joint, JointKind, LinkFrame, Loop, Pose, Robot, linear
 BASE = "0"
 """Name of the frame that stands still."""
 
+SAME_GRAVITY = 2e-3
+"""Share of gravity: 9.80665 is 9.81 in other digits."""
+
 _X, _Y, _Z = np.eye(3)
 _CLOSED = 1e-9  # m, rad: what may be left of a loop
 
@@ -58,6 +61,12 @@ def row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
         @ Pose(d * (turned(_X, alpha) @ _X), turned(_X, alpha))
         @ Pose(r * _Z, turned(_Z, theta))
     )
+
+
+def gravity_of(robot: Robot) -> np.ndarray:
+    """(3,) acceleration of gravity in frame 0."""
+    symbols = robot.symbol_values()
+    return np.array([cell.number(symbols) for cell in robot.gravity])
 
 
 def sense(joint: Joint, symbols: Mapping[str, float]) -> float:

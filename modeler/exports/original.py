@@ -1,6 +1,6 @@
 """The file that is written anew: its links on the rows of the robot, and that it is that robot."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,7 +10,15 @@ from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.estimation import parameters_of, pseudo_inertia_of
 from modeler.exports.bodies import Original, carried
-from modeler.exports.linkage import BASE, frame_pose, from_rpy, poses, variables
+from modeler.exports.linkage import (
+    BASE,
+    SAME_GRAVITY,
+    frame_pose,
+    from_rpy,
+    gravity_of,
+    poses,
+    variables,
+)
 from modeler.robot import (
     BodyTree,
     Element,
@@ -140,8 +148,23 @@ def _sdf_links(root: Element) -> dict[str, Inertial | None]:
     return found
 
 
-def placed(source: Source, robot: Robot) -> dict[str, Placed]:
-    """The links of the file by row.
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """The parts of a file on the rows of a robot.
+
+    Attributes:
+        links: that move, by row.
+        joints: row by the name in the file.
+        notes: what is to be told.
+    """
+
+    links: Mapping[str, Placed]
+    joints: Mapping[str, str]
+    notes: tuple[str, ...]
+
+
+def placed(source: Source, robot: Robot) -> Placement:
+    """The links and joints of the file by row.
 
     Raises:
         DataError: it is not the same robot: names the first link that differs.
@@ -161,21 +184,64 @@ def placed(source: Source, robot: Robot) -> dict[str, Placed]:
     for name, (row, pose) in on.items():
         if name in source.links:
             found.setdefault(row, {})[name] = pose
-    return {
+    links = {
         row: Placed(own, _carrier(source, own, moved.get(row, "")))
         for row, own in found.items()
         if row != BASE
     }
+    if source.tree is None:
+        joints = {robot.frames[name].joint: row for row, name in moved.items()}
+        return Placement(links, joints, ())
+    row_of = {name: row for row, name in moved.items()}
+    joints = {j.name: row_of[j.child] for j in source.tree.joints if j.child in row_of}
+    _check_ties(source, source.tree, robot, joints)
+    return Placement(links, joints, tuple(_gravity_told(source, source.tree, robot, on)))
 
 
-def joint_rows(source: Source, robot: Robot) -> dict[str, str]:
-    """Row by the name of the joint in the file."""
-    if robot.frames:
-        return {frame.joint: frame.row for frame in robot.frames.values() if frame.joint}
-    names = (
-        [link.joint.name for link in moving_links(source.tree) if link.joint] if source.tree else []
-    )
-    return dict(zip(names, _rows(robot), strict=False))
+def _check_ties(source: Source, tree: BodyTree, robot: Robot, joints: Mapping[str, str]) -> None:
+    """Joints follow each other as in [relations], those that motors couple aside."""
+    rng = np.random.default_rng(0)
+    values = variables(robot, {joint.name: rng.uniform(-1.0, 1.0) for joint in robot.moving})
+    of_motors = {f"q{motor}" for motor in robot.motors}
+    for joint in tree.joints:
+        row, leader = joints.get(joint.name), joints.get(joint.leader)
+        relation = robot.relations.get(row or "")
+        if row is None or (relation is not None and relation.names & of_motors):
+            continue
+        if leader and relation is None:
+            what = f"follows {joint.leader} there, and is free"
+        elif relation is not None and not joint.leader:
+            what = "is free there, and follows"
+        elif (
+            leader
+            and abs(joint.ratio * values[f"q{leader}"] + joint.offset - values[f"q{row}"]) > _SAME
+        ):
+            what = f"follows {joint.leader} otherwise"
+        else:
+            continue
+        raise _differs(source, robot, f"joint {joint.name} {what} in the robot (row {row})")
+
+
+def _gravity_told(
+    source: Source, tree: BodyTree, robot: Robot, on: Mapping[str, tuple[str, Pose]]
+) -> Iterator[str]:
+    """Tells of another gravity in the file, in the frame 0 of the robot."""
+    at = {tree.root: Pose()}
+    for joint in tree.joints:
+        at[joint.child] = at[joint.parent] @ joint.at(0.0)
+    base = next((name for name, (row, _) in on.items() if row == BASE and name in at), None)
+    if base is None:
+        return
+    here = gravity_of(robot)
+    there = on[base][1].rotation @ at[base].rotation.T @ tree.gravity + 0.0
+    if source.format == "urdf":  # which states none, and is stood upright
+        there *= np.linalg.norm(here) / np.linalg.norm(there)
+    if np.abs(there - here).max() > SAME_GRAVITY * np.abs([there, here]).max():
+        one, other = (", ".join(f"{x:.4g}" for x in g) for g in (there, here))
+        yield (
+            f"gravity is [{one}] m/s2 in {source.path.name} and [{other}] in the robot, in frame "
+            "0: torques differ; mend the one that is wrong (of URDF the robot's, or how it stands)"
+        )
 
 
 def _rows(robot: Robot) -> list[str]:
@@ -238,7 +304,7 @@ def _check_tree(
                 continue
             row, own = on[joint.child]
             frame = robot.frames[joint.child]
-            if joint.kind is not JointKind.FIXED and frame.joint != joint.name:
+            if joint.kind is not JointKind.FIXED and not frame.joint:
                 continue  # one that was locked
             (before, there) = on[joint.parent]
             ours = (at[before] @ there).inverse() @ at[row] @ own
