@@ -27,6 +27,9 @@ from modeler.exports.original import TENSOR
 from modeler.exports.result import numbers
 from modeler.robot import Joint, JointKind, Pose, Robot, linear_form, roll_pitch_yaw, turned
 
+LEAST = 1e-14
+"""kg m2: MuJoCo takes no smaller moment of inertia (its mjEPS of full inertias)."""
+
 _TINY = 1e-9  # of all mass: a link that has none, which MuJoCo and SDF refuse
 _EFFORT = 1e3  # N m, N: of a file that must state one
 _FAR = 1e3  # m, of a prismatic joint without limits, where it must have some
@@ -131,8 +134,9 @@ def _parts(
         body = None if ten is None else written(ten)
         if body is None and row.moves:
             light.append(names.links[row.name])
-            size = drawn[row.name][0].radius ** 2
-            body = _TINY * heavy * np.array([1.0, 0, 0, 0, size, 0, 0, size, 0, size])
+            moment = heavy * drawn[row.name][0].radius ** 2
+            moment = float(np.clip(2.0 * LEAST, _TINY * moment, 1e3 * _TINY * moment))
+            body = np.array([_TINY * heavy, 0, 0, 0, moment, 0, 0, moment, 0, moment])
         relation = robot.relations.get(row.name)
         form = None if relation is None else linear_form(relation, symbols)
         leaders = {} if form is None else dict(form.coefficients)

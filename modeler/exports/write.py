@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.exports.bodies import Original, Physics, physics_of, written
-from modeler.exports.fresh import Names, fresh
+from modeler.exports.fresh import LEAST, Names, fresh
 from modeler.exports.held import Torques, not_held
 from modeler.exports.like import rewritten
 from modeler.exports.original import original_of, placed, source_of
@@ -26,8 +26,6 @@ from modeler.robot import Robot, robot_from_text
 
 ENDINGS = {".urdf": "urdf", ".xml": "mjcf", ".mjcf": "mjcf", ".sdf": "sdf"}
 """Formats by the ending of a file."""
-
-_MUJOCO = 1e-14  # kg m2: of full inertias, its mjEPS
 
 
 def format_of(to: str | None, like: str, out: str) -> str:
@@ -119,10 +117,10 @@ def _too_small(values: Iterable[Value], to: str) -> Iterator[str]:
     small = [
         name
         for name, (*_, xx, xy, xz, yy, yz, zz) in bodies.items()
-        if 0.0 < np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])[0] < _MUJOCO
+        if 0.0 < np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])[0] < LEAST
     ]
     if small and to != "sdf":
         yield (
             f"{', '.join(small)}: too small for MuJoCo, which takes no moment of inertia below "
-            f"{_MUJOCO:g} kg m2"
+            f"{LEAST:g} kg m2"
         )
