@@ -22,6 +22,13 @@ def run_export(args: argparse.Namespace) -> Json:
     changed = found.table("changed")
     if found.like and len(changed):
         same = len(found.values) - len(changed)
-        say_lines(["", *changed.text().splitlines()[1:], f"{same} did not change", ""])
+        say_lines(
+            [
+                "",
+                *changed.text().splitlines()[1:],
+                f"{same} others are as they were, in these digits",
+                "",
+            ]
+        )
     say_lines(lines, "* ")
     return {**found.to_dict(), "out": str(args.out)}

@@ -29,7 +29,7 @@ _DRIVE_UNITS = {
     "damping": ("N m s/rad", "N s/m"), "friction": ("N m", "N"), "armature": ("kg m2", "kg"),
     "stiffness": ("N m/rad", "N/m"),
 }  # fmt: skip
-_SAME = 1e-12  # of the size of its kind: what is nearer has not changed
+_SAME = 1e-9  # of the size of its kind: what is nearer has not changed
 
 
 @dataclass(frozen=True)
@@ -157,8 +157,7 @@ def with_comment(data: bytes, found: Exported) -> bytes:
     """The file with what it holds as one comment at its head, in place of an earlier one."""
     data = _OURS.sub(b"", data, count=1)
     lines = [f"{found.robot}: value, was, standard deviation"]
-    shown = [value for value in found.values if value.changed or not found.like]
-    lines += [_line(value) for value in shown]
+    lines += [_line(value) for value in found.values if _told(value) or not found.like]
     lines += [f"not held by {found.format.upper()}: {lost.line}" for lost in found.not_held]
     lines += found.notes
     text = "\n  ".join(lines).replace("--", "- -")
@@ -168,6 +167,11 @@ def with_comment(data: bytes, found: Exported) -> bytes:
     comment = (_HEAD + text.encode() + b"\n-->\n").replace(b"\n", end)
     broken = b"" if not at or data[at - 1 : at] == b"\n" or data[:at] == b"\xef\xbb\xbf" else end
     return data[:at] + broken + comment + data[at:]
+
+
+def _told(value: Value) -> bool:
+    """Whether a number differs in the digits that are shown."""
+    return value.changed and (value.was is None or f"{value.was:.6g}" != f"{value.now:.6g}")
 
 
 def _line(value: Value) -> str:
@@ -204,7 +208,7 @@ def _lost_table(found: Exported) -> Table:
 present({
     Exported: Presentation("a file for another program", _summary, lambda found: {
         "values": lambda: _values_table(found, found.values),
-        "changed": lambda: _values_table(found, (v for v in found.values if v.changed)),
+        "changed": lambda: _values_table(found, filter(_told, found.values)),
         "not held": lambda: _lost_table(found),
     }, page=("values", "not held")),
 })  # fmt: skip
