@@ -145,11 +145,7 @@ class _Edits:
         ten = physics.ten(row)
         if ten is None or (physics.fit is None and row not in physics.stated):
             return
-        tens = {
-            name: carried(about_origin(body), pose)
-            for name, pose in own.poses.items()
-            if (body := self.source.links[name]) is not None
-        }
+        tens = own.tens
         others = ", ".join(name for name in tens if name != own.carrier)
         whole = np.sum([np.zeros(10), *tens.values()], axis=0)
         if _alike(ten, whole):

@@ -77,7 +77,7 @@ def exported(
                 f"--like {like}: is {source.format.upper()}, and --to says {to}; leave out one"
             )
         to, there = source.format, placed(source, robot)
-        physics, notes = physics_of(thing, original_of(source, there.links)), list(there.notes)
+        physics, notes = physics_of(thing, original_of(there.links)), list(there.notes)
         data, values = rewritten(physics, source, there, notes)
     notes = [*physics.notes, *notes, *_too_small(values, to)]
     lost = not_held(physics, to, torques)

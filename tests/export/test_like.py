@@ -123,7 +123,7 @@ def test_a_table_without_frames_is_matched_by_its_geometry(tmp_path) -> None:
     robot = dataclasses.replace(changed(read_robot(place), np.random.default_rng()), frames={})
     assert same_physics(robot, reread(tmp_path, "again.urdf", export(robot, like=place).data))
     longer = written(tmp_path, "longer.urdf", URDF.replace(b"0.05 0 0.3", b"0.05 0 0.4"))
-    with pytest.raises(DataError, match="joint elbow moves otherwise than row 2"):
+    with pytest.raises(DataError, match="link fore is placed otherwise on upper"):
         export(robot, like=longer)
 
 
