@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -226,31 +226,42 @@ def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
         DataError: a robot without values; nothing near the values could be built.
     """
     if isinstance(thing, Robot):
-        return _of_robot(thing, original)
-    robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
-    machine, fit = machine_of(thing.spec), thing.fit
-    beta, C = fit.beta, fit.covariance
+        robot, fit, (machine, beta) = thing, None, _of_values(thing, bool(original.whole))
+        C = np.zeros((len(beta), len(beta)))
+    else:
+        robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
+        machine, beta, C = machine_of(thing.spec), thing.fit.beta, thing.fit.covariance
+        fit = beta, C
     before, stated, notes = beforehand(machine, robot, original, beta, C)
-    found = conditioned(machine.K, before, beta, C)
-    if fit.standard:
-        chi = np.array(
-            [fit.standard.get(n, x) for n, x in zip(machine.names, found.chi, strict=True)]
-        )
-        found = dataclasses.replace(found, chi=chi)
-    aside = [p.name for p in fit.parameters if p.sigma is None]
-    if aside:
-        notes.append(
-            f"the fit set {', '.join(aside)} aside, at 0: other motion, or a prior "
-            "([parameters.uncertainty]), would tell more"
-        )
-    settled, released, more = _settled(robot, machine, before, found, (beta, C), original)
-    return Physics(
-        robot, machine, settled, stated, values_of(robot), (beta, C), released, (*notes, *more)
+    found, released, values = (
+        conditioned(machine.K, before, beta, C),
+        frozenset[str](),
+        values_of(robot),
     )
+    if not isinstance(thing, Robot):
+        if standard := thing.fit.standard:
+            chi = [standard.get(name, x) for name, x in zip(machine.names, found.chi, strict=True)]
+            found = dataclasses.replace(found, chi=np.array(chi))
+        if aside := [p.name for p in thing.fit.parameters if p.sigma is None]:
+            notes.append(
+                f"the fit set {', '.join(aside)} aside, at 0: other motion, or a prior "
+                "([parameters.uncertainty]), would tell more"
+            )
+    if fit or not original.whole:  # what a file states stays as it is, whatever it is
+        found, released, more = _settled(robot, machine, before, found, (beta, C), original)
+        notes += more
+    else:
+        notes = []
+    return Physics(robot, machine, found, stated, values, fit, released, tuple(notes))
 
 
-def _of_robot(robot: Robot, original: Original) -> Physics:
-    """The stated values as they are, what is not stated beside them."""
+def _of_values(robot: Robot, with_bodies: bool) -> tuple[Machine, np.ndarray]:
+    """The stated values as base parameters, what is not stated beside them.
+
+    Args:
+        robot: with values.
+        with_bodies: a file states these.
+    """
     values = values_of(robot)
     links = [joint.name for joint in robot.moving if robot.inertial(joint.name)]
     effects = [(row.name, e) for row in robot.moving for e in robot.effects_on(row.name)]
@@ -259,7 +270,7 @@ def _of_robot(robot: Robot, original: Original) -> Physics:
     names = [f"{prefix}{link}" for link in links for prefix in PREFIXES]
     names += [name for name in own if name in values]
     heavy = any(f"M{link}" in values or f"ZZ{link}" in values for link in links)
-    if not heavy and not (original.whole and any(name in values for name in own)):
+    if not heavy and not (with_bodies and any(name in values for name in own)):
         raise DataError(
             f"{robot.name}: a robot without values; write [parameters] into its file, or export a "
             "model of `modeler fit`"
@@ -270,13 +281,7 @@ def _of_robot(robot: Robot, original: Original) -> Physics:
     tens = {link: np.array([place[f"{p}{link}"] for p in PREFIXES]) for link in links}
     loss = {n for row in robot.moving for n, q in _held_names(robot, row.name) if q != "stiffness"}
     machine = Machine(tuple(names), K, tens, {n: place[n] for n in names if n in loss})
-    beta, C = np.array([values[name] for name in given]), np.zeros((len(given),) * 2)
-    before, stated, notes = beforehand(machine, robot, original, beta, C)
-    found = conditioned(K, before, beta, C)
-    if original.whole:  # what the original states stays as it is, whatever it is
-        return Physics(robot, machine, found, stated, values)
-    settled, released, more = _settled(robot, machine, before, found, (beta, C), original)
-    return Physics(robot, machine, settled, stated, values, None, released, (*notes, *more))
+    return machine, np.array([values[name] for name in given])
 
 
 def values_of(robot: Robot) -> dict[str, float]:
@@ -376,15 +381,15 @@ def _settled(
     beta, C = fit
     size = {link: _round(before.mean[own]) for link, own in machine.links.items()}
     first = impossible(machine, found.chi, size, {link: np.zeros(10) for link in machine.links})
-    notes = []
-    nearest = _Nearest(machine, before, found, beta, C, size)
-    whole, stated = nearest({}), C
-    for loose in _LOOSE:  # values that are stated of no body
-        if whole is None:
+    notes, stated = [], C
+    for loose in (0.0, *_LOOSE):  # values that are stated of no body
+        if loose:
             C = stated + loose**2 * machine.K @ before.S @ machine.K.T
             found = conditioned(machine.K, before, beta, C)
-            nearest = _Nearest(machine, before, found, beta, C, size)
-            whole = nearest({})
+        nearest = partial(_nearest, machine, before, found, beta, C, size)
+        whole = nearest({})
+        if whole is not None:
+            break
     if whole is None:
         raise DataError(
             f"{robot.name}: nothing near these values could be built, because of "
@@ -413,29 +418,25 @@ def _settled(
     return nearest(rest) or whole, frozenset(tight), notes
 
 
-@dataclass(frozen=True, eq=False)
-class _Nearest:
+def _nearest(
+    machine: Machine,
+    before: Beforehand,
+    found: Completed,
+    beta: np.ndarray,
+    C: np.ndarray,
+    size: Mapping[str, np.ndarray],
+    hung: Mapping[str, np.ndarray],
+) -> Completed | None:
     """The nearest that can be built; with base parameters as they are, if it is hardly farther."""
-
-    machine: Machine
-    before: Beforehand
-    found: Completed
-    beta: np.ndarray
-    C: np.ndarray
-    size: Mapping[str, np.ndarray]
-
-    def __call__(self, hung: Mapping[str, np.ndarray]) -> Completed | None:
-        """With what hangs on the links."""
-        rest = (self.beta, self.C, self.size, hung)
-        best = buildable(self.machine, self.found, *rest)
-        if best is None or not best.moved:
-            return best
-        exact = conditioned(self.machine.K, self.before, self.beta, 0.0 * self.C)
-        exact = dataclasses.replace(exact, chi=self.found.chi)
-        other = buildable(self.machine, exact, *rest)
-        if other is None or other.far > best.far + 1.0:
-            return best
-        return dataclasses.replace(other, root=best.root, moved=0.0)
+    best = buildable(machine, found, beta, C, size, hung)
+    if best is None or not best.moved:
+        return best
+    exact = conditioned(machine.K, before, beta, 0.0 * C)
+    exact = dataclasses.replace(exact, chi=found.chi)
+    other = buildable(machine, exact, beta, C, size, hung)
+    if other is None or other.far > best.far + 1.0:
+        return best
+    return dataclasses.replace(other, root=best.root, moved=0.0)
 
 
 def _round(ten: np.ndarray) -> np.ndarray:

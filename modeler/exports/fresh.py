@@ -14,15 +14,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.exports.bodies import Physics, rest_of, written
 from modeler.exports.capsules import Capsule, capsules
-from modeler.exports.linkage import (
-    BASE,
-    closed,
-    gravity_of,
-    row_pose,
-    sense,
-    to_quaternion,
-    variables,
-)
+from modeler.exports.linkage import BASE, closed, gravity_of, row_pose, sense, variables
 from modeler.exports.original import TENSOR
 from modeler.exports.result import numbers
 from modeler.robot import Joint, JointKind, Pose, Robot, linear_form, roll_pitch_yaw, turned
@@ -267,7 +259,7 @@ def _mjcf(physics: Physics, parts: list[Part], names: Names) -> ET.Element:
     bodies, zero = {names.links[BASE]: base}, {part.joint: part.zero for part in parts}
     equality, tendons, motors = (ET.Element(x) for x in ("equality", "tendon", "actuator"))
     for part in parts:
-        place = {"pos": part.pose.position, "quat": to_quaternion(part.pose.rotation)}
+        place = {"pos": part.pose.position, "euler": np.array(roll_pitch_yaw(part.pose.rotation))}
         bodies[part.link] = body = _node("body", name=part.link, **place)
         bodies[part.parent].append(body)
         if not part.row.moves:
@@ -301,7 +293,7 @@ def _mjcf(physics: Physics, parts: list[Part], names: Names) -> ET.Element:
             equality.append(_node("connect", anchor=np.array([0.0, 0.0, z]), **ends))
     further = [element for element in (tendons, equality, motors) if len(element)]
     option = _node("option", gravity=gravity_of(physics.robot))
-    head = _node("compiler", angle="radian"), option, _node("worldbody", base)
+    head = _node("compiler", angle="radian", eulerseq="XYZ"), option, _node("worldbody", base)
     return _node("mujoco", *head, *further, model=robot.name)
 
 
