@@ -168,14 +168,17 @@ def written(ten: np.ndarray, axes: np.ndarray | None = None) -> np.ndarray:
     """
     mass = ten[9]
     centre = ten[6:9] / mass if mass else 0.0 * ten[6:9]
-    XX, XY, XZ, YY, YZ, ZZ = ten[:6]
-    tensor = np.array([[XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ]])
-    about = tensor - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
+    about = symmetric(ten[:6]) - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
     if axes is not None:
         about = axes.T @ about @ axes
     found = np.concatenate([[mass], centre, about[np.triu_indices(3)]])
     nothing = np.abs(found) <= _ROUNDING * sizes(found)  # what differences leave of 0
     return found - np.where(nothing, found.real, 0.0)
+
+
+def symmetric(six: np.ndarray) -> np.ndarray:
+    """(3, 3) of XX XY XZ YY YZ ZZ."""
+    return np.asarray(six[[[0, 1, 2], [1, 3, 4], [2, 4, 5]]])
 
 
 def sizes(body: np.ndarray) -> np.ndarray:
@@ -219,17 +222,24 @@ class Original:
     hung: Mapping[str, np.ndarray] = field(default_factory=dict)
 
 
+def robot_of(thing: Robot | IdentifiedModel) -> Robot:
+    """The robot, or that of the model."""
+    if isinstance(thing, Robot):
+        return thing
+    return robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
+
+
 def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
     """The numbers of a robot, or of a model.
 
     Raises:
         DataError: a robot without values; nothing near the values could be built.
     """
+    robot = robot_of(thing)
     if isinstance(thing, Robot):
-        robot, fit, (machine, beta) = thing, None, _of_values(thing, bool(original.whole))
+        fit, (machine, beta) = None, _of_values(thing, bool(original.whole))
         C = np.zeros((len(beta), len(beta)))
     else:
-        robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
         machine, beta, C = machine_of(thing.spec), thing.fit.beta, thing.fit.covariance
         fit = beta, C
     before, stated, notes = beforehand(machine, robot, original, beta, C)

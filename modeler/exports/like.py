@@ -265,20 +265,17 @@ def _of_motors(root: Element) -> bool:
 def _check_mjcf(source: Source) -> None:
     """Refuse files of which MuJoCo changes the numbers that they state."""
     for element in source.root.walk():
-        if "springdamper" in element.attributes:
-            raise DataError(
-                f"--like {source.path}: line {element.line}: springdamper makes damping of masses; "
-                "write stiffness and damping instead"
+        stated = element.attributes
+        wrong = [f"{key} changes the masses that are stated; take it out"
+                 for key in _RESCALED if float(stated.get(key, "0")) > 0.0]  # fmt: skip
+        if stated.get("inertiafromgeom") == "true":
+            wrong.append('inertiafromgeom="true" takes all masses from geoms; write "auto" there')
+        if "springdamper" in stated:
+            wrong.append(
+                "springdamper makes damping of masses; write stiffness and damping instead"
             )
-    for compiler in (element for element in source.root.walk() if element.tag == "compiler"):
-        where = f"--like {source.path}: line {compiler.line}"
-        if compiler.attributes.get("inertiafromgeom") == "true":
-            raise DataError(
-                f'{where}: inertiafromgeom="true" takes all masses from geoms; write "auto" there'
-            )
-        for key in _RESCALED:
-            if float(compiler.attributes.get(key, "0")) > 0.0:
-                raise DataError(f"{where}: {key} changes the masses that are stated; take it out")
+        if wrong:
+            raise DataError(f"--like {source.path}: line {element.line}: {wrong[0]}")
 
 
 def _alike(one: np.ndarray, other: np.ndarray) -> bool:

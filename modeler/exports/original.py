@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.estimation import parameters_of, pseudo_inertia_of
-from modeler.exports.bodies import Original, carried
+from modeler.exports.bodies import Original, carried, symmetric
 from modeler.exports.linkage import (
     BASE,
     SAME_GRAVITY,
@@ -139,12 +139,9 @@ def _sdf_links(root: Element) -> dict[str, Inertial | None]:
     for link in (element for element in root.walk() if element.tag == "link"):
         texts = [text_at(link, f"inertial/inertia/{key}") for key in TENSOR]
         numbers = [float(t or (k[1] == k[2])) for t, k in zip(texts, TENSOR, strict=True)]
-        inertial, tensor = first(link, "inertial"), np.zeros((3, 3))
-        tensor[np.triu_indices(3)] = numbers
-        body = None
+        body, inertial = None, first(link, "inertial")
         if inertial is not None:
-            mass = float(text_at(inertial, "mass") or 1.0)
-            tensor = tensor + np.triu(tensor, 1).T
+            mass, tensor = float(text_at(inertial, "mass") or 1.0), symmetric(np.array(numbers))
             body = Inertial(mass, np.zeros(3), tensor).seen_from(_sdf_pose(inertial))
         found[link.attributes.get("name", "")] = body
     return found

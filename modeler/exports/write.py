@@ -8,21 +8,13 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
-from modeler.exports.bodies import Original, Physics, physics_of, written
+from modeler.exports.bodies import Original, Physics, physics_of, robot_of, symmetric, written
 from modeler.exports.fresh import LEAST, Names, fresh
 from modeler.exports.held import Torques, not_held
 from modeler.exports.like import rewritten
-from modeler.exports.original import original_of, placed, source_of
-from modeler.exports.result import (
-    QUANTITIES,
-    Exported,
-    Value,
-    body_values,
-    drive_values,
-    sigmas,
-    with_comment,
-)
-from modeler.robot import Robot, robot_from_text
+from modeler.exports.original import TENSOR, original_of, placed, source_of
+from modeler.exports.result import Exported, Value, body_values, drive_values, sigmas, with_comment
+from modeler.robot import Robot
 
 ENDINGS = {".urdf": "urdf", ".xml": "mjcf", ".mjcf": "mjcf", ".sdf": "sdf"}
 """Formats by the ending of a file."""
@@ -63,10 +55,7 @@ def exported(
         DataError: no values, another robot, or what the format cannot state.
         RobotError: a mistake in the original.
     """
-    robot = thing
-    if isinstance(thing, IdentifiedModel):
-        robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
-    assert isinstance(robot, Robot)
+    robot = robot_of(thing)
     if like is None:
         physics, notes = physics_of(thing, Original()), list[str]()
         data, values = fresh(physics, to, notes), list(_values(physics, to))
@@ -112,13 +101,10 @@ def _too_small(values: Iterable[Value], to: str) -> Iterator[str]:
     """Tells of bodies that MuJoCo refuses."""
     bodies: dict[str, list[float]] = {}
     for value in values:
-        if value.quantity in QUANTITIES:
+        if value.quantity in TENSOR:
             bodies.setdefault(value.part, []).append(value.now)
-    small = [
-        name
-        for name, (*_, xx, xy, xz, yy, yz, zz) in bodies.items()
-        if 0.0 < np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])[0] < LEAST
-    ]
+    small = [name for name, six in bodies.items()
+             if 0.0 < np.linalg.eigvalsh(symmetric(np.array(six)))[0] < LEAST]  # fmt: skip
     if small and to != "sdf":
         yield (
             f"{', '.join(small)}: too small for MuJoCo, which takes no moment of inertia below "
