@@ -173,7 +173,8 @@ class _Edits:
             yield from body_values(name, before, fresh, sigma)
 
     def _body(self, link: Element, new: np.ndarray, was: np.ndarray | None) -> None:
-        other = np.full(10, True) if was is None else new != was
+        bare = was is None or first(link, "inertial") is None
+        other = np.full(10, True) if bare else new != was
         if not self.checked:
             _check_mjcf(self.source)
             self.checked = True

@@ -8,6 +8,7 @@ import pytest
 from modeler.api import export
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError, RobotError
+from modeler.estimation import PREFIXES
 from modeler.robot import convert, read_robot, robot_from_text, with_gravity
 from tests.export.arms import (
     MJCF,
@@ -99,6 +100,18 @@ def test_mjcf_writes_what_defaults_and_geoms_said(tmp_path) -> None:
         line = next(x for x in text.splitlines() if f'joint name="{name}"' in x)
         assert "damping=" in line and "armature=" in line
     assert '<default class="stiff"><joint damping="2" frictionloss="0.3"/></default>' in text
+
+
+def test_a_body_of_geoms_gets_all_that_an_inertial_must_have(tmp_path) -> None:
+    """Its mass changes, its centre does not."""
+    start = MJCF.index(b'<inertial pos="0.01 0 0.15"')
+    text = MJCF[:start] + MJCF[MJCF.index(b"/>", start) + 2 :]
+    place = written(tmp_path, "arm.xml", text)
+    robot = read_robot(place)
+    heavy = {f"{prefix}1": 1.1 * robot.parameters[f"{prefix}1"] for prefix in PREFIXES}
+    robot = dataclasses.replace(robot, parameters=robot.parameters | heavy)
+    again = reread(tmp_path, "again.xml", export(robot, like=place).data)
+    assert again.parameters["M1"] == pytest.approx(heavy["M1"]) and same_physics(robot, again)
 
 
 def test_sdf_is_matched_by_its_links(tmp_path) -> None:
