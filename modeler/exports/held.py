@@ -61,12 +61,12 @@ def not_held(physics: Physics, to: str, torques: Torques | None = None) -> tuple
         to: the format.
         torques: of the logs of the fit, if they are there.
     """
-    robot, kept, found = physics.robot, set[str](), list[NotHeld]()
+    robot, found = physics.robot, list[NotHeld]()
     g = float(np.linalg.norm(gravity_of(robot)))
     if to != "mjcf" and abs(g - _USUAL) > SAME_GRAVITY * _USUAL:
         found.append(NotHeld("size of gravity", "", {"g": g}))
-    for joint in robot.moving:
-        kept |= {name for terms in physics.drive(joint.name, to).values() for name in terms}
+    kept = {name for joint in robot.moving
+            for terms in physics.drive(joint.name, to).values() for name in terms}  # fmt: skip
     for joint in robot.moving:
         for effect, form, instance in robot.effects_on(joint.name):
             names = [f"{column.prefix}{joint.name}{instance.label}" for column in form.columns]

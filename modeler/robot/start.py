@@ -70,7 +70,7 @@ def convert(
     """The robot of a URDF, MJCF or SYMORO file; written as a robot file if `out` says where.
 
     >>> exported = export(model, "arm.urdf")
-    >>> convert("arm.urdf", "arm.toml").moving[1].name
+    >>> convert("arm.urdf", "read.toml").moving[1].name
     '2'
 
     Args:
