@@ -118,7 +118,7 @@ def _parts(
         values |= {joint.variable: 0.0 for joint in robot.moving}
     symbols, drawn = robot.symbol_values(), capsules(robot, at)
     heavy = sum(float(t[9]) for j in robot.moving if (t := physics.ten(j.name)) is not None)
-    found = []
+    found, moment = [], LEAST
     for row in robot.joints:
         if row.name in robot.motors:
             continue
@@ -152,9 +152,11 @@ def _parts(
             )
         )  # fmt: skip
     if light:
+        who = "SDF refuses" if moment < LEAST else "MuJoCo and SDF refuse"
+        still = "; it is too small for MuJoCo" if moment < LEAST else ""
         notes.append(
-            f"{', '.join(light)}: no body, and {_TINY:g} of the mass of all is written, for MuJoCo "
-            "and SDF refuse a moving link without mass"
+            f"{', '.join(light)}: no body, and {_TINY:g} of the mass of all is written, for {who} "
+            f"a moving link without mass{still}"
         )
     return found
 

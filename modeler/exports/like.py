@@ -162,12 +162,12 @@ class _Edits:
             axes = inertial_axes(self.source, self.elements.get(("link", name)))
             before = None if was is None else written(about_origin(was), axes)
             fresh = kept(written(carried(new, pose.inverse()), axes), before)
-            if before is None or not _alike(new, tens[name]):
+            if before is not None and now is tens:
+                fresh = before
+            if before is None or np.any(fresh != before):
                 self._body(self._element("link", name), fresh, before)
             elif name != own.carrier:
                 continue
-            else:
-                fresh = before
             in_part = row in physics.released  # only of the link
             sigma = None if in_part else sigmas(physics, row, pose, ten - new, axes)
             yield from body_values(name, before, fresh, sigma)

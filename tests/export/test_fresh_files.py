@@ -256,6 +256,15 @@ def test_a_moving_link_without_mass_is_told_and_taken_by_mujoco(tmp_path) -> Non
         assert same_physics(rigid(robot), rigid(again), 1e-6)
 
 
+def test_links_without_mass_of_a_robot_too_small_for_mujoco_are_told(tmp_path) -> None:
+    small = reread(tmp_path, "arm.xml", MJCF)
+    values = {name: 1e-9 * value for name, value in small.parameters.items()}
+    found = export(dataclasses.replace(small, parameters=values), to="urdf")
+    assert any(n.startswith("link_2") and "too small for MuJoCo" in n for n in found.notes)
+    with pytest.raises(ValueError, match="inertia"):
+        mujoco.MjModel.from_xml_string(found.data.decode())
+
+
 def rigid(robot: Robot) -> Robot:
     """Bodies alone."""
     return dataclasses.replace(robot, effects=(), parameters={
