@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from modeler.api.workflow import observe, recompile
-from modeler.core.errors import DataError, ModelerError
-from modeler.core.files import Kind, destination, write_atomically
+from modeler.core.errors import DataError
+from modeler.core.files import write_unless_other
 from modeler.derivation import with_home
 from modeler.estimation import IdentifiedModel
 from modeler.exports import Exported, Torques, exported, format_of
@@ -44,18 +44,8 @@ def export(
     torques = _torques(thing) if isinstance(thing, IdentifiedModel) else None
     found = exported(thing, kind, None if like is None else Path(like), torques)
     if out is not None:
-        _write(Path(out), found.data, force)
+        write_unless_other(Path(out), found.data, force)
     return found
-
-
-def _write(out: Path, data: bytes, force: bool) -> None:
-    there = destination(out).kind is Kind.FILE
-    if not force and there and out.read_bytes() != data:
-        raise ModelerError(
-            f"--out {out}: there is such a file with another content; choose another name, or "
-            "write over it with --force"
-        )
-    write_atomically(out, data)
 
 
 def _torques(model: IdentifiedModel) -> Torques | None:

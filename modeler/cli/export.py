@@ -19,8 +19,16 @@ def run_export(args: argparse.Namespace) -> Json:
         found = export(thing, args.out, args.to, args.like, args.force)
     first, *lines = found.summary().splitlines()
     say(f"{first}, written to {args.out}")
-    changed = [value for value in found.values if value.changed]
-    if found.like and changed:
-        say_lines(["", *found.table().text().splitlines()[1:], ""])
+    changed = found.table("changed")
+    if found.like and len(changed):
+        same = len(found.values) - len(changed)
+        say_lines(
+            [
+                "",
+                *changed.text().splitlines()[1:],
+                f"{same} others are as they were, in these digits",
+                "",
+            ]
+        )
     say_lines(lines, "* ")
     return {**found.to_dict(), "out": str(args.out)}

@@ -203,6 +203,23 @@ def write_atomically(path: Path, content: bytes | str) -> None:
     write_together([(path, content)])
 
 
+def write_unless_other(path: Path, content: bytes | str, force: bool) -> None:
+    """The same, but over a file with another content only if told to.
+
+    Raises:
+        DataError: there is such a file.
+        ModelerError, BrokenPipeError: as above.
+    """
+    data = content.encode() if isinstance(content, str) else content
+    there = destination(path).kind is Kind.FILE
+    if not force and there and path.read_bytes() != data:
+        raise DataError(
+            f"{path}: there is such a file with another content; choose another name, or write "
+            "over it with --force (force=True)"
+        )
+    write_atomically(path, data)
+
+
 def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Path] = ()) -> None:
     """The same of several files, in their order: an interrupt leaves all as it was, or all new.
 

@@ -3,7 +3,7 @@
 import dataclasses
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -27,6 +27,7 @@ SHARE = 0.3
 _UNKNOWN = 1.0  # the same of a capsule
 _WIDE = 100.0  # how sure a value is of which nothing is known, over what the torques allow
 _LOOSE = (1e-2, 0.1, 1.0)  # of what is known beforehand: by how much values of no body may move
+_ROUNDING = 1e-15  # of the size of a number
 _DENSITIES = (1e-3, 1e3)  # what a fit may say of a capsule's
 
 HELD = {
@@ -167,15 +168,29 @@ def written(ten: np.ndarray, axes: np.ndarray | None = None) -> np.ndarray:
     """
     mass = ten[9]
     centre = ten[6:9] / mass if mass else 0.0 * ten[6:9]
-    XX, XY, XZ, YY, YZ, ZZ = ten[:6]
-    tensor = np.array([[XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ]])
-    about = tensor - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
+    about = symmetric(ten[:6]) - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
     if axes is not None:
         about = axes.T @ about @ axes
     found = np.concatenate([[mass], centre, about[np.triu_indices(3)]])
-    for own in (found[1:4], found[4:]):  # what differences leave of 0
-        own[np.abs(own) < 1e-15 * np.abs(own).max()] = 0.0
-    return found
+    nothing = np.abs(found) <= _ROUNDING * sizes(found)  # what differences leave of 0
+    return found - np.where(nothing, found.real, 0.0)
+
+
+def symmetric(six: np.ndarray) -> np.ndarray:
+    """(3, 3) of XX XY XZ YY YZ ZZ."""
+    return np.asarray(six[[[0, 1, 2], [1, 3, 4], [2, 4, 5]]])
+
+
+def sizes(body: np.ndarray) -> np.ndarray:
+    """(10,) how large the numbers of a body are, as `written`: those of a kind are alike.
+
+    Of the centre its distance and the radius of gyration count, of the inertia that about the
+    origin: these are what differences are taken of.
+    """
+    mass, far, about = abs(body[0]), np.abs(body[1:4]).max(), np.abs(body[4:]).max()
+    inertia = about + mass * far**2
+    radius = (inertia / mass) ** 0.5 if mass else 0.0
+    return np.repeat([mass, radius, inertia], [1, 3, 6])
 
 
 def deviations(
@@ -207,38 +222,56 @@ class Original:
     hung: Mapping[str, np.ndarray] = field(default_factory=dict)
 
 
+def robot_of(thing: Robot | IdentifiedModel) -> Robot:
+    """The robot, or that of the model."""
+    if isinstance(thing, Robot):
+        return thing
+    return robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
+
+
 def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
     """The numbers of a robot, or of a model.
 
     Raises:
         DataError: a robot without values; nothing near the values could be built.
     """
+    robot = robot_of(thing)
     if isinstance(thing, Robot):
-        return _of_robot(thing, original)
-    robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
-    machine, fit = machine_of(thing.spec), thing.fit
-    beta, C = fit.beta, fit.covariance
+        fit, (machine, beta) = None, _of_values(thing, bool(original.whole))
+        C = np.zeros((len(beta), len(beta)))
+    else:
+        machine, beta, C = machine_of(thing.spec), thing.fit.beta, thing.fit.covariance
+        fit = beta, C
     before, stated, notes = beforehand(machine, robot, original, beta, C)
-    found = conditioned(machine.K, before, beta, C)
-    if fit.standard:
-        chi = np.array(
-            [fit.standard.get(n, x) for n, x in zip(machine.names, found.chi, strict=True)]
-        )
-        found = dataclasses.replace(found, chi=chi)
-    aside = [p.name for p in fit.parameters if p.sigma is None]
-    if aside:
-        notes.append(
-            f"the fit set {', '.join(aside)} aside, at 0: other motion, or a prior "
-            "([parameters.uncertainty]), would tell more"
-        )
-    settled, released, more = _settled(robot, machine, before, found, (beta, C), original)
-    return Physics(
-        robot, machine, settled, stated, values_of(robot), (beta, C), released, (*notes, *more)
+    found, released, values = (
+        conditioned(machine.K, before, beta, C),
+        frozenset[str](),
+        values_of(robot),
     )
+    if not isinstance(thing, Robot):
+        if standard := thing.fit.standard:
+            chi = [standard.get(name, x) for name, x in zip(machine.names, found.chi, strict=True)]
+            found = dataclasses.replace(found, chi=np.array(chi))
+        if aside := [p.name for p in thing.fit.parameters if p.sigma is None]:
+            notes.append(
+                f"the fit set {', '.join(aside)} aside, at 0: other motion, or a prior "
+                "([parameters.uncertainty]), would tell more"
+            )
+    if fit or not original.whole:  # what a file states stays as it is, whatever it is
+        found, released, more = _settled(robot, machine, before, found, (beta, C), original)
+        notes += more
+    else:
+        notes = []
+    return Physics(robot, machine, found, stated, values, fit, released, tuple(notes))
 
 
-def _of_robot(robot: Robot, original: Original) -> Physics:
-    """The stated values as they are, what is not stated beside them."""
+def _of_values(robot: Robot, with_bodies: bool) -> tuple[Machine, np.ndarray]:
+    """The stated values as base parameters, what is not stated beside them.
+
+    Args:
+        robot: with values.
+        with_bodies: a file states these.
+    """
     values = values_of(robot)
     links = [joint.name for joint in robot.moving if robot.inertial(joint.name)]
     effects = [(row.name, e) for row in robot.moving for e in robot.effects_on(row.name)]
@@ -247,7 +280,7 @@ def _of_robot(robot: Robot, original: Original) -> Physics:
     names = [f"{prefix}{link}" for link in links for prefix in PREFIXES]
     names += [name for name in own if name in values]
     heavy = any(f"M{link}" in values or f"ZZ{link}" in values for link in links)
-    if not heavy and not (original.whole and any(name in values for name in own)):
+    if not heavy and not (with_bodies and any(name in values for name in own)):
         raise DataError(
             f"{robot.name}: a robot without values; write [parameters] into its file, or export a "
             "model of `modeler fit`"
@@ -258,13 +291,7 @@ def _of_robot(robot: Robot, original: Original) -> Physics:
     tens = {link: np.array([place[f"{p}{link}"] for p in PREFIXES]) for link in links}
     loss = {n for row in robot.moving for n, q in _held_names(robot, row.name) if q != "stiffness"}
     machine = Machine(tuple(names), K, tens, {n: place[n] for n in names if n in loss})
-    beta, C = np.array([values[name] for name in given]), np.zeros((len(given),) * 2)
-    before, stated, notes = beforehand(machine, robot, original, beta, C)
-    found = conditioned(K, before, beta, C)
-    if original.whole:  # what the original states stays as it is, whatever it is
-        return Physics(robot, machine, found, stated, values)
-    settled, released, more = _settled(robot, machine, before, found, (beta, C), original)
-    return Physics(robot, machine, settled, stated, values, None, released, (*notes, *more))
+    return machine, np.array([values[name] for name in given])
 
 
 def values_of(robot: Robot) -> dict[str, float]:
@@ -364,15 +391,15 @@ def _settled(
     beta, C = fit
     size = {link: _round(before.mean[own]) for link, own in machine.links.items()}
     first = impossible(machine, found.chi, size, {link: np.zeros(10) for link in machine.links})
-    notes = []
-    nearest = _Nearest(machine, before, found, beta, C, size)
-    whole, stated = nearest({}), C
-    for loose in _LOOSE:  # values that are stated of no body
-        if whole is None:
+    notes, stated = [], C
+    for loose in (0.0, *_LOOSE):  # values that are stated of no body
+        if loose:
             C = stated + loose**2 * machine.K @ before.S @ machine.K.T
             found = conditioned(machine.K, before, beta, C)
-            nearest = _Nearest(machine, before, found, beta, C, size)
-            whole = nearest({})
+        nearest = partial(_nearest, machine, before, found, beta, C, size)
+        whole = nearest({})
+        if whole is not None:
+            break
     if whole is None:
         raise DataError(
             f"{robot.name}: nothing near these values could be built, because of "
@@ -401,29 +428,25 @@ def _settled(
     return nearest(rest) or whole, frozenset(tight), notes
 
 
-@dataclass(frozen=True, eq=False)
-class _Nearest:
+def _nearest(
+    machine: Machine,
+    before: Beforehand,
+    found: Completed,
+    beta: np.ndarray,
+    C: np.ndarray,
+    size: Mapping[str, np.ndarray],
+    hung: Mapping[str, np.ndarray],
+) -> Completed | None:
     """The nearest that can be built; with base parameters as they are, if it is hardly farther."""
-
-    machine: Machine
-    before: Beforehand
-    found: Completed
-    beta: np.ndarray
-    C: np.ndarray
-    size: Mapping[str, np.ndarray]
-
-    def __call__(self, hung: Mapping[str, np.ndarray]) -> Completed | None:
-        """With what hangs on the links."""
-        rest = (self.beta, self.C, self.size, hung)
-        best = buildable(self.machine, self.found, *rest)
-        if best is None or not best.moved:
-            return best
-        exact = conditioned(self.machine.K, self.before, self.beta, 0.0 * self.C)
-        exact = dataclasses.replace(exact, chi=self.found.chi)
-        other = buildable(self.machine, exact, *rest)
-        if other is None or other.far > best.far + 1.0:
-            return best
-        return dataclasses.replace(other, root=best.root, moved=0.0)
+    best = buildable(machine, found, beta, C, size, hung)
+    if best is None or not best.moved:
+        return best
+    exact = conditioned(machine.K, before, beta, 0.0 * C)
+    exact = dataclasses.replace(exact, chi=found.chi)
+    other = buildable(machine, exact, beta, C, size, hung)
+    if other is None or other.far > best.far + 1.0:
+        return best
+    return dataclasses.replace(other, root=best.root, moved=0.0)
 
 
 def _round(ten: np.ndarray) -> np.ndarray:

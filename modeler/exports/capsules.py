@@ -1,6 +1,6 @@
 """Links as capsules: what is drawn of them, and what they would weigh of plastic or metal."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -55,18 +55,10 @@ def capsules(robot: Robot, q: Mapping[str, float]) -> dict[str, tuple[Capsule, .
     middle = float(np.median(some)) if some else _BARE
     found = {}
     for row in (BASE, *(joint.name for joint in robot.joints)):
-        far = _apart([e for e in ends.get(row, []) if np.linalg.norm(e) > _SHORT * middle], middle)
-        found[row] = tuple(Capsule(end, _THICK * middle) for end in far or [np.zeros(3)])
+        far = {tuple(np.rint(end / (_SHORT * middle))): end for end in ends.get(row, [])}.values()
+        long = [end for end in far if np.linalg.norm(end) > _SHORT * middle]
+        found[row] = tuple(Capsule(end, _THICK * middle) for end in long or [np.zeros(3)])
     return found
-
-
-def _apart(ends: Sequence[np.ndarray], size: float) -> list[np.ndarray]:
-    """Ends that are not at one place."""
-    kept: list[np.ndarray] = []
-    for end in ends:
-        if all(np.linalg.norm(end - other) > _SHORT * size for other in kept):
-            kept.append(end)
-    return kept
 
 
 def weights(robot: Robot, q: Mapping[str, float]) -> dict[str, np.ndarray]:

@@ -14,15 +14,15 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.exports.bodies import Physics, rest_of, written
 from modeler.exports.capsules import Capsule, capsules
-from modeler.exports.linkage import BASE, closed, row_pose, sense, to_quaternion, variables
+from modeler.exports.linkage import BASE, closed, gravity_of, row_pose, sense, variables
 from modeler.exports.original import TENSOR
 from modeler.exports.result import numbers
 from modeler.robot import Joint, JointKind, Pose, Robot, linear_form, roll_pitch_yaw, turned
 
-LINK, JOINT = "link_", "joint_"
-"""Before the name of a row."""
+LEAST = 1e-14
+"""kg m2: MuJoCo takes no smaller moment of inertia (its mjEPS of full inertias)."""
 
-_TINY = 1e-9  # of all mass: a link that has none, where a format asks for some
+_TINY = 1e-9  # of all mass: a link that has none, which MuJoCo and SDF refuse
 _EFFORT = 1e3  # N m, N: of a file that must state one
 _FAR = 1e3  # m, of a prismatic joint without limits, where it must have some
 
@@ -56,8 +56,40 @@ class Part:
     drawn: tuple[Capsule, ...]
 
 
-def fresh(physics: Physics, to: str) -> bytes:
-    """The text of the file.
+@dataclass(frozen=True)
+class Names:
+    """What rows are called, no name being that of two things: SDF and MuJoCo refuse such.
+
+    Attributes:
+        joints: by row: as in the file that the robot came from, where it has them.
+        links: by row, and of the base.
+        upright: the joint that turns the base.
+    """
+
+    joints: dict[str, str]
+    links: dict[str, str]
+    upright: str
+
+    @classmethod
+    def of(cls, robot: Robot) -> "Names":
+        """Of a table."""
+        taken = {"world", *(frame.joint for frame in robot.frames.values())}
+
+        def free(name: str) -> str:
+            while name in taken:
+                name += "_"
+            taken.add(name)
+            return name
+
+        rows = [joint.name for joint in robot.joints]
+        given = {f.row: f.joint for f in robot.frames.values() if f.joint not in ("", "world")}
+        joints = {row: given.get(row) or free(f"joint_{row}") for row in rows}
+        links = {BASE: free("base")} | {row: free(f"link_{row}") for row in rows}
+        return cls(joints, links, free("upright"))
+
+
+def fresh(physics: Physics, to: str, notes: list[str]) -> bytes:
+    """The text of the file; notes grow.
 
     Raises:
         DataError: loops, or couplings of several joints, that the format cannot state.
@@ -70,29 +102,33 @@ def fresh(physics: Physics, to: str) -> bytes:
             "loops in the robot file"
         )
     at = closed(robot) if to == "mjcf" and (robot.loops or robot.relations) else {}
-    parts = _parts(physics, to, at)
-    root = {"urdf": _urdf, "mjcf": _mjcf, "sdf": _sdf}[to](physics, parts)
+    names = Names.of(robot)
+    parts = _parts(physics, to, at, names, notes)
+    root = {"urdf": _urdf, "mjcf": _mjcf, "sdf": _sdf}[to](physics, parts, names)
     ET.indent(root)
     return b'<?xml version="1.0"?>\n' + ET.tostring(root) + b"\n"
 
 
-def _parts(physics: Physics, to: str, at: Mapping[str, float]) -> list[Part]:
-    robot = physics.robot
+def _parts(
+    physics: Physics, to: str, at: Mapping[str, float], names: Names, notes: list[str]
+) -> list[Part]:
+    robot, light = physics.robot, list[str]()
     values = variables(robot, at) | {f"q{row}": q for row, q in at.items()}
     if not at:
         values |= {joint.variable: 0.0 for joint in robot.moving}
     symbols, drawn = robot.symbol_values(), capsules(robot, at)
-    joints = joint_names(robot)
     heavy = sum(float(t[9]) for j in robot.moving if (t := physics.ten(j.name)) is not None)
-    found = []
+    found, moment = [], LEAST
     for row in robot.joints:
         if row.name in robot.motors:
             continue
         ten = physics.ten(row.name)
         body = None if ten is None else written(ten)
-        if body is None and row.moves and to != "urdf":
-            size = drawn[row.name][0].radius ** 2
-            body = _TINY * heavy * np.array([1.0, 0, 0, 0, size, 0, 0, size, 0, size])
+        if body is None and row.moves:
+            light.append(names.links[row.name])
+            moment = heavy * drawn[row.name][0].radius ** 2
+            moment = float(np.clip(2.0 * LEAST, _TINY * moment, 1e3 * _TINY * moment))
+            body = np.array([_TINY * heavy, 0, 0, 0, moment, 0, 0, moment, 0, moment])
         relation = robot.relations.get(row.name)
         form = None if relation is None else linear_form(relation, symbols)
         leaders = {} if form is None else dict(form.coefficients)
@@ -108,24 +144,21 @@ def _parts(physics: Physics, to: str, at: Mapping[str, float]) -> list[Part]:
             drive["rest"] = rest_of(robot, row.name)
         found.append(
             Part(
-                row, LINK + row.name, joints[row.name], _link(row.antecedent),
+                row, names.links[row.name], names.joints[row.name], names.links[row.antecedent],
                 row_pose(row, values), values[row.variable] if row.moves else 0.0,
                 np.array([0.0, 0.0, sense(row, symbols) if row.moves else 1.0]), body, drive,
-                {joints[name[1:]]: c for name, c in leaders.items()},
+                {names.joints[name[1:]]: c for name, c in leaders.items()},
                 form.constant if form else 0.0, drawn[row.name],
             )
         )  # fmt: skip
+    if light:
+        who = "SDF refuses" if moment < LEAST else "MuJoCo and SDF refuse"
+        still = "; it is too small for MuJoCo" if moment < LEAST else ""
+        notes.append(
+            f"{', '.join(light)}: no body, and {_TINY:g} of the mass of all is written, for {who} "
+            f"a moving link without mass{still}"
+        )
     return found
-
-
-def joint_names(robot: Robot) -> dict[str, str]:
-    """Names of joints by row: those of the file that the robot came from, where it has them."""
-    named = {frame.row: frame.joint for frame in robot.frames.values() if frame.joint}
-    return {joint.name: named.get(joint.name, JOINT + joint.name) for joint in robot.joints}
-
-
-def _link(row: str) -> str:
-    return "base" if row == BASE else LINK + row
 
 
 Number = float | np.ndarray
@@ -157,12 +190,6 @@ def _upright(gravity: np.ndarray) -> np.ndarray:
     return turned(axis / sine, float(np.arctan2(sine, -down[2])))
 
 
-def gravity_of(physics: Physics) -> np.ndarray:
-    """(3,) acceleration of gravity in frame 0."""
-    symbols = physics.robot.symbol_values()
-    return np.array([cell.number(symbols) for cell in physics.robot.gravity])
-
-
 def _limits(physics: Physics, row: Joint) -> dict[str, float]:
     limits = physics.robot.limits.get(row.name)
     if limits is None:
@@ -179,14 +206,14 @@ def _along(capsule: Capsule) -> Pose:
 # URDF.
 
 
-def _urdf(physics: Physics, parts: list[Part]) -> ET.Element:
-    root, lift = _node("robot", name=physics.robot.name), _upright(gravity_of(physics))
+def _urdf(physics: Physics, parts: list[Part], names: Names) -> ET.Element:
+    root, lift = _node("robot", name=physics.robot.name), _upright(gravity_of(physics.robot))
     if not np.allclose(lift, np.eye(3), atol=1e-12):
-        ends = _node("parent", link="world"), _node("child", link="base")
+        ends = _node("parent", link="world"), _node("child", link=names.links[BASE])
         upright = _origin(Pose(np.zeros(3), lift)), *ends
         root.append(_node("link", name="world"))
-        root.append(_node("joint", *upright, name="upright", type="fixed"))
-    root.append(_node("link", name="base"))
+        root.append(_node("joint", *upright, name=names.upright, type="fixed"))
+    root.append(_node("link", name=names.links[BASE]))
     for part in parts:
         moves, link = part.row.moves, _node("link", name=part.link)
         if part.body is not None:
@@ -229,12 +256,12 @@ def _visuals(capsule: Capsule) -> Iterator[ET.Element]:
 # MJCF.
 
 
-def _mjcf(physics: Physics, parts: list[Part]) -> ET.Element:
-    robot, base = physics.robot, _node("body", name="base")
-    bodies, zero = {"base": base}, {part.joint: part.zero for part in parts}
+def _mjcf(physics: Physics, parts: list[Part], names: Names) -> ET.Element:
+    robot, base = physics.robot, _node("body", name=names.links[BASE])
+    bodies, zero = {names.links[BASE]: base}, {part.joint: part.zero for part in parts}
     equality, tendons, motors = (ET.Element(x) for x in ("equality", "tendon", "actuator"))
     for part in parts:
-        place = {"pos": part.pose.position, "quat": to_quaternion(part.pose.rotation)}
+        place = {"pos": part.pose.position, "euler": np.array(roll_pitch_yaw(part.pose.rotation))}
         bodies[part.link] = body = _node("body", name=part.link, **place)
         bodies[part.parent].append(body)
         if not part.row.moves:
@@ -259,7 +286,7 @@ def _mjcf(physics: Physics, parts: list[Part]) -> ET.Element:
         elif part.row.actuated or part.row.name in robot.relations:
             motors.append(_node("motor", name=part.joint, joint=part.joint))
     for loop in robot.loops:
-        ends = {"body1": _link(loop.frame), "body2": _link(loop.meets)}
+        ends = {"body1": names.links[loop.frame], "body2": names.links[loop.meets]}
         if loop.kind == "rigid":
             equality.append(_node("weld", **ends))
             continue
@@ -267,8 +294,8 @@ def _mjcf(physics: Physics, parts: list[Part]) -> ET.Element:
         for z in (0.0, size) if loop.kind == "revolute" else (0.0,):
             equality.append(_node("connect", anchor=np.array([0.0, 0.0, z]), **ends))
     further = [element for element in (tendons, equality, motors) if len(element)]
-    option = _node("option", gravity=gravity_of(physics))
-    head = _node("compiler", angle="radian"), option, _node("worldbody", base)
+    option = _node("option", gravity=gravity_of(physics.robot))
+    head = _node("compiler", angle="radian", eulerseq="XYZ"), option, _node("worldbody", base)
     return _node("mujoco", *head, *further, model=robot.name)
 
 
@@ -290,14 +317,14 @@ def _follow(
 # SDF.
 
 
-def _sdf(physics: Physics, parts: list[Part]) -> ET.Element:
-    lift = Pose(np.zeros(3), _upright(gravity_of(physics)))
-    ends = _node("parent", "world"), _node("child", "base")
+def _sdf(physics: Physics, parts: list[Part], names: Names) -> ET.Element:
+    lift = Pose(np.zeros(3), _upright(gravity_of(physics.robot)))
+    base, keys = names.links[BASE], {"stiffness": "spring_stiffness", "rest": "spring_reference"}
+    ends = _node("parent", "world"), _node("child", base)
     model = _node(
-        "model", _node("link", _pose(lift), name="base"),
-        _node("joint", *ends, name="upright", type="fixed"), name=physics.robot.name,
+        "model", _node("link", _pose(lift), name=base),
+        _node("joint", *ends, name=names.upright, type="fixed"), name=physics.robot.name,
     )  # fmt: skip
-    names = {"stiffness": "spring_stiffness", "rest": "spring_reference"}
     for part in parts:
         if part.body is None or not part.row.moves:
             there = {"name": part.link, "attached_to": part.parent}
@@ -318,7 +345,7 @@ def _sdf(physics: Physics, parts: list[Part]) -> ET.Element:
         if limits := _limits(physics, part.row):
             axis.append(_node("limit", *_texts(limits)))
         if part.drive:
-            drive = {names.get(quantity, quantity): x for quantity, x in part.drive.items()}
+            drive = {keys.get(quantity, quantity): x for quantity, x in part.drive.items()}
             axis.append(_node("dynamics", *_texts(drive)))
         for leader, ratio in part.leaders.items():
             law = {"multiplier": ratio, "offset": part.offset, "reference": 0.0}

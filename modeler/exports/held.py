@@ -15,9 +15,13 @@ from modeler.core.brief import Brief
 from modeler.core.table import percent
 from modeler.exports.bodies import Physics
 from modeler.exports.completion import distance
+from modeler.exports.linkage import SAME_GRAVITY, gravity_of
 
 Torques = Callable[[np.ndarray], tuple[np.ndarray, tuple[str, ...]]]
 """From base parameters to the (rows, n) torques of the fit, and the names of their joints."""
+
+_NOTHING = 1e-6  # of a torque: prints as 0 %
+_USUAL = 9.81  # m/s2, of programs that are told no gravity
 
 
 @dataclass(frozen=True)
@@ -26,7 +30,7 @@ class NotHeld(Brief):
 
     Attributes:
         effect: id; "" of a parameter of no effect.
-        joint: row.
+        joint: row; "" of gravity.
         values: by name, SI.
         share: of the torque; None of a robot, or where it is not told.
         of: "joint 2", or "all torques" of shares that C tells.
@@ -43,21 +47,26 @@ class NotHeld(Brief):
         """For people."""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in self.values.items())
         told = "" if self.share is None else f", about {percent(self.share, 2)} of {self.of}"
-        return f"{self.effect or 'parameter'} of joint {self.joint} ({values}){told}"
+        where = f" of joint {self.joint}" if self.joint else ""
+        return f"{self.effect or 'parameter'}{where} ({values}){told}"
 
 
 def not_held(physics: Physics, to: str, torques: Torques | None = None) -> tuple[NotHeld, ...]:
-    """Effects that the format cannot hold, those that carry most first.
+    """Effects that the format cannot hold, those that carry most first; none that carries nothing.
+
+    URDF and SDF models hold the direction of gravity alone, and programs take 9.81 m/s2.
 
     Args:
         physics: all numbers.
         to: the format.
         torques: of the logs of the fit, if they are there.
     """
-    robot, kept = physics.robot, set[str]()
-    for joint in robot.moving:
-        kept |= {name for terms in physics.drive(joint.name, to).values() for name in terms}
-    found = []
+    robot, found = physics.robot, list[NotHeld]()
+    g = float(np.linalg.norm(gravity_of(robot)))
+    if to != "mjcf" and abs(g - _USUAL) > SAME_GRAVITY * _USUAL:
+        found.append(NotHeld("size of gravity", "", {"g": g}))
+    kept = {name for joint in robot.moving
+            for terms in physics.drive(joint.name, to).values() for name in terms}  # fmt: skip
     for joint in robot.moving:
         for effect, form, instance in robot.effects_on(joint.name):
             names = [f"{column.prefix}{joint.name}{instance.label}" for column in form.columns]
@@ -65,8 +74,9 @@ def not_held(physics: Physics, to: str, torques: Torques | None = None) -> tuple
                       if n in physics.place and n not in kept}  # fmt: skip
             if any(values.values()):
                 share, of = _share(physics, list(values), joint.name, torques)
-                found.append(NotHeld(effect.id, joint.name, values, share, of))
-    return tuple(sorted(found, key=lambda one: -(one.share or 0.0)))
+                if share is None or share >= _NOTHING:
+                    found.append(NotHeld(effect.id, joint.name, values, share, of))
+    return tuple(sorted(found, key=lambda one: -(one.share or float(not one.joint))))
 
 
 def _share(

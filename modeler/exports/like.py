@@ -6,7 +6,7 @@ put in the smallest way: an attribute, or one element.
 
 import re
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -16,14 +16,14 @@ from modeler.exports.bodies import Physics, carried, written
 from modeler.exports.original import (
     TENSOR,
     Placed,
+    Placement,
     Source,
     first,
     inertial_axes,
-    joint_rows,
     shared_out,
     text_at,
 )
-from modeler.exports.result import Value, body_values, drive_values, numbers, plain_values
+from modeler.exports.result import Value, body_values, drive_values, kept, numbers, sigmas
 from modeler.robot import Element, about_origin, replaced
 
 _SAME = 1e-10  # of a body's scale: what is nearer has not changed
@@ -113,7 +113,7 @@ class Edited:
 
 
 def rewritten(
-    physics: Physics, source: Source, links: Mapping[str, Placed], notes: list[str]
+    physics: Physics, source: Source, there: Placement, notes: list[str]
 ) -> tuple[bytes, list[Value]]:
     """The file with the numbers of the physics, and these; notes grow.
 
@@ -122,9 +122,9 @@ def rewritten(
     """
     edited = _Edits(source)
     values = [
-        value for row, own in links.items() for value in edited.link(physics, row, own, notes)
+        value for row, own in there.links.items() for value in edited.link(physics, row, own, notes)
     ]
-    for name, row in joint_rows(source, physics.robot).items():
+    for name, row in there.joints.items():
         if source.tree is not None or ("joint", name) in edited.elements:
             values += edited.joint(physics, row, name)
     return edited.file.bytes(), values
@@ -145,11 +145,7 @@ class _Edits:
         ten = physics.ten(row)
         if ten is None or (physics.fit is None and row not in physics.stated):
             return
-        tens = {
-            name: carried(about_origin(body), pose)
-            for name, pose in own.poses.items()
-            if (body := self.source.links[name]) is not None
-        }
+        tens = own.tens
         others = ", ".join(name for name in tens if name != own.carrier)
         whole = np.sum([np.zeros(10), *tens.values()], axis=0)
         if _alike(ten, whole):
@@ -165,37 +161,39 @@ class _Edits:
             pose, was = own.poses[name], self.source.links[name]
             axes = inertial_axes(self.source, self.elements.get(("link", name)))
             before = None if was is None else written(about_origin(was), axes)
-            fresh = written(carried(new, pose.inverse()), axes)
-            if not (name in tens and _alike(new, tens[name])):
+            fresh = kept(written(carried(new, pose.inverse()), axes), before)
+            if before is not None and now is tens:
+                fresh = before
+            if before is None or np.any(fresh != before):
                 self._body(self._element("link", name), fresh, before)
             elif name != own.carrier:
                 continue
-            if row in physics.released:  # in part only of the link
-                yield from plain_values(name, before, fresh)
-            else:
-                yield from body_values(physics, row, name, before, pose, ten - new, axes)
+            in_part = row in physics.released  # only of the link
+            sigma = None if in_part else sigmas(physics, row, pose, ten - new, axes)
+            yield from body_values(name, before, fresh, sigma)
 
     def _body(self, link: Element, new: np.ndarray, was: np.ndarray | None) -> None:
+        bare = was is None or first(link, "inertial") is None
+        other = np.full(10, True) if bare else new != was
         if not self.checked:
             _check_mjcf(self.source)
             self.checked = True
         sdf, mjcf = (self.source.format == name for name in ("sdf", "mjcf"))
-        if was is None or _moved(new[:1], was[:1]):
+        if other[0]:
             self.file.put(link, self.paths["mass"], numbers(new[:1]))
-        if was is None or _moved(new[1:4], was[1:4]):
+        if other[1:4].any():
             angles = (text_at(link, self.paths["centre"]).split()[3:] or ["0 0 0"]) if sdf else []
             self.file.put(link, self.paths["centre"], " ".join([numbers(new[1:4]), *angles]))
-        if was is not None and not _moved(new[4:], was[4:]):
-            return
-        if mjcf:
+        if mjcf and other[4:].any():
             inertial = first(link, "inertial")
             for name in _TURNED if inertial is not None else ():
                 if inertial is not None and name in inertial.spans:
                     self.file.without(inertial, name)
             self.file.put(link, self.paths["tensor"], numbers(new[[4, 7, 9, 5, 6, 8]]))
-            return
-        for key, value in zip(TENSOR, new[4:], strict=True):
-            self.file.put(link, self.paths["tensor"].format(key), numbers([value]))
+        for k, key in enumerate(() if mjcf or not other[4:].any() else TENSOR, 4):
+            path = self.paths["tensor"].format(key)
+            if other[k] or not text_at(link, path):
+                self.file.put(link, path, numbers(new[[k]]))
 
     def joint(self, physics: Physics, row: str, name: str) -> list[Value]:
         """Puts what resists a joint."""
@@ -209,7 +207,7 @@ class _Edits:
         joint = physics.robot.joint(row)
         values = list(drive_values(physics, joint, name, self.source.format, was))
         for value in values:
-            if abs(value.now - (value.was or 0.0)) > 1e-12 * abs(value.now):
+            if value.changed:
                 self._resists(name, value)
         return values
 
@@ -268,20 +266,17 @@ def _of_motors(root: Element) -> bool:
 def _check_mjcf(source: Source) -> None:
     """Refuse files of which MuJoCo changes the numbers that they state."""
     for element in source.root.walk():
-        if "springdamper" in element.attributes:
-            raise DataError(
-                f"--like {source.path}: line {element.line}: springdamper makes damping of masses; "
-                "write stiffness and damping instead"
+        stated = element.attributes
+        wrong = [f"{key} changes the masses that are stated; take it out"
+                 for key in _RESCALED if float(stated.get(key, "0")) > 0.0]  # fmt: skip
+        if stated.get("inertiafromgeom") == "true":
+            wrong.append('inertiafromgeom="true" takes all masses from geoms; write "auto" there')
+        if "springdamper" in stated:
+            wrong.append(
+                "springdamper makes damping of masses; write stiffness and damping instead"
             )
-    for compiler in (element for element in source.root.walk() if element.tag == "compiler"):
-        where = f"--like {source.path}: line {compiler.line}"
-        if compiler.attributes.get("inertiafromgeom") == "true":
-            raise DataError(
-                f'{where}: inertiafromgeom="true" takes all masses from geoms; write "auto" there'
-            )
-        for key in _RESCALED:
-            if float(compiler.attributes.get(key, "0")) > 0.0:
-                raise DataError(f"{where}: {key} changes the masses that are stated; take it out")
+        if wrong:
+            raise DataError(f"--like {source.path}: line {element.line}: {wrong[0]}")
 
 
 def _alike(one: np.ndarray, other: np.ndarray) -> bool:
@@ -289,7 +284,3 @@ def _alike(one: np.ndarray, other: np.ndarray) -> bool:
     size, mass = max(np.abs([one[:6], other[:6]]).max(), 1e-300), max(abs(one[9]), abs(other[9]))
     moment = max(np.sqrt(size * mass), np.abs(other[6:9]).max())
     return bool(np.all(np.abs(one - other) <= _SAME * np.repeat([size, moment, mass], [6, 3, 1])))
-
-
-def _moved(new: np.ndarray, was: np.ndarray) -> bool:
-    return bool(np.abs(new - was).max() > 1e-12 * np.abs([new, was]).max())

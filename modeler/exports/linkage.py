@@ -12,21 +12,11 @@ from modeler.robot import Joint, JointKind, LinkFrame, Loop, Pose, Robot, linear
 BASE = "0"
 """Name of the frame that stands still."""
 
+SAME_GRAVITY = 2e-3
+"""Share of gravity: 9.80665 is 9.81 in other digits."""
+
 _X, _Y, _Z = np.eye(3)
 _CLOSED = 1e-9  # m, rad: what may be left of a loop
-
-
-def to_quaternion(rotation: np.ndarray) -> np.ndarray:
-    """(4,) w, x, y, z of a rotation: an eigenvector of a symmetric matrix (Bar-Itzhack 2000)."""
-    R = rotation
-    skew = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
-    K = np.empty((4, 4))
-    K[1:, 1:] = R + R.T - np.trace(R) * np.eye(3)
-    K[0, 1:] = K[1:, 0] = skew
-    K[0, 0] = np.trace(R)
-    best = np.linalg.eigh(K)[1][:, -1]
-    best[np.abs(best) < 1e-16] = 0.0
-    return np.asarray(best * (np.sign(best[np.flatnonzero(best)[0]])))
 
 
 def frame_pose(frame: LinkFrame, symbols: Mapping[str, float]) -> Pose:
@@ -58,6 +48,12 @@ def row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
         @ Pose(d * (turned(_X, alpha) @ _X), turned(_X, alpha))
         @ Pose(r * _Z, turned(_Z, theta))
     )
+
+
+def gravity_of(robot: Robot) -> np.ndarray:
+    """(3,) acceleration of gravity in frame 0."""
+    symbols = robot.symbol_values()
+    return np.array([cell.number(symbols) for cell in robot.gravity])
 
 
 def sense(joint: Joint, symbols: Mapping[str, float]) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.result import Presentation, Presented, present
 from modeler.core.table import Table
-from modeler.exports.bodies import Physics, carried, deviations, written
+from modeler.exports.bodies import Physics, carried, deviations, sizes, written
 from modeler.exports.held import NotHeld
 from modeler.robot import Joint, Pose
 
@@ -29,7 +29,7 @@ _DRIVE_UNITS = {
     "damping": ("N m s/rad", "N s/m"), "friction": ("N m", "N"), "armature": ("kg m2", "kg"),
     "stiffness": ("N m/rad", "N/m"),
 }  # fmt: skip
-_SAME = 1e-9  # of the largest of its kind: what is nearer has not changed
+_SAME = 1e-9  # of the size of its kind: what is nearer has not changed
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,7 @@ class Value(Brief):
         was: in the original, or in the robot file; None if nowhere.
         now: written.
         sigma: its standard deviation; None of a robot.
+        changed: False where the number is the one that was there, but for rounding.
     """
 
     part: str
@@ -51,11 +52,7 @@ class Value(Brief):
     was: float | None
     now: float
     sigma: float | None
-
-    @property
-    def changed(self) -> bool:
-        """False where the number is the one that was there."""
-        return self.was is None or abs(self.now - self.was) > _SAME * max(abs(self.was), 1e-12)
+    changed: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +86,7 @@ class Exported(Presented):
             "format": self.format,
             "like": self.like or None,
             "moved_sigmas": self.moved,
-            "values": [{**vars(value), "changed": value.changed} for value in self.values],
+            "values": [vars(value) for value in self.values],
             "not_held": [vars(lost) for lost in self.not_held],
             "notes": list(self.notes),
         }
@@ -100,45 +97,48 @@ def numbers(values: Iterable[float]) -> str:
     return " ".join(repr(float(x) + 0.0).removesuffix(".0") for x in values)
 
 
-def body_values(
+def kept(now: np.ndarray, was: np.ndarray | None) -> np.ndarray:
+    """(10,) a body as `written`, with the numbers that were there where these are the same."""
+    if was is None:
+        return now
+    return np.where(np.abs(now - was) <= _SAME * np.maximum(sizes(now), sizes(was)), was, now)
+
+
+def sigmas(
     physics: Physics,
     row: str,
-    part: str,
-    was: np.ndarray | None,
     pose: Pose | None = None,
-    hung: np.ndarray | None = None,
+    hung: np.ndarray | float = 0.0,
     axes: np.ndarray | None = None,
-) -> Iterator[Value]:
-    """The numbers of a body.
+) -> np.ndarray | None:
+    """(10,) standard deviations of the body of a row as `written`; None of a robot.
 
     Args:
         physics: all numbers.
         row: whose link it is.
-        part: its name in the file.
-        was: (10,) as `written`; None if it had none.
-        pose: of its frame on the row.
+        pose: of the frame of the body on the row.
         hung: (10,) what hangs on it and keeps its numbers, in the frame of the row.
         axes: (3, 3) along which its inertia is written, in its frame.
     """
-    places = physics.ten_places(row)
-
-    def of_file(ten: np.ndarray) -> np.ndarray:
-        own = ten if hung is None else ten - hung
-        return written(own if pose is None else carried(own, pose.inverse()), axes)
-
+    if physics.fit is None:
+        return None
+    places, back = physics.ten_places(row), (pose or Pose()).inverse()
     spread = physics.now.covariance[np.ix_(places, places)]
-    sigma = deviations(of_file, physics.now.chi[places], spread) if physics.fit else None
-    yield from plain_values(part, was, of_file(physics.now.chi[places]), sigma)
+    return deviations(
+        lambda ten: written(carried(ten - hung, back), axes), physics.now.chi[places], spread
+    )
 
 
-def plain_values(
+def body_values(
     part: str, was: np.ndarray | None, now: np.ndarray, sigma: np.ndarray | None = None
 ) -> Iterator[Value]:
     """The numbers of a body, as `written`."""
+    same = kept(now, was)
     for k, (quantity, unit) in enumerate(zip(QUANTITIES, _UNITS, strict=True)):
         before = None if was is None else float(was[k])
         deviation = None if sigma is None else float(sigma[k])
-        yield Value(part, quantity, unit, before, float(now[k]), deviation)
+        changed = before is None or before != float(same[k])
+        yield Value(part, quantity, unit, before, float(now[k]), deviation, changed)
 
 
 def drive_values(
@@ -146,17 +146,18 @@ def drive_values(
 ) -> Iterator[Value]:
     """Damping, friction and the like of a joint."""
     for quantity, terms in physics.drive(joint.name, to).items():
-        value, sigma = physics.value(terms)
-        unit = _DRIVE_UNITS[quantity][0 if joint.angular else 1]
-        yield Value(part, quantity, unit, was.get(quantity), value, sigma if physics.fit else None)
+        now, sigma = physics.value(terms)
+        unit, before = _DRIVE_UNITS[quantity][0 if joint.angular else 1], was.get(quantity)
+        changed = before is None or abs(now - before) > _SAME * abs(now)
+        deviation = sigma if physics.fit else None
+        yield Value(part, quantity, unit, before, now, deviation, changed)
 
 
 def with_comment(data: bytes, found: Exported) -> bytes:
     """The file with what it holds as one comment at its head, in place of an earlier one."""
     data = _OURS.sub(b"", data, count=1)
     lines = [f"{found.robot}: value, was, standard deviation"]
-    shown = [value for value in found.values if value.changed or not found.like]
-    lines += [_line(value) for value in shown]
+    lines += [_line(value) for value in found.values if _told(value) or not found.like]
     lines += [f"not held by {found.format.upper()}: {lost.line}" for lost in found.not_held]
     lines += found.notes
     text = "\n  ".join(lines).replace("--", "- -")
@@ -166,6 +167,11 @@ def with_comment(data: bytes, found: Exported) -> bytes:
     comment = (_HEAD + text.encode() + b"\n-->\n").replace(b"\n", end)
     broken = b"" if not at or data[at - 1 : at] == b"\n" or data[:at] == b"\xef\xbb\xbf" else end
     return data[:at] + broken + comment + data[at:]
+
+
+def _told(value: Value) -> bool:
+    """Whether a number differs in the digits that are shown."""
+    return value.changed and (value.was is None or f"{value.was:.6g}" != f"{value.now:.6g}")
 
 
 def _line(value: Value) -> str:
@@ -183,8 +189,8 @@ def _summary(found: Exported) -> str:
     return "\n".join([first, *found.notes, *lost])
 
 
-def _values_table(found: Exported) -> Table:
-    rows = [(v.part, v.quantity, v.was, v.now, v.sigma, v.unit) for v in found.values]
+def _values_table(found: Exported, values: Iterable[Value]) -> Table:
+    rows = [(v.part, v.quantity, v.was, v.now, v.sigma, v.unit) for v in values]
     head = "part, quantity, was, is, sigma, unit"
     return Table.of(f"{found.robot}: numbers of the file", head, rows)
 
@@ -201,6 +207,8 @@ def _lost_table(found: Exported) -> Table:
 
 present({
     Exported: Presentation("a file for another program", _summary, lambda found: {
-        "values": lambda: _values_table(found), "not held": lambda: _lost_table(found),
+        "values": lambda: _values_table(found, found.values),
+        "changed": lambda: _values_table(found, filter(_told, found.values)),
+        "not held": lambda: _lost_table(found),
     }, page=("values", "not held")),
 })  # fmt: skip

@@ -1,19 +1,20 @@
 """A robot or a model as a file for another program."""
 
 import dataclasses
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
-from modeler.exports.bodies import Original, physics_of, written
-from modeler.exports.fresh import LINK, fresh, gravity_of, joint_names
+from modeler.exports.bodies import Original, Physics, physics_of, robot_of, symmetric, written
+from modeler.exports.fresh import LEAST, Names, fresh
 from modeler.exports.held import Torques, not_held
 from modeler.exports.like import rewritten
-from modeler.exports.original import original_of, placed, source_of
-from modeler.exports.result import Exported, Value, body_values, drive_values, with_comment
-from modeler.robot import Robot, robot_from_text
+from modeler.exports.original import TENSOR, original_of, placed, source_of
+from modeler.exports.result import Exported, Value, body_values, drive_values, sigmas, with_comment
+from modeler.robot import Robot
 
 ENDINGS = {".urdf": "urdf", ".xml": "mjcf", ".mjcf": "mjcf", ".sdf": "sdf"}
 """Formats by the ending of a file."""
@@ -54,39 +55,20 @@ def exported(
         DataError: no values, another robot, or what the format cannot state.
         RobotError: a mistake in the original.
     """
-    robot = thing
-    if isinstance(thing, IdentifiedModel):
-        robot = robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
-    assert isinstance(robot, Robot)
+    robot = robot_of(thing)
     if like is None:
-        physics = physics_of(thing, Original())
-        notes, data, values = list(physics.notes), fresh(physics, to), list[Value]()
-        g = float(np.linalg.norm(gravity_of(physics)))
-        if to != "mjcf" and abs(g - 9.81) > 0.02:
-            notes.append(f"gravity is {g:.4g} m/s2 here; {to.upper()} states none, most take 9.81")
-        names = joint_names(robot)
-        for joint in robot.moving:
-            if physics.ten_places(joint.name):
-                given = physics.stated_before(joint.name)
-                was = None if given is None else written(given)
-                values += body_values(physics, joint.name, LINK + joint.name, was)
-            stated = {
-                quantity: sum(c * physics.nominal[name] for name, c in terms.items())
-                for quantity, terms in physics.drive(joint.name, to).items()
-                if terms.keys() <= physics.nominal.keys()
-            }
-            values += drive_values(physics, joint, names[joint.name], to, stated)
+        physics, notes = physics_of(thing, Original()), list[str]()
+        data, values = fresh(physics, to, notes), list(_values(physics, to))
     else:
         source = source_of(like)
         if to and to != source.format:
             raise DataError(
                 f"--like {like}: is {source.format.upper()}, and --to says {to}; leave out one"
             )
-        to = source.format
-        links = placed(source, robot)
-        physics = physics_of(thing, original_of(source, links))
-        notes = list(physics.notes)
-        data, values = rewritten(physics, source, links, notes)
+        to, there = source.format, placed(source, robot)
+        physics, notes = physics_of(thing, original_of(there.links)), list(there.notes)
+        data, values = rewritten(physics, source, there, notes)
+    notes = [*physics.notes, *notes, *_too_small(values, to)]
     lost = not_held(physics, to, torques)
     name = "" if like is None else like.name
     found = Exported(
@@ -95,3 +77,36 @@ def exported(
     if like is not None and data == source.data:
         return found
     return dataclasses.replace(found, data=with_comment(data, found))
+
+
+def _values(physics: Physics, to: str) -> Iterator[Value]:
+    """The numbers of a file of its own, and what the robot file says of them."""
+    names = Names.of(physics.robot)
+    for joint in physics.robot.moving:
+        ten = physics.ten(joint.name)
+        if ten is not None:
+            given = physics.stated_before(joint.name)
+            was = None if given is None else written(given)
+            sigma = sigmas(physics, joint.name)
+            yield from body_values(names.links[joint.name], was, written(ten), sigma)
+        stated = {
+            quantity: sum(c * physics.nominal[name] for name, c in terms.items())
+            for quantity, terms in physics.drive(joint.name, to).items()
+            if terms.keys() <= physics.nominal.keys()
+        }
+        yield from drive_values(physics, joint, names.joints[joint.name], to, stated)
+
+
+def _too_small(values: Iterable[Value], to: str) -> Iterator[str]:
+    """Tells of bodies that MuJoCo refuses."""
+    bodies: dict[str, list[float]] = {}
+    for value in values:
+        if value.quantity in TENSOR:
+            bodies.setdefault(value.part, []).append(value.now)
+    small = [name for name, six in bodies.items()
+             if 0.0 < np.linalg.eigvalsh(symmetric(np.array(six)))[0] < LEAST]  # fmt: skip
+    if small and to != "sdf":
+        yield (
+            f"{', '.join(small)}: too small for MuJoCo, which takes no moment of inertia below "
+            f"{LEAST:g} kg m2"
+        )

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from modeler.core.builtin import TEMPLATES, template_text
 from modeler.core.errors import DataError, RobotError
-from modeler.core.files import Kind, destination, write_atomically
+from modeler.core.files import Kind, destination, write_atomically, write_unless_other
 from modeler.robot.cells import robot_name
 from modeler.robot.conventions import CONVENTIONS, GEOMETRY, STEPS
 from modeler.robot.conversion import converted
@@ -70,7 +70,7 @@ def convert(
     """The robot of a URDF, MJCF or SYMORO file; written as a robot file if `out` says where.
 
     >>> exported = export(model, "arm.urdf")
-    >>> convert("arm.urdf", "arm.toml").moving[1].name
+    >>> convert("arm.urdf", "read.toml").moving[1].name
     '2'
 
     Args:
@@ -92,13 +92,7 @@ def convert(
     found = converted(file, exact_decimals, base=base, tip=tip, locks=lock)
     robot = robot_from_text(found.text, f"{file}, as a robot file")
     if out is not None:
-        there = destination(Path(out)).kind is Kind.FILE
-        if not force and there and Path(out).read_bytes() != found.text.encode():
-            raise DataError(
-                f"{out}: there is such a file with another content; choose another name, or write "
-                "over it with --force (force=True)"
-            )
-        write_atomically(Path(out), found.text)
+        write_unless_other(Path(out), found.text, force)
     return dataclasses.replace(robot, readings=(*found.notes, *robot.readings))
 
 

@@ -1,6 +1,8 @@
 """Self-standing files in other programs: their inverse dynamics are those of our model."""
 
 import dataclasses
+import re
+import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ import pytest
 from modeler.api import compile_model, derive, export, generate, load
 from modeler.core.errors import DataError
 from modeler.robot import Robot, robot_from_text
+from tests.export.arms import MJCF, URDF, reread, same_physics
 
 pin = pytest.importorskip("pinocchio", reason="NOT CHECKED: no Pinocchio")
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: no MuJoCo")
@@ -120,7 +123,8 @@ def test_urdf_of_a_table_is_the_model_in_pinocchio(tree) -> None:
     robot, (q, qd, qdd) = whole_tree(tree), states(tree)
     found = export(tree, to="urdf")
     text = found.data
-    assert any("gravity is 9.233 m/s2 here" in note for note in found.notes)
+    assert "URDF cannot hold size of gravity (g = 9.233)" in found.summary()
+    assert "gravity" not in export(tree, to="mjcf").summary()
     names = [f"joint_{joint.name}" for joint in robot.moving]
     got = pinocchio_torques(text, names, q, qd, qdd, np.linalg.norm([0.5, 9.0, 2.0]))
     assert close(got, torques(robot, q, qd, qdd, ("Fv", "Ia", "Ks")))
@@ -222,3 +226,64 @@ def test_what_cannot_be_written_is_refused_in_one_line(tree) -> None:
         with pytest.raises(DataError, match=word) as told:
             call()
         assert "\n" not in str(told.value)
+
+
+def test_no_name_is_that_of_two_things(tmp_path) -> None:
+    """Joints of the file have names that we would give, too."""
+    for ours in ("upright", "world", "base", "link_1", "joint_2", "link_3"):
+        text = MJCF.replace(b'"shoulder"', f'"{ours}"'.encode())
+        robot = reread(tmp_path, "arm.xml", text.replace(b'gravity="0 0', b'gravity="3 1'))
+        model = mujoco.MjModel.from_xml_string(export(robot, to="urdf").data.decode())
+        assert model.njnt == len(robot.moving)
+        assert mujoco.MjModel.from_xml_string(export(robot, to="mjcf").data.decode()).njnt == 3
+        for to in ("urdf", "sdf"):
+            root = ET.fromstring(export(robot, to=to).data)
+            parts = [e for e in root.iter() if e.tag in ("link", "joint", "frame")]
+            names = [e.get("name") for e in parts if e.get("name")]
+            assert len(names) == len(set(names)) and (to == "urdf") == ("world" in names)
+
+
+def test_a_moving_link_without_mass_is_told_and_taken_by_mujoco(tmp_path) -> None:
+    """Several joints in one body; as light as it may be where the robot is light."""
+    for size in (1.0, 1e-3):
+        small = reread(tmp_path, "arm.xml", MJCF)
+        values = {name: size * value for name, value in small.parameters.items()}
+        robot = dataclasses.replace(small, parameters=values)
+        found = export(robot, to="urdf")
+        assert any(note.startswith("link_2: no body") for note in found.notes)
+        mujoco.MjModel.from_xml_string(found.data.decode())
+        again = reread(tmp_path, "again.urdf", found.data)
+        assert same_physics(rigid(robot), rigid(again), 1e-6)
+
+
+def test_links_without_mass_of_a_robot_too_small_for_mujoco_are_told(tmp_path) -> None:
+    small = reread(tmp_path, "arm.xml", MJCF)
+    values = {name: 1e-9 * value for name, value in small.parameters.items()}
+    found = export(dataclasses.replace(small, parameters=values), to="urdf")
+    assert any(n.startswith("link_2") and "too small for MuJoCo" in n for n in found.notes)
+    with pytest.raises(ValueError, match="inertia"):
+        mujoco.MjModel.from_xml_string(found.data.decode())
+
+
+def rigid(robot: Robot) -> Robot:
+    """Bodies alone."""
+    return dataclasses.replace(robot, effects=(), parameters={
+        k: x for k, x in robot.parameters.items() if not k.startswith(("Fv", "Fs", "Ia", "Off"))
+    })  # fmt: skip
+
+
+def test_a_body_too_small_for_mujoco_is_told(tmp_path) -> None:
+    for moment, small in ((3e-15, True), (3e-14, False)):
+        text = re.sub(rb'(i[xyz]{2}=")[^"]*', rb"\g<1>0", URDF)
+        text = re.sub(rb'(i([xyz])\2=")[^"]*', rf"\g<1>{moment}".encode(), text)
+        text = re.sub(rb'<origin xyz="0.0[^>]*>|<origin xyz="0 0 0.05"/>', b"", text)
+        text = text.replace(b"<mass value='2.50'/>", b'<mass value="1e-6"/>')
+        found = export(reread(tmp_path, "arm.urdf", text), to="urdf")
+        assert any("too small for MuJoCo" in note for note in found.notes) == small
+
+
+def test_numbers_of_the_file_that_the_robot_came_from_are_told(tmp_path) -> None:
+    values = {
+        (v.part, v.quantity): v for v in export(reread(tmp_path, "a.urdf", URDF), to="urdf").values
+    }
+    assert values["shoulder", "damping"].was == 1.2 and values["shoulder", "friction"].was == 0.7

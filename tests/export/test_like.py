@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from modeler.api import export
+from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError, RobotError
-from modeler.robot import read_robot
+from modeler.estimation import PREFIXES
+from modeler.robot import convert, read_robot, robot_from_text, with_gravity
 from tests.export.arms import (
     MJCF,
     SDF,
@@ -100,6 +102,18 @@ def test_mjcf_writes_what_defaults_and_geoms_said(tmp_path) -> None:
     assert '<default class="stiff"><joint damping="2" frictionloss="0.3"/></default>' in text
 
 
+def test_a_body_of_geoms_gets_all_that_an_inertial_must_have(tmp_path) -> None:
+    """Its mass changes, its centre does not."""
+    start = MJCF.index(b'<inertial pos="0.01 0 0.15"')
+    text = MJCF[:start] + MJCF[MJCF.index(b"/>", start) + 2 :]
+    place = written(tmp_path, "arm.xml", text)
+    robot = read_robot(place)
+    heavy = {f"{prefix}1": 1.1 * robot.parameters[f"{prefix}1"] for prefix in PREFIXES}
+    robot = dataclasses.replace(robot, parameters=robot.parameters | heavy)
+    again = reread(tmp_path, "again.xml", export(robot, like=place).data)
+    assert again.parameters["M1"] == pytest.approx(heavy["M1"]) and same_physics(robot, again)
+
+
 def test_sdf_is_matched_by_its_links(tmp_path) -> None:
     urdf, sdf = written(tmp_path, "arm.urdf", URDF), written(tmp_path, "arm.sdf", SDF)
     robot = read_robot(urdf)
@@ -122,7 +136,7 @@ def test_a_table_without_frames_is_matched_by_its_geometry(tmp_path) -> None:
     robot = dataclasses.replace(changed(read_robot(place), np.random.default_rng()), frames={})
     assert same_physics(robot, reread(tmp_path, "again.urdf", export(robot, like=place).data))
     longer = written(tmp_path, "longer.urdf", URDF.replace(b"0.05 0 0.3", b"0.05 0 0.4"))
-    with pytest.raises(DataError, match="joint elbow moves otherwise than row 2"):
+    with pytest.raises(DataError, match="link fore is placed otherwise on upper"):
         export(robot, like=longer)
 
 
@@ -137,6 +151,86 @@ def test_another_robot_is_refused(tmp_path, old, new, word) -> None:
     with pytest.raises(DataError, match=word) as told:
         export(robot, like=other)
     assert "\n" not in str(told.value)
+
+
+def test_another_gravity_is_told(tmp_path) -> None:
+    robot = read_robot(written(tmp_path, "arm.xml", MJCF))
+    tilted = written(tmp_path, "tilted.xml", MJCF.replace(b"0 0 -9.81", b"3 1 -9"))
+    told = export(robot, like=tilted).notes
+    assert any("[3, 1, -9] m/s2 in tilted.xml and [0, 0, -9.81] in the robot" in x for x in told)
+    assert not any("gravity" in note for note in export(read_robot(tilted), like=tilted).notes)
+    place = written(tmp_path, "arm.urdf", URDF)
+    robot = read_robot(place)
+    assert not any("gravity" in note for note in export(robot, like=place).notes)
+    wall = robot_from_text(with_gravity(robot.text, [-9.81, 0.0, 0.0]), "wall.toml")
+    assert any("in the robot, in frame 0" in note for note in export(wall, like=place).notes)
+
+
+def test_another_base_has_its_gravity_turned(tmp_path) -> None:
+    place = written(tmp_path, "arm.urdf", URDF)
+    robot = convert(place, base="upper")
+    assert not any("gravity" in note for note in export(robot, like=place).notes)
+
+
+@pytest.mark.parametrize(("first", "second", "word"), [
+    (b"", b'<mimic joint="shoulder"/>', "joint elbow follows shoulder there, and is free"),
+    (b'<mimic joint="shoulder"/>', b"", "joint elbow is free there, and follows"),
+    (b'<mimic joint="shoulder" offset="0.1"/>', b'<mimic joint="shoulder" multiplier="2"/>',
+     "joint elbow follows shoulder otherwise"),
+])  # fmt: skip
+def test_joints_that_follow_otherwise_are_refused(tmp_path, first, second, word) -> None:
+    texts = [URDF.replace(b'<axis xyz="0 0 -1"/>', b'<axis xyz="0 0 -1"/>' + x)
+             for x in (first, second)]  # fmt: skip
+    one, other = (written(tmp_path, f"{k}.urdf", text) for k, text in enumerate(texts))
+    robot = read_robot(one)
+    assert export(robot, like=one).data == texts[0]
+    with pytest.raises(DataError, match=word) as told:
+        export(robot, like=other)
+    assert "\n" not in str(told.value)
+
+
+def test_joints_without_a_name_are_found_by_their_links(tmp_path) -> None:
+    robot = changed(read_robot(written(tmp_path, "arm.xml", MJCF)), np.random.default_rng())
+    text = MJCF.replace(b'name="elbow" ', b"")
+    text = text.replace(b'<motor joint="elbow" gear="2"/>', b"")
+    found = export(robot, like=written(tmp_path, "nameless.xml", text))
+    assert ("joint2", "damping") in {(v.part, v.quantity) for v in found.values}
+    assert same_physics(robot, reread(tmp_path, "again.xml", found.data))
+    turned = text.replace(b'axis="0 0 1" pos="0 0.02 0"', b'axis="0 1 0"')
+    with pytest.raises(DataError, match="link fore is placed otherwise"):
+        export(robot, like=written(tmp_path, "turned.xml", turned))
+
+
+def test_rounding_is_no_change(tmp_path) -> None:
+    """Bodies turned against their links, far from their joints, with zeros: none has changed."""
+    rng = np.random.default_rng()
+    for _ in range(5):
+        turn, far = (" ".join(map(repr, rng.normal(size=3).tolist())) for _ in range(2))
+        text = URDF.replace(
+            b'<origin xyz="0 0 0.05"/>', f'<origin xyz="0 0 0.05" rpy="{turn}"/>'.encode()
+        )
+        text = text.replace(b'<origin xyz="0.05 0 0.3"', f'<origin xyz="{far}"'.encode())
+        place = written(tmp_path, "arm.urdf", text)
+        robot = read_robot(place)
+        found = export(robot, like=place)
+        assert found.data == text and not any(value.changed for value in found.values)
+        heavy = dataclasses.replace(
+            robot, parameters=robot.parameters | {"M2": robot.parameters["M2"] * (1 + 1e-7)}
+        )
+        assert any(value.changed for value in export(heavy, like=place).values)
+        negative = [v for v in found.values if v.now == 0.0 and np.signbit(v.now)]
+        assert not negative and not any(0.0 < abs(v.now) < 1e-12 for v in found.values)
+
+
+def test_only_changed_numbers_are_listed(tmp_path, capsys) -> None:
+    place = written(tmp_path, "arm.urdf", URDF)
+    other = written(tmp_path, "other.urdf", URDF.replace(b'damping="4"', b'damping="5"'))
+    assert (
+        main(["export", str(other), "--like", str(place), "--out", str(tmp_path / "n.urdf")]) == 0
+    )
+    text = capsys.readouterr().out
+    assert "1 of " in text and "others are as they were" in text
+    assert "slide" in text and "mass" not in text.split("cannot hold")[0]
 
 
 @pytest.mark.parametrize(("name", "old", "new", "word"), [
