@@ -158,9 +158,9 @@ def resolved_relations(
         DerivationError: a relation is not linear.
     """
     numbers = {name: sympy.Rational(repr(x)) for name, x in robot.symbol_values().items()}
-    order = {joint.name: k for k, joint in enumerate(robot.free)}
+    free = [_joint_symbol(joint) for joint in robot.free]
     variables = {joint.variable: _joint_symbol(joint) for joint in robot.moving}
-    values = {_joint_symbol(joint): _joint_symbol(joint) for joint in robot.free}
+    values = {symbol: symbol for symbol in free}
     waiting = {joint for joint in robot.moving if joint.name in robot.relations}
     while waiting:
         for joint in sorted(waiting, key=lambda joint: joint.name):
@@ -172,8 +172,8 @@ def resolved_relations(
     forms, constants = [], {}
     for joint in robot.moving:
         value = values[_joint_symbol(joint)]
-        coefficients = {k: value.coeff(_joint_symbol(robot.free[k]), 1) for k in order.values()}
-        constant = value - sum(c * _joint_symbol(robot.free[k]) for k, c in coefficients.items())
+        coefficients = {k: value.coeff(symbol, 1) for k, symbol in enumerate(free)}
+        constant = value - sum(c * free[k] for k, c in coefficients.items())
         constant = sympy.expand(constant)
         if constant.free_symbols & set(variables.values()):
             raise DerivationError(

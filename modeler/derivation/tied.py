@@ -253,15 +253,15 @@ def dependent_columns(
         supports = {column: kept for column, kept in supports.items() if column in wanted}
         sampler = _Sampler(geometry, functions, K, supports, seed)
         probes = Probes(len(K.letters), seed)
-        relations: list[dict[int, Element]] = []
-        for column, support in supports.items():
-            relation = {column: K.one}
-            for kept in support:
-                if kept in wanted:
-                    values = partial(sampler.values, (column, kept))
-                    relation[kept] = -coefficient(values, K, probes)
-            relations.append(relation)
-        return relations
+        places = [(i, k) for i, support in supports.items() for k in support if k in wanted]
+        moved = [probes.home, *(probes.moved((i,), 1)[0] for i in range(len(K.letters)))]
+        # That of most letters first: if one is too large, it is.
+        places.sort(key=lambda at: len(set(sampler.values(at, moved))), reverse=True)
+        found = {at: -coefficient(partial(sampler.values, at), K, probes) for at in places}
+        return [
+            {column: K.one} | {k: found[column, k] for k in support if k in wanted}
+            for column, support in supports.items()
+        ]
     except ValueError as error:  # a constant whose denominator is a multiple of a prime
         raise TooLarge(f"a constant has no value modulo a prime ({error})") from None
 

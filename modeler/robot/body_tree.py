@@ -5,13 +5,77 @@ formats make a `BodyTree` of it; `moving_links` puts together what fixed joints 
 rows of the MDH table follow from the axes (`modeler.robot.mdh_rows`).
 """
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 import numpy as np
 
-from modeler.robot.angles import cosine_sine
+from modeler.core.toml_cells import shown
+from modeler.robot.angles import cosine_sine, pi_multiple, told_angles, twelfths
 from modeler.robot.robot import JointKind
+
+NOUGHT = 1e-6
+"""m, rad, and of a unit axis: smaller is what an exporter's arithmetic left of 0."""
+MOST_NAMED = 6
+"""Names and numbers that a note tells: more nobody reads."""
+
+
+def several(names: Iterable[str]) -> str:
+    """`"a", "b" and 12 more`."""
+    each = list(dict.fromkeys(names))
+    return ", ".join(shown(name) for name in each[:MOST_NAMED]) + _rest(len(each))
+
+
+def _rest(count: int) -> str:
+    return f" and {count - MOST_NAMED} more" if count > MOST_NAMED else ""
+
+
+@dataclass
+class Roundings:
+    """What the printed numbers of a file are roundings of.
+
+    Attributes:
+        exact: True to take numbers as printed.
+        angles: printed -> multiple of pi/12.
+        zeros: numbers below `NOUGHT`.
+    """
+
+    exact: bool
+    angles: dict[str, str] = field(default_factory=dict)
+    zeros: int = 0
+
+    def angle(self, digits: str) -> float:
+        """What the printed angle means, rad: by `twelfths`, or as near as `NOUGHT`."""
+        value = float(digits)
+        if self.exact:
+            return value
+        count, nearest = twelfths(digits), round(value * 12 / math.pi)
+        if count is None and abs(value - nearest * math.pi / 12) <= NOUGHT:
+            count = nearest
+        if count is None or value == count * math.pi / 12:
+            return value
+        if count:
+            self.angles[digits] = pi_multiple(Fraction(count, 12))
+        self.zeros += not count
+        return count * math.pi / 12
+
+    def lengths(self, values: np.ndarray) -> np.ndarray:
+        """What printed lengths, or parts of a unit axis, mean."""
+        dust = (values != 0.0) & (abs(values) < NOUGHT)
+        if self.exact:
+            return values
+        self.zeros += int(dust.sum())
+        return np.where(dust, 0.0, values)
+
+    def notes(self) -> Iterator[str]:
+        """What to tell of them."""
+        if self.angles:
+            most = told_angles(dict(list(self.angles.items())[:MOST_NAMED]))
+            yield f"{most}{_rest(len(self.angles))}; --exact-decimals keeps them"
+        if self.zeros:
+            yield f"{self.zeros} lengths, angles and parts of axes below {NOUGHT:g} are 0 here"
 
 
 @dataclass(frozen=True, eq=False)

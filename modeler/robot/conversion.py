@@ -11,9 +11,10 @@ from modeler.core.files import read_file
 from modeler.robot.par_convert import par_to_toml
 from modeler.robot.robot_text import Converted
 
-_PROLOG = 65536
 # Atomic: comments are not tried in all ways of taking them together.
-_FIRST = re.compile(rb"(?>\s+|<\?.*?\?>|<!--.*?-->)*+<(?:robot|mujoco|sdf)\b", re.DOTALL)
+_FIRST = re.compile(
+    rb"(?:\xef\xbb\xbf)?(?>\s+|<\?.*?\?>|<!--.*?-->)*+<(robot|mujoco|sdf)", re.DOTALL
+)
 
 
 def converted(path: str | Path, exact_decimals: bool = False, **part: Any) -> Converted:
@@ -51,21 +52,20 @@ def converted(path: str | Path, exact_decimals: bool = False, **part: Any) -> Co
 
 def is_robot_xml(data: bytes) -> bool:
     """True if the first element is that of a robot of another program."""
-    return bool(_FIRST.match(data.removeprefix(b"\xef\xbb\xbf")[:_PROLOG]))
+    return _FIRST.match(data) is not None
 
 
 def _tree_text(path: Path, data: bytes, exact_decimals: bool, part: Mapping[str, Any]) -> Converted:
     from modeler.robot.tree_cuts import cut
     from modeler.robot.tree_text import tree_to_toml
     from modeler.robot.urdf import urdf_tree
-    from modeler.robot.xml_source import parse_xml
 
-    root = parse_xml(data, str(path)).tag
-    if root == "sdf":
+    first = found[1] if (found := _FIRST.match(data)) else b""
+    if first == b"sdf":
         raise RobotError(
             f"{path}: is SDF, which is not read; give the URDF that it was made from, or an MJCF"
         )
-    if root in ("mujoco", "mujocoinclude"):
+    if first == b"mujoco":  # or what one includes, as is told there
         from modeler.robot.mjcf import mjcf_tree
 
         tree = mjcf_tree(path, exact_decimals)

@@ -8,12 +8,15 @@ with z_j along the axis of joint j. Axes are given; free are the place of the fr
 and the direction of x_j. They are chosen so that few cells are not 0: x_j along the common normal
 with the axis of a joint that link j carries, its origin at the foot, unless another choice saves a
 cell. Where axes are parallel but for a little, that foot would be far away, and with it the origin
-about which masses and inertias are counted: a fixed row stands between them instead.
+about which masses and inertias are counted: a fixed row stands between them instead. Joints of one
+loop that stand on the same link stand on a fixed row at the first of them: the length of the link
+between them is then a cell, and a parallelogram one by its symbols and not by its values only.
 
 Source: W. Khalil, J.-F. Kleinfinger, A new geometric notation for open and closed-loop robots,
     1986; S. Hayati, Robot arm geometric link parameter estimation, 1983 (nearly parallel axes).
 """
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -66,11 +69,21 @@ class MdhTable:
         rows: each after its antecedent.
         names: (links,) row that carries the link; "0" for the first.
         places: (links,) pose of the link's frame on that row.
+        ends: of every loop, the rows that carry its two points, and where on them.
     """
 
     rows: tuple[MdhRow, ...]
     names: tuple[str, ...]
     places: tuple[Pose, ...]
+    ends: tuple[tuple["Point", "Point"], ...] = ()
+
+
+Point = tuple[str, np.ndarray]
+"""Row, and (3,) place on it, m."""
+
+
+Loop = tuple[tuple[int, np.ndarray], tuple[int, np.ndarray]]
+"""Two links, and of each the (3,) point in its file frame that meets the other, m."""
 
 
 def exact_length(length: float) -> float:
@@ -193,6 +206,7 @@ class _Rows:
         reach: distance of neighbouring joints, m.
         axes: of every link's joint, in its file frame.
         points: of links, in their file frames, that close loops.
+        leads: link -> the first of those of its loop that stand on the same one.
         frames: pose of every link's row, in its file frame.
     """
 
@@ -200,6 +214,8 @@ class _Rows:
     reach: float
     axes: list[_Axis]
     points: Mapping[int, Sequence[np.ndarray]]
+    leads: Mapping[int, int]
+    stands: dict[int, tuple[str, Pose]] = field(default_factory=dict)
     frames: list[Pose] = field(default_factory=lambda: [Pose()])
     rows: list[MdhRow] = field(default_factory=list)
 
@@ -220,20 +236,18 @@ class _Rows:
         link = self.links[k]
         joint, name = link.joint, f"{k}"
         assert joint is not None
-        before = self.frames[link.parent].inverse() @ link.pose  # file frame k on the row before
-        axis, antecedent = self.axes[k].seen_in(before), f"{link.parent}"
+        antecedent, before = self.stand(k)
+        before = before.inverse() @ link.pose  # file frame k on the row before
+        axis = self.axes[k].seen_in(before)
         normal = _normal(axis, self.reach)
-        cells = {"gamma": _folded(normal.gamma or 0.0), "b": exact_length(normal.b or 0.0)}
-        start = Pose()
+        cells, start = _foot(normal), Pose()
         if normal.tilt is not None:
             d = exact_length(normal.d * _sign(cells["gamma"], normal.gamma))
             cells |= {"d": d, "theta": _folded(normal.tilt - cells["gamma"])}
             self.rows.append(MdhRow(f"{name}f", antecedent, cells))
             antecedent, start, cells = f"{name}f", row_pose(cells), {}
         axis = axis.seen_in((start @ row_pose(cells)).inverse())
-        cells["alpha"] = exact_turn(math.atan2(-axis.along[1], axis.along[2]))
-        if axis.through is not None:
-            cells["d"] = exact_length(float(axis.through[0]))
+        cells |= _across(axis)
         placed = before.inverse() @ start @ row_pose(cells)  # in file frame k
         revolute = joint.kind is JointKind.REVOLUTE
         zero = joint.zero
@@ -242,6 +256,33 @@ class _Rows:
         self.rows.append(MdhRow(name, antecedent, cells, joint))
         at_zero = _screw(theta + zero, r) if revolute else _screw(theta, r + zero)
         self.frames.append(placed @ at_zero)
+
+    def stand(self, k: int) -> tuple[str, Pose]:
+        """The row before that of link k, and its pose in the file frame of the link before."""
+        parent, lead = self.links[k].parent, self.leads.get(k)
+        if lead in self.stands:
+            return self.stands[lead]
+        frame, name = self.frames[parent], f"{parent}"
+        if lead is None:
+            return name, frame
+        axis = self.axes[k].seen_in(frame.inverse() @ self.links[k].pose)
+        normal = _normal(axis, self.reach)
+        if axis.through is not None and normal.tilt is None:
+            cells = _foot(normal)
+            cells |= _across(axis.seen_in(row_pose(cells).inverse()))
+            if any(cells.values()):
+                name, frame = f"{k}s", frame @ row_pose(cells)
+                self.rows.append(MdhRow(name, f"{parent}", cells))
+        self.stands[lead] = name, frame
+        return name, frame
+
+    def end(self, link: int, point: np.ndarray, other: int) -> Point:
+        """The row that carries a point of a link, which meets one of another."""
+        while other and self.links[other].parent != link:
+            other = self.links[other].parent
+        own = f"{link}", self.frames[link]
+        name, frame = self.stands.get(self.leads.get(other, 0), own)
+        return name, frame.inverse().place(point)
 
     def _chosen(self, k: int, placed: Pose, plain: tuple[float, float]) -> tuple[float, float]:
         """theta and r of the row of link k, without its variable.
@@ -271,6 +312,36 @@ class _Rows:
         return exact_turn(min([plain[0], *both], key=of_turn) - plain[0]), r
 
 
+def _foot(normal: _Normal) -> dict[str, float]:
+    """gamma and b: to the foot of the common normal, x along it."""
+    return {"gamma": _folded(normal.gamma or 0.0), "b": exact_length(normal.b or 0.0)}
+
+
+def _across(axis: _Axis) -> dict[str, float]:
+    """alpha and d: from the foot to the axis."""
+    cells = {"alpha": exact_turn(math.atan2(-axis.along[1], axis.along[2]))}
+    if axis.through is not None:
+        cells["d"] = exact_length(float(axis.through[0]))
+    return cells
+
+
+def _leads(links: Sequence[MovingLink], loops: Sequence[Loop]) -> dict[int, int]:
+    """Link -> the first of those that stand on the same one, and are of one loop."""
+    leads: dict[int, int] = {}
+    for loop in loops:
+        ways: list[list[int]] = []
+        for link, _ in loop:
+            ways.append([link])
+            while ways[-1][-1] > 0:
+                ways[-1].append(links[ways[-1][-1]].parent)
+        common = next(link for link in ways[0] if link in ways[1])
+        own = [way[way.index(common) - 1] for way in ways if way[0] != common]
+        olds = {leads.get(k, k) for k in own}
+        own += [k for k, lead in leads.items() if lead in olds]
+        leads |= dict.fromkeys(own, min(olds))
+    return leads
+
+
 def _sign(folded: float, angle: float | None) -> int:
     """-1 if the direction was turned round."""
     return 1 if angle is None or math.cos(folded - angle) > 0.0 else -1
@@ -297,21 +368,24 @@ def _axes(links: Sequence[MovingLink]) -> list[_Axis]:
     return axes
 
 
-def mdh_table(
-    links: Sequence[MovingLink], points: Mapping[int, Sequence[np.ndarray]] | None = None
-) -> MdhTable:
+def mdh_table(links: Sequence[MovingLink], loops: Sequence[Loop] = ()) -> MdhTable:
     """The rows of a tree; row j, counted from 1, moves link j, and q_j is the file's position.
 
     Args:
         links: as `moving_links` gives them.
-        points: place of a link -> points of it, in its frame, that close loops.
+        loops: points that meet.
     """
     ways = [float(np.linalg.norm(link.pose.position)) for link in links]
-    made = _Rows(links, max(ways) or 1.0, _axes(links), points or {})
+    points: dict[int, list[np.ndarray]] = {}
+    for k, point in itertools.chain(*loops):
+        points.setdefault(k, []).append(point)
+    made = _Rows(links, max(ways) or 1.0, _axes(links), points, _leads(links, loops))
     for k in range(1, len(links)):
         made.add(k)
     names = tuple(f"{k}" for k in range(len(links)))
-    return MdhTable(tuple(made.rows), names, tuple(frame.inverse() for frame in made.frames))
+    places = tuple(frame.inverse() for frame in made.frames)
+    ends = tuple((made.end(*one, two[0]), made.end(*two, one[0])) for one, two in loops)
+    return MdhTable(tuple(made.rows), names, places, ends)
 
 
 def roll_pitch_yaw(rotation: np.ndarray) -> tuple[float, float, float]:

@@ -7,8 +7,9 @@ meshes of bodies whose inertia is stated), so that files that are not there do n
 
 import itertools
 import math
+import re
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from decimal import Decimal
@@ -20,18 +21,25 @@ import numpy as np
 
 from modeler.core.errors import RobotError, installing, on_one_line
 from modeler.core.files import read_file
-from modeler.core.toml_cells import listed, shown
-from modeler.robot.angles import cosine_sine, twelfths
-from modeler.robot.body_tree import BodyTree, Inertial, Meeting, Pose, TreeJoint, doubt
+from modeler.core.toml_cells import shown
+from modeler.robot.angles import cosine_sine
+from modeler.robot.body_tree import (
+    BodyTree,
+    Inertial,
+    Meeting,
+    Pose,
+    Roundings,
+    TreeJoint,
+    doubt,
+    several,
+)
 from modeler.robot.robot import JointKind
-from modeler.robot.tree_cuts import held
+from modeler.robot.tree_cuts import follow
 from modeler.robot.xml_source import LARGEST_FILE, Element, parse_xml
 
 MOST_FILES = 200
 _COUNTS = {"replicate": ("count", 1e3), "hfield": ("nrow ncol", 1e6), "mesh": ("params", 1e3)}
 """Element -> attributes whose product makes bodies or numbers, and how many at most."""
-NOUGHT = 1e-6
-"""A length of less, m, or an angle, rad, is 0."""
 HIDDEN = 4e-6
 """What 1.5708 instead of pi/2 leaves in the components of a quaternion with more digits."""
 LIGHT = 1e-12
@@ -41,12 +49,13 @@ NOTHING = 1e-9
 ALIKE, EXACT = 1e-9, 1e-15
 _FREE, _BALL, _SLIDE, _HINGE = range(4)  # mjtJoint
 _WRAP_JOINT = 1  # mjtWrap
-_LEFT_OUT = ("sensors", "pairs", "excludes", "skins", "tuples", "numerics", "texts", "materials",
-             "textures")  # fmt: skip
+_LEFT_OUT = ("cameras", "lights", "hfields", "sensors", "pairs", "excludes", "skins", "tuples",
+             "numerics", "texts", "materials", "textures")  # fmt: skip
 _NUMBERS = ("body_pos", "body_mass", "body_ipos", "body_inertia", "jnt_pos", "qpos0", "eq_data",
             "dof_damping", "dof_armature", "actuator_gear", "actuator_damping", "actuator_armature",
             )  # fmt: skip
 LARGEST = 1e12
+_NUMBER = re.compile(r"\d+\.?\d*(?:[eE]\+?\d+)?")
 _ALWAYS = 1  # inertiafromgeom="true"
 
 
@@ -65,13 +74,12 @@ def mjcf_tree(path: Path, exact_decimals: bool = False) -> BodyTree:
     """
     mujoco = _mujoco(path)
     root = _sources(path)
-    with _silent(mujoco):
-        with _clear(mujoco, path):
-            spec = mujoco.MjSpec.from_file(str(path))
-            notes = _lighten(spec) + ([] if exact_decimals else _unround(spec))
-            model = spec.compile()
-        reading = _Reading(mujoco, path, model, notes)
-        return reading.tree(root.attributes.get("model") or path.stem)
+    with _quiet(mujoco, path):
+        spec = mujoco.MjSpec.from_file(str(path))
+        notes = _taken_out(spec) + _lighten(spec) + ([] if exact_decimals else _unround(spec))
+        model = spec.compile()
+    reading = _Reading(mujoco, path, model, notes)
+    return reading.tree(root.attributes.get("model") or path.stem)
 
 
 def _mujoco(path: Path) -> Any:
@@ -86,32 +94,23 @@ def _mujoco(path: Path) -> Any:
 
 
 @contextmanager
-def _silent(mujoco: Any) -> Iterator[None]:
-    """MuJoCo's warnings go nowhere: by itself it prints them and writes MUJOCO_LOG.TXT."""
+def _quiet(mujoco: Any, path: Path) -> Iterator[None]:
+    """MuJoCo's warnings go nowhere (else to the screen and MUJOCO_LOG.TXT), refusals are a line."""
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(lambda _text: None)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             yield
-    finally:
-        mujoco.set_mju_user_warning(before)
-
-
-@contextmanager
-def _clear(mujoco: Any, path: Path) -> Iterator[None]:
-    """MuJoCo's refusals as one line."""
-    try:
-        yield
     except (
         ValueError, TypeError, RuntimeError, MemoryError, mujoco.FatalError, mujoco.UnexpectedError,
     ) as error:  # fmt: skip
-        said = " ".join(line.strip() for line in str(error).splitlines())
-        for word in ("XML Error: ", "Error: "):
-            said = said.replace(word, "")
+        said = " ".join(str(error).split()).replace("XML Error: ", "").replace("Error: ", "")
         raise RobotError(
             on_one_line(f"{path}: MuJoCo does not take it: {said}; correct it there")
         ) from None
+    finally:
+        mujoco.set_mju_user_warning(before)
 
 
 # The text: everything that MuJoCo is going to read is looked at first.
@@ -121,9 +120,7 @@ def _sources(path: Path) -> Element:
     """The root of the file, when it and what it includes are XML of bounded size."""
     root = _parsed(path, "")
     if root.tag != "mujoco":
-        what = "a URDF; name it .urdf" if root.tag == "robot" else "no robot"
-        got = shown(root.tag)[1:-1]
-        raise RobotError(f"{path}: line {root.line}: got <{got}>, {what}; expected <mujoco>")
+        raise RobotError(f"{path}: line {root.line}: got <{root.tag[:20]}>; expected <mujoco>")
     waiting, seen = [(path, root)], {path.resolve()}
     while waiting:
         place, element = waiting.pop()
@@ -163,7 +160,7 @@ def _check_counts(path: Path, root: Element) -> None:
             raise RobotError(f"{where} is soft; expected rigid bodies; take it out")
         key, most = _COUNTS.get(element.tag, ("", math.inf))
         told = " ".join(element.attributes.get(name, "") for name in key.split())
-        count = math.prod(max(_number(word), 1.0) for word in told.split())
+        count = math.prod(max(float(number), 1.0) for number in _NUMBER.findall(told))
         if element.tag == "replicate":
             count = times = times * count
         if count > most:
@@ -171,14 +168,24 @@ def _check_counts(path: Path, root: Element) -> None:
         waiting += [(child, times) for child in element.children]
 
 
-def _number(word: str) -> float:
-    try:
-        return float(word)
-    except ValueError:  # MuJoCo will say so
-        return 1.0
-
-
 # What is taken out before MuJoCo compiles.
+
+
+def _taken_out(spec: Any) -> list[str]:
+    """Take out bodies that float, or that the simulator drags, and carry no joint."""
+    notes = []
+    for body in list(spec.worldbody.bodies):
+        floats = any(joint.type == _FREE for joint in body.joints)
+        if not floats and not body.mocap:
+            continue
+        what = "floats" if floats else "is dragged by the simulator (mocap)"
+        told = "here it stands still where the file has it"
+        if len(body.find_all("joint")) == floats:
+            told = "it is left out with what ties it, for it has no joint"
+        notes.append(f"{body.name or 'a body'} {what}; {told}")
+        if "left out" in told:
+            spec.delete(body)
+    return notes
 
 
 def _lighten(spec: Any) -> list[str]:
@@ -209,14 +216,12 @@ def _lighten(spec: Any) -> list[str]:
             body.explicitinertial, body.mass, body.inertia = True, LIGHT, [LIGHT] * 3
     for part in [*spec.geoms, *spec.sites]:
         part.material = ""
-    for name in _LEFT_OUT:
-        for part in list(getattr(spec, name)):
-            spec.delete(part)
-    for part in [*spec.hfields, *(mesh for mesh in spec.meshes if mesh.name not in used)]:
+    idle = [part for name in _LEFT_OUT for part in getattr(spec, name)]
+    for part in [*idle, *(mesh for mesh in spec.meshes if mesh.name not in used)]:
         spec.delete(part)
     if not without:
         return []
-    return [f"no values of {_some(without)}: they follow from meshes that are not there"]
+    return [f"no values of {several(without)}: they follow from meshes that are not there"]
 
 
 def _weighs(body: Any, geom: Any) -> bool:
@@ -225,52 +230,36 @@ def _weighs(body: Any, geom: Any) -> bool:
     return bool(weight != 0 and low <= geom.group <= high)
 
 
-def _some(names: Iterable[str]) -> str:
-    """The first of them, and how many more there are."""
-    every = list(names)
-    return listed(every[:4]) + (f" and {len(every) - 4} more" if len(every) > 4 else "")
-
-
 # Decimals that round something: taken for it before MuJoCo compiles.
 
 
 def _unround(spec: Any) -> list[str]:
     """Put multiples of pi/12 for their roundings, 0 for lengths below 1 um; says so."""
-    told: dict[str, None] = {}
+    rounded = Roundings(exact=False)
+
+    def angle(value: float, degree: bool) -> float:
+        return value if degree else rounded.angle(repr(float(value)))
+
     for part in [*spec.bodies, *spec.frames]:
         way, degree = part.alt.type.name, part.compiler.degree
         if way == "mjORIENTATION_QUAT":
-            part.quat = _near(np.array(part.quat), _rotations(), told)
+            part.quat = _near(np.array(part.quat), _rotations(), rounded)
         elif way == "mjORIENTATION_EULER":
-            part.alt.euler = [_angle(float(x), degree, told) for x in part.alt.euler]
+            part.alt.euler = [angle(x, degree) for x in part.alt.euler]
         elif way == "mjORIENTATION_AXISANGLE":
-            *axis, angle = part.alt.axisangle
-            axis = _near(np.array(axis), _directions(), told)
-            part.alt.axisangle = [*axis, _angle(float(angle), degree, told)]
+            *axis, turn = part.alt.axisangle
+            axis = _near(np.array(axis), _directions(), rounded)
+            part.alt.axisangle = [*axis, angle(turn, degree)]
     for joint in spec.joints:
-        joint.axis = _near(np.array(joint.axis), _directions(), told)
+        joint.axis = _near(np.array(joint.axis), _directions(), rounded)
         if joint.type == _HINGE:
-            joint.ref = _angle(joint.ref, joint.compiler.degree, told)
+            joint.ref = angle(joint.ref, joint.compiler.degree)
     for part in [*spec.bodies, *spec.frames, *spec.joints, *spec.sites]:
-        small = np.abs(part.pos) < NOUGHT
-        if np.any(part.pos[small]):
-            part.pos = np.where(small, 0.0, part.pos)
-            told["lengths below 1 um"] = None
-    if not told:
-        return []
-    means = "rounded numbers are exact here, multiples of pi/12 and 0"
-    return [f"{means}: {_some(told)}; --exact-decimals keeps them"]
+        part.pos = rounded.lengths(np.array(part.pos))
+    return list(rounded.notes())
 
 
-def _angle(value: float, degree: bool, told: dict[str, None]) -> float:
-    count = twelfths(f"{Decimal(repr(value)):f}") if abs(value) >= NOUGHT else 0
-    if degree or count is None or value == (exact := count * math.pi / 12):
-        return value
-    told[f"{value:g}"] = None
-    return exact
-
-
-def _near(given: np.ndarray, known: np.ndarray, told: dict[str, None]) -> np.ndarray:
+def _near(given: np.ndarray, known: np.ndarray, rounded: Roundings) -> np.ndarray:
     """The unit vector among the known ones that the printed one rounds; itself if there is none."""
     length = float(np.linalg.norm(given))
     if not 0.99 < length < 1.01:
@@ -283,7 +272,7 @@ def _near(given: np.ndarray, known: np.ndarray, told: dict[str, None]) -> np.nda
     if np.max(np.abs(best - given)) > allowed:
         return given
     if np.max(np.abs(best - given / length)) > ALIKE:
-        told[" ".join(f"{x:g}" for x in given)] = None
+        rounded.angles[" ".join(f"{x:g}" for x in given)] = "of multiples of pi/12"
     return best
 
 
@@ -326,8 +315,6 @@ class _Reading:
         self._bodies = _named("body", [model.body(i).name for i in range(model.nbody)])
         self._joints = _named("joint", [model.joint(i).name for i in range(model.njnt)])
         self._single = np.isin(model.jnt_type, [_HINGE, _SLIDE])
-        self._out = self._left_out()
-        self._kept = {j for j, body in enumerate(model.jnt_bodyid) if body not in self._out}
         self._actuated = self._driven()
 
     def tree(self, name: str) -> BodyTree:
@@ -336,19 +323,18 @@ class _Reading:
         for numbers in _NUMBERS:
             if not np.all(np.abs(getattr(model, numbers)) < LARGEST):
                 raise self._refused(f"{numbers}: got more than {LARGEST:g}; expected SI units")
-        if all(model.jnt_type[j] == _FREE for j in self._kept):
+        if np.all(model.jnt_type == _FREE):
             raise self._refused("no hinge or slide moves anything; expected a robot")
         joints = tuple(self._tree_joints(hidden, unread))
         joints, meetings = self._tied(joints), tuple(self._meetings())
         self._tell()
-        bodies = {n: self._inertial(i) for i, n in enumerate(self._bodies) if i not in self._out}
-        doubts = {n: doubt(body) for n, body in bodies.items() if body is not None}
+        bodies = {n: self._inertial(i) for i, n in enumerate(self._bodies)}
         floats = model.opt.disableflags & int(self._mujoco.mjtDisableBit.mjDSBL_GRAVITY)
         return BodyTree(
             name, "MJCF", self._bodies[0], bodies | dict.fromkeys(hidden), joints, meetings,
             gravity=np.zeros(3) if floats else np.array(model.opt.gravity),
             hidden=frozenset(hidden),
-            doubted={n: why for n, why in doubts.items() if why},
+            doubted={n: why for n, body in bodies.items() if body and (why := doubt(body))},
             unread=unread,
             home=self._home() if meetings else {},
             notes=tuple(self._notes),
@@ -361,29 +347,10 @@ class _Reading:
         mass, moments = float(model.body_mass[body]), model.body_inertia[body]
         if mass < NOTHING and np.all(moments < NOTHING):
             return None
-        turn = _matrix(model.body_iquat[body])
+        turn = _matrix(self._mujoco, model.body_iquat[body])
         inertia = turn @ np.diag(moments) @ turn.T
         inertia[np.abs(inertia) < 10 * EXACT * np.max(moments)] = 0.0
         return Inertial(mass, np.array(model.body_ipos[body]), inertia)
-
-    def _left_out(self) -> set[int]:
-        """Bodies that float, or that the simulator drags, and carry no joint."""
-        model, out = self._model, set[int]()
-        free = set(model.jnt_bodyid[model.jnt_type == _FREE])
-        for body in range(model.nbody):
-            if body not in free and model.body_mocapid[body] < 0:
-                continue
-            below = {body}
-            for other in range(body + 1, model.nbody):  # each stands behind its parent
-                below |= {other} if model.body_parentid[other] in below else set()
-            what = "floats" if body in free else "is dragged by the simulator (mocap)"
-            if np.sum(np.isin(model.jnt_bodyid, list(below))) > (body in free):
-                told = "here it stands still where the file has it"
-            else:
-                told = "it is left out, for it has no joint"
-                out |= below
-            self._notes.append(f"{self._bodies[body]} {what}; {told}")
-        return out
 
     # Joints.
 
@@ -391,10 +358,12 @@ class _Reading:
         """Of the bodies that are kept; of several in a body, each turns those behind it."""
         model, taken = self._model, {*self._joints}
         for body, name in enumerate(self._bodies):
-            if body == 0 or body in self._out:
+            if body == 0:
                 continue
             parent = self._bodies[model.body_parentid[body]]
-            pose = Pose(np.array(model.body_pos[body]), _matrix(model.body_quat[body]))
+            pose = Pose(
+                np.array(model.body_pos[body]), _matrix(self._mujoco, model.body_quat[body])
+            )
             own = np.flatnonzero(model.jnt_bodyid == body).tolist()
             if not own:
                 label = _other(name, taken)
@@ -452,7 +421,7 @@ class _Reading:
             getattr(mujoco, step)(model, data)
         acting = np.abs(np.ravel(data.actuator_moment)) > ALIKE
         dofs = np.ravel(data.moment_colind)[: acting.size][acting]
-        return {int(model.dof_jntid[dof]) for dof in dofs} & self._kept or self._kept
+        return {int(model.dof_jntid[dof]) for dof in dofs} or set(range(model.njnt))
 
     # Constraints.
 
@@ -465,28 +434,15 @@ class _Reading:
 
     def _tied(self, joints: tuple[TreeJoint, ...]) -> tuple[TreeJoint, ...]:
         """Joints that equalities tie follow the one that has a motor, or stand still."""
-        ties = self._ties()
         made = {joint.name: joint for joint in joints}
-        for one in ties:
-            name, leader, ratio, offset = self._joints[one], one, 1.0, 0.0
-            for _ in range(len(ties) + 1):
-                if leader in ties:
-                    leader, slope, shift = ties[leader]
-                    ratio, offset = ratio * slope, offset + ratio * shift
-            if leader in ties:
-                raise self._refused(f"equalities let joint {name} follow itself; take one out")
-            if leader < 0:
-                self._notes.append(f"joint {name} stands still: an equality holds it")
-                made[name] = held(made[name], offset)
-            else:
-                made[name] = replace(
-                    made[name], leader=self._joints[leader], ratio=ratio, offset=offset,
-                    actuated=False,
-                )  # fmt: skip
+        still, circle = follow(made, self._ties())
+        if circle:
+            raise self._refused(f"equalities let joint {circle} follow itself; take one out")
+        self._notes += [f"joint {name} stands still: an equality holds it" for name in still]
         return tuple(made.values())
 
-    def _ties(self) -> dict[int, tuple[int, float, float]]:
-        """Joint -> that which it follows, -1 for none, ratio and offset."""
+    def _ties(self) -> dict[str, tuple[str, float, float]]:
+        """Joint -> that which it follows, "" for none, ratio and offset."""
         model, ties = self._model, dict[int, tuple[int, float, float]]()
         for kind, i, name in self._equalities():
             if kind not in ("joint", "tendon"):
@@ -500,9 +456,6 @@ class _Reading:
                     f"{name} lets {self._joints[one]} follow {self._joints[two]} by a polynomial; "
                     "expected a straight line, polycoef 0 from the third on"
                 )
-            if not {one, two} <= self._kept | {-1}:
-                self._notes.append(f"{name} is left out with its body")
-                continue
             ratio = ratio if two >= 0 else 0.0
             zero = [float(model.qpos0[model.jnt_qposadr[j]]) for j in (one, two)]
             offset = zero[0] + constant - ratio * zero[1]
@@ -510,8 +463,11 @@ class _Reading:
                 one, two, ratio, offset = two, one, 1 / ratio, -offset / ratio
             if one in ties:
                 raise self._refused(f"{name}: {self._joints[one]} follows another joint already")
-            ties[one] = (two if ratio else -1, ratio, offset)
-        return ties
+            ties[one] = (two, ratio, offset)
+        return {
+            self._joints[one]: (self._joints[two] if ratio else "", ratio, offset)
+            for one, (two, ratio, offset) in ties.items()
+        }
 
     def _pair(
         self, name: str, tendon: int, other: int, constant: float
@@ -540,9 +496,7 @@ class _Reading:
                 points = [np.array(model.site_pos[site]) for site in ends]
                 ends = [int(model.site_bodyid[site]) for site in ends]
             one, two = (self._bodies[end] for end in ends)
-            if self._out & {*ends}:
-                self._notes.append(f"{name} of {one} and {two} is left out with its body")
-            elif self._carrier(ends[0]) == self._carrier(ends[1]):
+            if self._carrier(ends[0]) == self._carrier(ends[1]):
                 self._notes.append(f"{name} of {one} and {two} is left out: they move as one")
             elif kind == "weld":
                 raise self._refused(f"{name} holds {one} and {two} rigidly; expected connect")
@@ -562,7 +516,7 @@ class _Reading:
         model = self._model
         keys = {model.key(k).name: model.key_qpos[k] for k in range(model.nkey)}
         posture = keys.get("home", model.qpos0)[model.jnt_qposadr]
-        return {self._joints[j]: float(posture[j]) for j in self._kept if self._single[j]}
+        return {self._joints[j]: float(posture[j]) for j in np.flatnonzero(self._single)}
 
     # What is told.
 
@@ -576,19 +530,17 @@ class _Reading:
         idle = model.neq - int(np.sum(model.eq_active0))
         lifted = [n for n, share in zip(self._bodies, model.body_gravcomp, strict=True) if share]
         fluid = model.opt.density or model.opt.viscosity or np.any(model.opt.wind)
-        of_tendons = [
-            getattr(model, f"tendon_{p}") for p in ("stiffness", "damping", "frictionloss")
-        ]
+        tendons = [f"tendon_{p}" for p in ("stiffness", "damping", "frictionloss", "armature")]
         curved = np.any(model.jnt_stiffnesspoly) or np.any(model.dof_dampingpoly)
-        driven = [i for j in self._kept for i in self._motors(j)]
+        driven = [i for j in range(model.njnt) for i in self._motors(j)]
         gear = np.any(model.actuator_gear[driven, 0] != 1) and np.any(model.dof_armature)
         inner = np.any(model.actuator_armature[driven]) or np.any(model.actuator_damping[driven])
         notes = {
             f"{idle} inactive equalities are left out": idle,
-            f"gravcomp of {_some(lifted)} is left out: torques here carry gravity": lifted,
+            f"gravcomp of {several(lifted)} is left out: torques here carry gravity": lifted,
             "forces of the fluid (density, viscosity, wind) are left out": fluid,
             "springs, damping, friction and armature of tendons are left out": any(
-                np.any(values) for values in (*of_tendons, model.tendon_armature)
+                np.any(getattr(model, values)) for values in tendons
             ),
             "of polynomial springs and damping the linear term is taken": curved,
             "armature and damping of actuators are the motor's: gear^2 as much at a joint": inner,
@@ -611,11 +563,10 @@ def _other(name: str, taken: set[str]) -> str:
     return name
 
 
-def _matrix(quaternion: np.ndarray) -> np.ndarray:
+def _matrix(mujoco: Any, quaternion: np.ndarray) -> np.ndarray:
     """(3, 3) the rotation; what ought to be 0 or 1 is."""
-    w, x, y, z = quaternion
-    axis = np.array([x, y, z])
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    turn = np.eye(3) * (w * w - axis @ axis) + 2 * np.outer(axis, axis) + 2 * w * cross
+    entries = np.zeros(9)
+    mujoco.mju_quat2Mat(entries, quaternion)
+    turn = entries.reshape(3, 3)
     whole = np.round(turn)
     return np.where(np.abs(turn - whole) < EXACT, whole, turn) + 0.0

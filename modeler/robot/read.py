@@ -38,6 +38,7 @@ from modeler.robot.motors import (
     shared_names,
 )
 from modeler.robot.robot import Joint, Robot
+from modeler.robot.robot_text import Converted
 from modeler.robot.sections import (
     read_coupling,
     read_diagnose,
@@ -84,7 +85,7 @@ def read_robot(robot: str | Path) -> Robot:
         )
     path = Path(robot)
     if path.suffix.lower() in OTHER_PROGRAMS:
-        return _of_other_program(path)
+        return of_other_program(converted(path), path)
     try:
         is_file = path.exists() and not path.is_dir()
         text = read_text(path) if is_file else ""
@@ -97,7 +98,7 @@ def read_robot(robot: str | Path) -> Robot:
     if not is_file:
         raise RobotError(_not_found(path))
     if is_robot_xml(text.encode()):  # under another name
-        return _of_other_program(path)
+        return of_other_program(converted(path), path)
     if text.lstrip().startswith("{"):  # as JSON does and a robot file never
         what = "a model file" if '"modeler model"' in text else "JSON"
         raise RobotError(
@@ -107,8 +108,8 @@ def read_robot(robot: str | Path) -> Robot:
     return robot_from_text(text, str(path))
 
 
-def _of_other_program(path: Path) -> Robot:
-    found = converted(path)
+def of_other_program(found: Converted, path: str | Path) -> Robot:
+    """The robot of another program's file; its readings say what was decided."""
     read = robot_from_text(found.text, f"{path}, as a robot file")
     return dataclasses.replace(read, readings=(*found.notes, *read.readings))
 

@@ -73,9 +73,17 @@ def quoted(cell: str) -> str:
     return cell if re.fullmatch(r"-?\d+(\.\d+)?", cell) else f'"{cell}"'
 
 
-def number(worth: float) -> str:
-    """A TOML number: 15 digits, which hide what adding decimals has left behind."""
-    return repr(float(f"{worth:.15g}"))
+def number(worth: float, scale: float = 0.0) -> str:
+    """A TOML number, of as few digits as are within rounding of it.
+
+    Args:
+        worth: what to print.
+        scale: of what was added up to it; below 1e-14 of that, adding leaves nothing but rounding.
+    """
+    slack = 1e-14 * max(abs(worth), scale)
+    shorter = (float(f"{worth:.{digits}g}") for digits in range(1, 16))
+    short = next((short for short in shorter if abs(short - worth) <= slack), float(worth))
+    return repr(short if abs(short) > slack else 0.0)
 
 
 def aligned(cells: Sequence[Sequence[str]]) -> list[str]:

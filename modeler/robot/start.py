@@ -1,6 +1,5 @@
 """Robot files to start from: templates that derive as they are, and files of other programs."""
 
-import dataclasses
 import re
 import string
 from collections.abc import Mapping
@@ -12,7 +11,7 @@ from modeler.core.files import Kind, destination, write_atomically, write_unless
 from modeler.robot.cells import robot_name
 from modeler.robot.conventions import CONVENTIONS, GEOMETRY, STEPS
 from modeler.robot.conversion import converted
-from modeler.robot.read import robot_from_text
+from modeler.robot.read import of_other_program, robot_from_text
 from modeler.robot.robot import Robot
 from modeler.robot.robot_text import aligned
 
@@ -69,8 +68,8 @@ def convert(
 ) -> Robot:
     """The robot of a URDF, MJCF or SYMORO file; written as a robot file if `out` says where.
 
-    >>> exported = export(model, "arm.urdf")
-    >>> convert("arm.urdf", "read.toml").moving[1].name
+    >>> exported = export(model, "arm.urdf", force=True)
+    >>> convert("arm.urdf", "arm-again.toml", force=True).moving[1].name
     '2'
 
     Args:
@@ -90,10 +89,10 @@ def convert(
         DataError: a file that is there.
     """
     found = converted(file, exact_decimals, base=base, tip=tip, locks=lock)
-    robot = robot_from_text(found.text, f"{file}, as a robot file")
+    robot = of_other_program(found, file)
     if out is not None:
         write_unless_other(Path(out), found.text, force)
-    return dataclasses.replace(robot, readings=(*found.notes, *robot.readings))
+    return robot
 
 
 def check_new_robot(place: Path, force: bool) -> None:

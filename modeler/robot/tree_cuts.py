@@ -5,7 +5,7 @@ gone with its weight; bodies that hang on by fixed joints stay. A joint that is 
 bodies, on what moves before it.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
 from modeler.core.errors import RobotError
@@ -14,9 +14,6 @@ from modeler.core.toml_cells import Place, near, shown
 from modeler.robot.body_tree import BodyTree, Pose, TreeJoint
 from modeler.robot.cells import LARGEST_LENGTH
 from modeler.robot.robot import JointKind
-
-MOST_NAMED = 6
-"""Links and joints that a note names: more nobody reads."""
 
 
 def cut(
@@ -68,6 +65,38 @@ def held(joint: TreeJoint, position: float) -> TreeJoint:
     return TreeJoint(
         joint.name, JointKind.FIXED, joint.parent, joint.child, joint.at(position), actuated=False
     )
+
+
+def follow(
+    joints: dict[str, TreeJoint], direct: Mapping[str, tuple[str, float, float]]
+) -> tuple[list[str], str]:
+    """Let joints follow the one that leads, through those that follow it themselves.
+
+    Args:
+        joints: by name; changed in place.
+        direct: joint -> that which it follows, "" for none, ratio and offset.
+
+    Returns:
+        Those that stand still, for what they follow does; one that follows itself, "" if none does.
+    """
+    still = list[str]()
+    for name in direct:
+        leader, ratio, offset = name, 1.0, 0.0
+        for _ in range(len(direct) + 1):
+            if leader not in direct:
+                break
+            leader, times, plus = direct[leader]
+            ratio, offset = ratio * times, ratio * plus + offset
+        else:
+            return still, name
+        if ratio == 0.0 or joints[leader].kind is JointKind.FIXED:
+            joints[name] = held(joints[name], offset)
+            still.append(name)
+        else:
+            joints[name] = replace(
+                joints[name], leader=leader, ratio=ratio, offset=offset, actuated=False
+            )
+    return still, ""
 
 
 def _locked(tree: BodyTree, name: str, value: str | float) -> BodyTree:
@@ -196,29 +225,7 @@ def _all_read(tree: BodyTree) -> BodyTree:
     for name, told in unread.items():
         instead = f"cut it off with --base LINK or --tip LINK, or hold it with --lock {name}=0"
         raise RobotError(f"{told} joints are not read; {instead}")
-    return replace(tree, unread=unread, notes=(*notes, *_weights(tree)))
-
-
-def _weights(tree: BodyTree) -> Iterator[str]:
-    """What to tell of bodies that were not weighed."""
-    named: dict[str, list[str]] = {}
-    for name, body in tree.bodies.items():
-        if name in tree.doubted:
-            named.setdefault(f"{tree.doubted[name]}: {{}}", []).append(name)
-        elif body is None and name not in {tree.root, *tree.hidden}:
-            named.setdefault("no inertia is stated of {}; they weigh nothing", []).append(name)
-    return (told.format(several(names)) for told, names in named.items())
-
-
-def several(names: Iterable[str]) -> str:
-    """`"a", "b" and 12 more`."""
-    each = list(dict.fromkeys(names))
-    return ", ".join(shown(name) for name in each[:MOST_NAMED]) + rest(len(each))
-
-
-def rest(count: int) -> str:
-    """` and 12 more`; nothing where all are named."""
-    return f" and {count - MOST_NAMED} more" if count > MOST_NAMED else ""
+    return replace(tree, unread=unread, notes=tuple(notes))
 
 
 def _at_zero(tree: BodyTree) -> dict[str, Pose]:

@@ -1,6 +1,5 @@
 """A tree of bodies as the text of a robot file, with what had to be decided or left out."""
 
-import itertools
 import json
 import math
 from fractions import Fraction
@@ -12,15 +11,21 @@ import modeler.robot.robot_text as toml
 from modeler.core.errors import RobotError
 from modeler.core.toml_cells import listed
 from modeler.robot.angles import pi_multiple
-from modeler.robot.body_tree import BodyTree, MovingLink, about_origin, moving_links
+from modeler.robot.body_tree import (
+    BodyTree,
+    Meeting,
+    MovingLink,
+    about_origin,
+    moving_links,
+    several,
+)
 from modeler.robot.cells import robot_name
 from modeler.robot.conventions import ANGLES
-from modeler.robot.mdh_rows import MdhRow, exact_length, mdh_table, roll_pitch_yaw, towards
+from modeler.robot.mdh_rows import Loop, MdhRow, exact_length, mdh_table, roll_pitch_yaw, towards
 from modeler.robot.par_table import LETTER, Symbols, gravity
 from modeler.robot.robot import INERTIAL, JointKind, Place
 from modeler.robot.robot_text import Converted, TextRow
 from modeler.robot.sections import FRAME_COLUMNS
-from modeler.robot.tree_cuts import several
 
 UNCERTAINTY = 0.3
 """How sure masses, centres and inertias of another program's file are, over their scale."""
@@ -31,6 +36,8 @@ _EFFECTS = {
     "spring": ("stiffness", "Ks"),
 }
 """Effect -> attribute of a joint, and its parameter."""
+_SMALLEST = 1e-3
+"""m; where masses are nearer to an origin, digits below the rounding of that distance are none."""
 _SPEED = {JointKind.REVOLUTE: 2.0, JointKind.PRISMATIC: 0.5}
 """rad/s, m/s where a file states none."""
 _ACCELERATION = 4.0
@@ -83,11 +90,7 @@ class _Writing:
 
     def __init__(self, tree: BodyTree, where: str) -> None:
         self.tree, self.links = tree, moving_links(tree)
-        self.meetings = self._meetings()
-        points: dict[int, list[np.ndarray]] = {}
-        for k, point in itertools.chain(*self.meetings):
-            points.setdefault(k, []).append(point)
-        self.table = mdh_table(self.links, points)
+        self.table = mdh_table(self.links, [self._loop(meeting) for meeting in tree.meetings])
         self.symbols = Symbols(notes=list(tree.notes))
         self._equal: dict[float, str] = {}
         moved = [link.joint for link in self.links if link.joint is not None]
@@ -106,6 +109,9 @@ class _Writing:
 
     def _row(self, row: MdhRow) -> TextRow:
         cells = {c: self._cell(c, worth, row.name) for c, worth in row.cells.items()}
+        if row.name.endswith("s"):
+            told = f"joints of a loop stand on it, {row.name[:-1]} the first"
+            return TextRow(row.name, row.antecedent, 0, int(row.kind), cells, told)
         if row.joint is None:
             tilted = row.name.removesuffix("f")
             self.symbols.notes.append(
@@ -124,34 +130,31 @@ class _Writing:
         text = _angle(worth) if angle else "0" if worth == 0.0 else ""
         if text:
             return text
-        shared = self._equal.get(abs(worth)) if self.tree.meetings and not angle else None
-        name = shared or self.symbols.add(
-            f"{LETTER[column]}{row}", abs(worth), "rad" if angle else "m"
-        )
-        self._equal[abs(worth)] = name
+        size, shared = abs(worth), None
+        if self.tree.meetings and not angle:
+            shared = next((n for x, n in self._equal.items() if abs(x - size) < 1e-13), None)
+        name = shared or self.symbols.add(f"{LETTER[column]}{row}", size, "rad" if angle else "m")
+        self._equal[size] = name
         return f"-{name}" if worth < 0.0 else name
 
-    def _meetings(self) -> list[list[tuple[int, np.ndarray]]]:
-        """Of every loop the two links that meet, and the point in the frame of each."""
+    def _loop(self, meeting: Meeting) -> Loop:
+        """The two links that meet, and the point in the frame of each."""
         places = {body: k for k, link in enumerate(self.links) for body in link.bodies}
-        return [
-            [
-                (places[body], self.links[places[body]].bodies[body].place(point))
-                for body, point in ((m.body, m.point), (m.other, m.other_point))
-            ]
-            for m in self.tree.meetings
-        ]
+
+        def end(body: str, point: np.ndarray) -> tuple[int, np.ndarray]:
+            return places[body], self.links[places[body]].bodies[body].place(point)
+
+        return end(meeting.body, meeting.point), end(meeting.other, meeting.other_point)
 
     def _loops(self) -> list[tuple[str, str, str, str]]:
         """Where points meet; the rows that carry them are added."""
         found = []
-        for i, (meeting, ends) in enumerate(
-            zip(self.tree.meetings, self.meetings, strict=True), start=1
-        ):
-            for side, (k, point) in zip("ab", ends, strict=True):
-                at = towards(self.table.places[k].place(point))
+        meetings = zip(self.tree.meetings, self.table.ends, strict=True)
+        for i, (meeting, ends) in enumerate(meetings, start=1):
+            for side, (before, point) in zip("ab", ends, strict=True):
+                at = towards(point)
                 cells = {c: self._cell(c, worth, f"P{i}{side}") for c, worth in at.items()}
-                row = TextRow(f"P{i}{side}", f"{k}", 0, JointKind.FIXED, cells, meeting.name)
+                row = TextRow(f"P{i}{side}", before, 0, JointKind.FIXED, cells, meeting.name)
                 self.rows.append(row)
             found.append((f"P{i}", f"P{i}a", f"P{i}b", "spherical"))
         return found
@@ -183,7 +186,7 @@ class _Writing:
                 place = self.table.places[k] @ pose
                 joint = link.joint.name if link.joint and body == moved else ""
                 numbers = [_number(exact_length(float(x))) for x in place.position]
-                angles = [_quoted_angle(angle) for angle in roll_pitch_yaw(place.rotation)]
+                angles = [toml.quoted(_angle(a) or repr(a)) for a in roll_pitch_yaw(place.rotation)]
                 names = [json.dumps(text, ensure_ascii=False) for text in (body, f"{k}", joint)]
                 cells.append([*names, *numbers, *angles])
         head = "[frames]                              # links of the file on their rows: m, rad"
@@ -218,8 +221,9 @@ class _Writing:
             if not any(getattr(joint, _EFFECTS[effect][0]) for joint in self.joints.values())
         ]
         if silent:
+            joints = "actuated joints" if self.loops else "joints"
             self.symbols.notes.append(
-                f"added to the joints: {listed(silent)}, of which the file says nothing; a fit "
+                f"added to the {joints}: {listed(silent)}, of which the file says nothing; a fit "
                 "without would be wrong"
             )
         lines = toml.effect_lines({k: v for k, v in having.items() if v}, self.driven)
@@ -227,27 +231,24 @@ class _Writing:
 
     def parameters(self) -> list[str]:
         """Nominal values, and how sure those of the links are."""
-        lines, missing, doubted = list[str](), list[str](), list[str]()
+        lines, doubted, notes = list[str](), list[str](), self.symbols.notes
+        notes += self._unweighed()
         for k, link in enumerate(self.links):
             whole = link.inertial
-            if k == 0 or self._is_hidden(link):
+            if k == 0 or whole is None or not (whole.mass or whole.inertia.any()):
                 continue
-            if whole is None or not (whole.mass or whole.inertia.any()):
-                missing.extend(link.bodies)
-            elif not self._is_measured(link):
-                doubted.extend(link.bodies)
-            else:
+            if self._is_measured(link):
                 ten = about_origin(whole.seen_from(self.table.places[k]))
-                small = 1e-15 * np.abs(ten).max()
+                inertia = max(*np.abs(ten[:6]).tolist(), abs(whole.mass) * _SMALLEST**2)
+                scales = [inertia] * 6 + [math.sqrt(abs(whole.mass) * inertia)] * 3 + [0.0]
                 lines += [
-                    f"{prefix}{k} = {toml.number(worth if abs(worth) > small else 0.0)}"
-                    for prefix, worth in zip(INERTIAL, ten, strict=True)
+                    f"{prefix}{k} = {toml.number(*worth)}"
+                    for prefix, *worth in zip(INERTIAL, ten.tolist(), scales, strict=True)
                 ]
+            else:
+                doubted.extend(link.bodies)
         prior = [f"inertial = {UNCERTAINTY}"] if lines else []
         lines += self._of_joints()
-        notes = self.symbols.notes
-        if missing:
-            notes.append(f"the file states no mass of {several(missing)}")
         if doubted:
             notes.append(f"no values of {several(doubted)}, which move as one with such a body")
         if prior:
@@ -261,6 +262,22 @@ class _Writing:
                 "[parameters.uncertainty]              # over the scale of a body", prior
             ),
         ]
+
+    def _unweighed(self) -> list[str]:
+        """What to tell of bodies that move and that nobody has weighed.
+
+        A frame without mass on a body that has one says nothing.
+        """
+        named: dict[str, list[str]] = {}
+        for link in self.links[1:]:
+            light = link.inertial is None or link.inertial.mass == 0.0
+            for name in (body for body in link.bodies if body not in self.tree.hidden):
+                if (why := self.tree.doubted.get(name)) and (light or why != "mass 0"):
+                    named.setdefault(f"{why}: {{}}", []).append(name)
+                elif self.tree.bodies[name] is None and light:
+                    told = "no inertia is stated of {}; they weigh nothing"
+                    named.setdefault(told, []).append(name)
+        return [told.format(several(names)) for told, names in named.items()]
 
     def _is_measured(self, link: MovingLink) -> bool:
         """False where a placeholder is among bodies that were weighed: a prior would believe it."""
@@ -304,11 +321,6 @@ def _angle(worth: float) -> str:
     """`pi/2`; nothing for an angle that is no multiple of pi/12."""
     twelfths = round(worth / (math.pi / 12))
     return pi_multiple(Fraction(twelfths, 12)) if worth == twelfths * (math.pi / 12) else ""
-
-
-def _quoted_angle(worth: float) -> str:
-    text = _angle(worth)
-    return "0" if text == "0" else f'"{text}"' if text else repr(worth)
 
 
 def _number(worth: float) -> str:

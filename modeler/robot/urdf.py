@@ -6,24 +6,31 @@ pi/2 from a measured angle, nor the line and the bytes where it stands. Meshes, 
 belongs to Gazebo are passed over.
 """
 
-import heapq
 import math
 import re
 import shlex
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
-from modeler.robot.angles import pi_multiple, told_angles, twelfths
-from modeler.robot.body_tree import BodyTree, Inertial, Pose, TreeJoint, doubt, turned
+from modeler.robot.body_tree import (
+    NOUGHT,
+    BodyTree,
+    Inertial,
+    Pose,
+    Roundings,
+    TreeJoint,
+    doubt,
+    several,
+    turned,
+)
 from modeler.robot.cells import LARGEST_LENGTH
 from modeler.robot.robot import JointKind
-from modeler.robot.tree_cuts import MOST_NAMED, held, rest, several
+from modeler.robot.tree_cuts import follow
 from modeler.robot.xml_source import Element, parse_xml
 
 _KINDS = {
@@ -34,8 +41,6 @@ _KINDS = {
 }
 _UNREAD = ("floating", "planar", "ball", "spherical", "universal", "screw")
 _DECIMAL = re.compile(r"[+-]?(?:\d+\.?(\d*)|\.(\d+))(?:[eE]([+-]?\d{1,4}))?", re.ASCII)
-_ZERO = 1e-6
-"""m, rad, and of a unit axis: smaller is what an exporter's arithmetic left of 0."""
 _MOST_LINKS = 5000
 
 
@@ -116,10 +121,7 @@ class _Spot:
         if len(words) != count:
             raise place.mismatch(expected)
         for word in words:
-            if len(word) > 100 or not _DECIMAL.fullmatch(word):
-                raise place.holding(word).mismatch(expected)
-            if abs(float(word)) > most:
-                raise place.holding(word).mismatch(f"at most {most:g} in SI units")
+            _check_number(place.holding(word), expected, most)
         return words
 
     def numbers(self, attribute: str, default: str, most: float = LARGEST) -> np.ndarray:
@@ -135,13 +137,19 @@ class _Spot:
         return value if abs(value) <= LARGEST else None
 
 
+def _check_number(place: Place, expected: str, most: float = LARGEST) -> None:
+    if len(place.value) > 100 or not _DECIMAL.fullmatch(place.value):
+        raise place.mismatch(expected)
+    if abs(float(place.value)) > most:
+        raise place.mismatch(f"at most {most:g} in SI units")
+
+
 class _Reading:
     """One pass over the elements of a file."""
 
     def __init__(self, root: _Spot, where: str, exact: bool) -> None:
-        self._root, self._where, self._exact = root, where, exact
-        self._rounded: dict[str, str] = {}
-        self._zeros = 0
+        self._root, self._where = root, where
+        self._rounded = Roundings(exact)
         self._told: dict[str, list[str]] = {}  # what -> of which links and joints
         self._doubted: dict[str, str] = {}
         self._unread: dict[str, str] = {}
@@ -182,32 +190,10 @@ class _Reading:
     def _tell(self, what: str, name: str) -> None:
         self._told.setdefault(what, []).append(name)
 
-    def _without_dust(self, values: np.ndarray) -> np.ndarray:
-        dust = (values != 0.0) & (abs(values) < _ZERO)
-        if self._exact:
-            return values
-        self._zeros += int(dust.sum())
-        return np.where(dust, 0.0, values)
-
-    def _angle(self, digits: str) -> float:
-        value = float(digits)
-        if self._exact:
-            return value
-        count = twelfths(digits) if 0.2 < abs(value) < 7.0 else None
-        nearest = round(value * 12 / math.pi)
-        if count is None and abs(value - nearest * math.pi / 12) <= _ZERO:
-            count = nearest
-        if count is None or value == count * math.pi / 12:
-            return value
-        if count:
-            self._rounded[digits] = pi_multiple(Fraction(count, 12))
-        self._zeros += not count
-        return count * math.pi / 12
-
     def _origin(self, spot: _Spot) -> Pose:
         origin = spot.only("origin")
-        xyz = self._without_dust(origin.numbers("xyz", "0 0 0", LARGEST_LENGTH))
-        return Pose(xyz, _turn(self._angle(word) for word in origin.digits("rpy", "0 0 0")))
+        xyz = self._rounded.lengths(origin.numbers("xyz", "0 0 0", LARGEST_LENGTH))
+        return Pose(xyz, _turn(self._rounded.angle(word) for word in origin.digits("rpy", "0 0 0")))
 
     def _body(self, name: str, link: _Spot) -> Inertial | None:
         inertial = link.only("inertial")
@@ -271,12 +257,12 @@ class _Reading:
     def _axis(self, name: str, spot: _Spot) -> np.ndarray:
         axis = spot.numbers("xyz", "1 0 0")
         length = float(np.linalg.norm(axis))
-        if length < _ZERO:
+        if length < NOUGHT:
             place = spot.place.at("xyz", spot.element.attributes["xyz"])
             raise place.mismatch('a direction such as "0 0 1"')
         if abs(length - 1.0) > 1e-3:
             self._tell("axes that are not of length 1 are taken as directions: {}", name)
-        axis = self._without_dust(axis / length)
+        axis = self._rounded.lengths(axis / length)
         return np.asarray(axis / np.linalg.norm(axis) + 0.0)
 
     def _follow(self, joints: dict[str, TreeJoint], spots: Mapping[str, _Spot]) -> None:
@@ -291,23 +277,11 @@ class _Reading:
             if direct[name][0] not in joints:
                 told = "the file lacks the joint to mimic, it moves freely: {}"
                 self._tell(told, f"{name} of {direct.pop(name)[0]}")
-        fixed = {name for name, joint in joints.items() if joint.kind is JointKind.FIXED}
-        for name in direct:
-            leader, ratio, offset, steps = name, 1.0, 0.0, 0
-            while leader in direct:
-                leader, times, plus = direct[leader]
-                ratio, offset, steps = ratio * times, ratio * plus + offset, steps + 1
-                if steps > len(direct):
-                    raise spots[name].place.error(
-                        "follows itself by <mimic>; one of them must lead"
-                    )
-            if ratio == 0.0 or leader in fixed:
-                self._tell("what they mimic does not move, so they are fixed: {}", name)
-                joints[name] = held(joints[name], offset)
-            else:
-                joints[name] = replace(
-                    joints[name], leader=leader, ratio=ratio, offset=offset, actuated=False
-                )
+        still, circle = follow(joints, direct)
+        if circle:
+            raise spots[circle].place.error("follows itself by <mimic>; one of them must lead")
+        for name in still:
+            self._tell("what they mimic does not move, so they are fixed: {}", name)
 
     def _add_armatures(self, joints: dict[str, TreeJoint]) -> None:
         """Gear ratio squared times rotor inertia, where a transmission states it.
@@ -323,19 +297,14 @@ class _Reading:
             if rotor is None or len(names) != 1 or names[0] not in joints:
                 continue
             for text in (rotor, gear):
-                if len(text) > 100 or not _DECIMAL.fullmatch(text):
-                    place = _Spot(element, self._where, "<transmission>").place
-                    raise place.holding(text).mismatch("a number such as 100")
+                place = _Spot(element, self._where, "<transmission>").place
+                _check_number(place.holding(text), "a number such as 100")
             armature = float(gear) ** 2 * float(rotor)
             joints[names[0]] = replace(joints[names[0]], armature=armature)
             self._tell("armature is gear ratio squared times rotor inertia: {}", names[0])
 
     def _notes(self) -> Iterable[str]:
-        if self._rounded:
-            most = dict(list(self._rounded.items())[:MOST_NAMED])
-            yield told_angles(most) + rest(len(self._rounded))
-        if self._zeros:
-            yield f"{self._zeros} lengths, angles and parts of axes below {_ZERO:g} are 0 here"
+        yield from self._rounded.notes()
         for what, names in self._told.items():
             yield what.format(several(names))
 
@@ -383,13 +352,9 @@ def _half_unit(digits: str) -> float:
 
 def _in_order(joints: Mapping[str, TreeJoint], root: str) -> list[TreeJoint]:
     """Every joint after that which moves its parent, else as they come; only what root leads to."""
-    after: dict[str, list[int]] = {}
-    every = list(joints.values())
-    for place, joint in enumerate(every):
-        after.setdefault(joint.parent, []).append(place)
-    waiting, found = list(after.get(root, ())), []
-    while waiting:
-        found.append(joint := every[heapq.heappop(waiting)])
-        for place in after.get(joint.child, ()):
-            heapq.heappush(waiting, place)
+    waiting, here, found = list(joints.values()), {root}, list[TreeJoint]()
+    while joint := next((joint for joint in waiting if joint.parent in here), None):
+        waiting.remove(joint)
+        found.append(joint)
+        here.add(joint.child)
     return found

@@ -55,10 +55,6 @@ class Element:
         """Its children of these tags."""
         return [child for child in self.children if child.tag in tags]
 
-    def first(self, tag: str) -> "Element | None":
-        """Its first child of that tag."""
-        return next(iter(self.named(tag)), None)
-
     def walk(self) -> "Iterator[Element]":
         """Itself, and all elements in it, in file order."""
         waiting = [self]

@@ -34,6 +34,7 @@ def names(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(tmp_path_factory.mktemp("examples"))
+        Path("arm.toml").write_text("# of somebody else\n", encoding="utf-8")
         robot = api.load("two-link")
         for seed, name in enumerate(("mon.parquet", "tue.parquet"), start=1):
             api.simulate(robot, name, hide=["spring@1"], duration=6.0, seed=seed)

@@ -7,7 +7,14 @@ import pytest
 import sympy
 
 from modeler.derivation.base_parameters import NotProved, certificate
-from modeler.derivation.certificate import PRIME, ModularState, inverse, modular_rank, power
+from modeler.derivation.certificate import (
+    PRIME,
+    ModularState,
+    inverse,
+    modular_rank,
+    power,
+    row_echelon,
+)
 from modeler.derivation.derive import derive_model
 from modeler.derivation.field import ExactField, geometry_field
 from modeler.derivation.grouping import column_relations
@@ -58,7 +65,12 @@ def test_modular_arithmetic():
     values = np.array([2, 3, PRIME - 1], dtype=np.int64)
     np.testing.assert_array_equal(values * inverse(values, PRIME) % PRIME, 1)
     assert power(values, 5, PRIME)[0] == 32
-    assert modular_rank(np.array([[1, 2, 3], [2, 4, 6], [0, 1, 1]], dtype=np.int64)) == 2
+    rng = np.random.default_rng()
+    for rows, inner, columns in ((3, 2, 3), (40, 7, 12), (41, 12, 20), (25, 12, 12), (5, 5, 9)):
+        left, right = (rng.integers(0, PRIME, s) for s in ((rows, inner), (inner, columns)))
+        matrix = np.array([[sum(map(int, a * b % PRIME)) % PRIME for b in right.T] for a in left])
+        matrix[:, rng.random(columns) < 0.2] = 0
+        assert modular_rank(matrix) == len(row_echelon(matrix.copy(), range(columns), PRIME))
 
 
 def test_energy_rows_are_those_of_the_links():

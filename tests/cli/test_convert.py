@@ -7,7 +7,9 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.builtin import builtin_file
+from modeler.robot import urdf, xml_source
 from modeler.robot.read import read_robot
+from modeler.robot.xml_source import parse_xml
 from tests.robot.par_files import par_text
 
 TWO = par_text({"Ant": "0,1", "d": "0,L", "Theta": "t1,t2", "G": "-9.81,0,0"}, "arm")
@@ -152,6 +154,18 @@ def test_a_urdf_is_known_by_its_first_element(capsys, tmp_path, name):
     first, *others = err.splitlines()
     assert first == f"modeler: {path}, read as a robot file:"
     assert others and all(line.startswith("  * ") for line in others)
+
+
+def test_a_file_is_parsed_once(capsys, tmp_path, monkeypatch):
+    """And its first element is found behind a licence of any length."""
+    path = tmp_path / "arm.urdf"
+    path.write_text(f"<!-- {'all rights ' * 9000} -->\n{TURN}")
+    parsed = []
+    monkeypatch.setattr(urdf, "parse_xml", lambda *a: parsed.append(a) or parse_xml(*a))
+    monkeypatch.setattr(xml_source, "parse_xml", None)
+    assert run(capsys, "derive", path, "--no-terms")[0] == 0 and len(parsed) == 1
+    path.write_text(f"<!-- {'all rights ' * 9000} --><sdf/>")
+    assert "is SDF" in run(capsys, "derive", path)[2]
 
 
 def test_another_program_s_ending_with_our_text_is_no_urdf(capsys, tmp_path):

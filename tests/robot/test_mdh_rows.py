@@ -1,6 +1,7 @@
 """Rows of random trees: poses and torques by Pinocchio, cells that are 0, axes nearly parallel."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -323,7 +324,7 @@ def test_bodies_without_values_have_no_prior():
     robot = robot_from_text(made.text, "drawn.toml")
     assert {n[1:] for n in robot.parameters if n.startswith("M") and n[1:].isdigit()} == {"3", "5"}
     assert robot.links == {"2": ()}
-    assert 'the file states no mass of "a_link"' in made.notes
+    assert 'no inertia is stated of "a_link"; they weigh nothing' in made.notes
     told = 'no values of "d_link", "marker", which move as one with such a body'
     assert told in made.notes
     model = derive_model(robot)
@@ -343,6 +344,30 @@ def test_lumped_bodies_are_one():
     assert robot.parameters["ZZ1"] == pytest.approx(0.03 + 2 * 0.01 + 0.001 + 0.16)
 
 
+TOOL = (Fraction(1, 10), -Fraction(1, 5), Fraction(7, 10))
+
+
+def test_sums_of_decimals_are_decimals():
+    """J + m (c.c 1 - c c') of printed numbers has the digits that exact arithmetic finds."""
+    rng = np.random.default_rng()
+    for _ in range(50):
+        m, *way = (Fraction(int(n), 1000) for n in rng.integers(-900, 900, 4))
+        m, moment = abs(m) + 1, Fraction(int(rng.integers(100, 900)), 10**5)
+        centre = np.array([float(x) for x in way])
+        body = Inertial(float(m), centre, float(moment) * np.eye(3))
+        lever = TreeJoint("t", FIXED, "a_link", "tool", Pose(np.array(TOOL, float)))
+        text = tree_to_toml(
+            tree_of(turning("a", "base"), lever, bodies={"a_link": None, "tool": body}), "drawn.xml"
+        ).text
+        c = [x + step for x, step in zip(way, TOOL, strict=True)]
+        for i, row in enumerate(["XX1 XY1 XZ1", "XY1 YY1 YZ1", "XZ1 YZ1 ZZ1"]):
+            for k, name in enumerate(row.split()):
+                exact = (moment + m * sum(x * x for x in c)) * (i == k) - m * c[i] * c[k]
+                assert f"{name} = {float(exact)!r}\n" in text
+        for x, name in zip(c, ("MX1", "MY1", "MZ1"), strict=True):
+            assert f"{name} = {float(m * x)!r}\n" in text
+
+
 def test_points_that_meet_close_a_loop():
     crank = turning("a", "base")
     coupler, rocker = (
@@ -350,7 +375,9 @@ def test_points_that_meet_close_a_loop():
         turning("c", "base", (0.5, -0.3, 0), actuated=False, damping=0.1),
     )
     meeting = Meeting("pin", "b_link", np.array([0.3, 0, 0]), "c_link", np.array([0, 0.3, 0]))
-    robot = read(tree_of(crank, coupler, rocker, meetings=(meeting,)))
+    tree = tree_of(crank, coupler, rocker, meetings=(meeting,))
+    robot, notes = read(tree), tree_to_toml(tree, "drawn.xml").notes
+    assert any(note.startswith("added to the actuated joints: rotor_inertia,") for note in notes)
     assert [(loop.frame, loop.meets, loop.kind) for loop in robot.loops] == [
         ("P1a", "P1b", "spherical")
     ]

@@ -10,8 +10,10 @@ import pytest
 
 from modeler.core.errors import RobotError
 from modeler.robot.body_tree import BodyTree, Pose, about_origin, moving_links
+from modeler.robot.read import robot_from_text
 from modeler.robot.robot import JointKind
 from modeler.robot.tree_cuts import cut, lock_values
+from modeler.robot.tree_text import tree_to_toml
 from modeler.robot.urdf import urdf_tree
 from tests.robot.public_robots import each_public_urdf
 
@@ -174,8 +176,6 @@ def test_elements_of_the_schema():
     assert (other.leader, other.ratio, other.offset) == ("finger", -2, 0.01)
     assert (other.actuated, finger.actuated) == (False, True)
     assert tree.bodies["base"] is None
-    told = [note for note in cut(tree).notes if "weigh nothing" in note]
-    assert len(told) == 1 and '"left", "right"' in told[0] and "base" not in told[0]
     assert not any("weigh nothing" in note for note in cut(tree, tip="flange").notes)
 
 
@@ -282,6 +282,28 @@ def test_locked_joints_lump_their_bodies():
     assert any("outside" in note for note in cut(tree, locks={"shoulder": 3}).notes)
 
 
+@pytest.mark.parametrize("drawn", np.random.default_rng().uniform(-1, 1, (3, 3)).round(3).tolist())
+def test_followers_with_an_offset_stop_with_their_leader(drawn: list[float]):
+    """The relation in the text; the leader locked, the follower stands at ratio q + offset."""
+    ratio, offset, at = drawn
+    text = edited(('multiplier="-2" offset="0.01"', f'multiplier="{ratio}" offset="{offset}"'))
+    robot = robot_from_text(tree_to_toml(cut(read(text)), "arm.urdf").text, "arm.toml")
+    assert robot.relations["4"].number({"q3": at}) == pytest.approx(ratio * at + offset, abs=1e-15)
+    locked = cut(read(text), locks={"finger": at})
+    robot = robot_from_text(tree_to_toml(locked, "arm.urdf").text, "arm.toml")
+    assert not robot.relations and [joint.name for joint in robot.moving] == ["1", "2"]
+    q = dict.fromkeys(("shoulder", "wrist"), 0.0) | {"elbow": 0.4}
+    poses = placements(locked, q | {"finger": 0.0, "other": 0.0})
+    way = poses["flange"].inverse().place(poses["right"].position)
+    assert np.allclose(way, [0, ratio * at + offset, 0], rtol=0, atol=1e-15)
+    fingers = [
+        np.array([c.number({}) for c in robot.frames[f].position]) for f in ("left", "right")
+    ]
+    assert robot.frames["right"].row == "2"
+    step = np.linalg.norm(fingers[1] - fingers[0])
+    assert step == pytest.approx(abs(ratio * at + offset - at), abs=1e-12)
+
+
 def test_cuts_name_what_they_do_not_find():
     for cuts, told in (
         ({"base": "uper"}, r'--base: "uper": no link of that name in arm \(did you mean "upper"'),
@@ -299,6 +321,27 @@ def test_cuts_name_what_they_do_not_find():
     for texts in (["elbow"], ["=1"], ["a=1", "a=2"]):
         with pytest.raises(RobotError, match="--lock"):
             lock_values(texts)
+
+
+def notes_of(text: str, **cuts: str) -> tuple[str, ...]:
+    return tree_to_toml(cut(read(text), **cuts), "arm.urdf").notes
+
+
+def test_only_moving_bodies_without_mass_are_told():
+    """No base, no frame on a body that weighs something; a moving link of which nothing does."""
+    frames = '<link name="tool0"/><joint name="t" type="fixed"><parent link="%s"/><child link='
+    frames += '"tool0"/></joint><link name="camera"/><joint name="c" type="fixed"><parent link='
+    frames += '"base"/><child link="camera"/></joint></robot>'
+    on_arm, on_finger = (edited(("</robot>", frames % link)) for link in ("flange", "left"))
+    assert [n for n in notes_of(on_arm) if "weigh nothing" in n] == [
+        'no inertia is stated of "left", "right"; they weigh nothing'
+    ]
+    assert any('of "left", "tool0", "right"; they weigh' in n for n in notes_of(on_finger))
+    light = edited(('<mass value="0.5"/>', '<mass value="0"/>'))
+    assert not any("mass 0" in note for note in notes_of(light))
+    alone = edited(('<mass value="1"/>', '<mass value="0"/>'), text=light)
+    assert 'mass 0: "fore", "flange"' in notes_of(alone)
+    assert not any("mass 0" in n for n in notes_of(alone, base="fore"))  # they stand still then
 
 
 INERTIA = 'ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"'
@@ -323,10 +366,11 @@ def test_doubted_bodies_are_told(mass: str, inertia: str, told: str):
     text = edited((INERTIA, inertia), ('mass value="0.5"', f'mass value="{mass}"'))
     tree = cut(read(text))
     assert tree.bodies["flange"] is not None
-    notes = [note for note in tree.notes if '"flange"' in note]
-    if told:
-        assert told in tree.doubted["flange"]
+    assert told in tree.doubted.get("flange", "") and bool(told) == bool(tree.doubted)
+    notes = [note for note in notes_of(text) if '"flange"' in note and "move as one" not in note]
+    if told and told != "mass 0":
         assert len(notes) == 1 and told in notes[0]
-        assert not any("flange" in note for note in cut(read(text), base="left").notes)
+        told = [note for note in notes_of(text, base="flange") if "gravity" not in note]
+        assert not any('"flange"' in note for note in told)
     else:
-        assert not tree.doubted and not notes
+        assert not notes
