@@ -42,7 +42,13 @@ from .geometry import (
     geometric_symbol as geometric_symbol,
     quarter_turns as quarter_turns,
 )
-from .graph import Expr as Expr, Graph as Graph, GraphAlgebra as GraphAlgebra, Vector as Vector
+from .graph import (
+    Expr as Expr,
+    Graph as Graph,
+    GraphAlgebra as GraphAlgebra,
+    Node as Node,
+    Vector as Vector,
+)
 from .kinematics import (
     Composite as Composite,
     Pose as Pose,

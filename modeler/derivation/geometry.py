@@ -47,12 +47,10 @@ def cos_sin(angle: sympy.Expr) -> Pair:
 
 
 def quarter_turns(angle: sympy.Expr) -> tuple[int, sympy.Expr]:
-    """The right angles in a constant, `phi - pi/2` is -1 and phi; and what else it is made of."""
-    number = (
-        angle.as_independent(*angle.free_symbols, as_Add=True)[0] if angle.free_symbols else angle
-    )
-    quarters = number / (sympy.pi / 2)
-    return (int(quarters), angle - number) if quarters.is_Integer else (0, angle)
+    """The right angles in a constant, of `phi + 0.3 - pi/2` -1; and what else it is made of."""
+    terms = sympy.Add.make_args(angle)
+    right = [term for term in terms if (term / (sympy.pi / 2)).is_Integer]
+    return int(sum(right) / (sympy.pi / 2)), angle - sum(right)
 
 
 def is_short(angle: sympy.Expr) -> bool:

@@ -16,7 +16,7 @@ from typing import Any
 
 from modeler.core.formula import latex_name
 from modeler.core.latex_display import DisplayedEquation, display
-from modeler.derivation import Expr, Graph
+from modeler.derivation import Expr, Graph, Node
 from modeler.formulas.text import LATEX, TEXT, TextStyle, signed_sum
 
 SHORT = 7
@@ -111,6 +111,8 @@ class SheetWriter:
         nodes = self.graph.reachable(results)
         turning = [n for n in nodes if self.graph.nodes[n].op in ("sin", "cos")]
         trig, angles = angle_names(self.graph, turning, self.letters, self._taken)
+        read = self._all_read(results)
+        nodes = [node for node in nodes if node in read]
         names = self._chosen(nodes, trig)
         lines = self._ordered(names)
         if self._replaced(lines):
@@ -209,13 +211,26 @@ class SheetWriter:
                 stack += [abs(arg) for arg in self._args(at)]
         return sorted(found)
 
+    def _all_read(self, results: Sequence[Expr]) -> set[int]:
+        """Nodes that lines are made of, not those of angles alone."""
+        found, stack = set[int](), [abs(result.ref) for result in results]
+        while stack:
+            if (at := stack.pop()) not in found:
+                found.add(at)
+                node = self.graph.nodes[at]
+                if not _turns(node) and node.op not in ("num", "sym"):
+                    stack += [abs(arg) for arg in node.args]
+        return found
+
     def _args(self, node: int) -> tuple[int, ...]:
         """Sines and cosines have a line of their own, in which their angles stand in full."""
         found = self.graph.nodes[node]
-        return () if self._is_atom(node) or found.op in ("sin", "cos") else found.args
+        return () if _turns(found) or self._is_atom(node) else found.args
 
 
-_LONGEST_LABEL = 16  # letters; a longer sum is a number, and told where it is defined
+def _turns(node: Node) -> bool:
+    """True of the sine or cosine of an angle that moves."""
+    return node.op in ("sin", "cos") and not node.static
 
 
 def angle_names(
@@ -241,8 +256,6 @@ def angle_names(
         angle = found.args[0]
         if angle not in labels:
             label = _label(graph, angle, letters)
-            if len(label) > _LONGEST_LABEL:
-                label = f"_{len(labels) + 1}"
             while {f"s{label}", f"c{label}"} & taken:
                 label += "_"
             labels[angle] = label
@@ -481,7 +494,10 @@ def _sections(sheet: Sheet) -> list[tuple[str, list[str]]]:
         line = f"{definition.name} = {printer.value(definition)}"
         if len(line) > _WIDTH:
             right = f"{definition.name} = ({printer.value(definition)})"
-            more = textwrap.wrap(right, _WIDTH, subsequent_indent="    ", break_on_hyphens=False)
+            more = textwrap.wrap(
+                right, _WIDTH, subsequent_indent="    ", break_on_hyphens=False,
+                break_long_words=False,
+            )  # fmt: skip
             found[-1][1].extend(more)
         else:
             found[-1][1].append(line)

@@ -47,6 +47,18 @@ TEXTS = {
         gravity='["g*k", "-2", "-g"]',
         rest='[effects]\nrotor_inertia = "all"\nviscous = "all"\n',
     ),
+    # parallel axes, long letters beside right angles: an angle of several, and lines without a gap
+    "askew": robot_text(
+        "askew",
+        [
+            '"1", "0", 0, 0, 0, "pi/2", 0, "q1 + elbowoffset - pi/2", 0',
+            '"2", "1", 0, 0, 0, 0, "D2", "q2 - elbowoffset - wristoffsetofthemaker + pi/2", 0',
+            '"3", "2", 0, 0, 0, 0, "D3", "q3 + wristoffsetofthemaker + flangeturn - pi/2", "R3"',
+            '"4", "3", 0, 0, 0, "pi/2", 0, "q4 + 0.3 - pi/2", 0',
+        ],
+        "elbowoffset = 0.2\nwristoffsetofthemaker = 0.1\nflangeturn = 0.3\nD2 = 0.3\nD3 = 0.2\n"
+        "R3 = 0.1\n",
+    ),
     "weightless": robot_text(
         "weightless",
         ['"11", "0", 0, 0, 0, 0, 0, "q11", 0', '"12", "11", 0, 0, 0, 0, "L", "q12", 0'],

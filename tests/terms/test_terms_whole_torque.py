@@ -86,7 +86,7 @@ def test_printed_lines_are_the_whole_torque_of_the_c(name):
     check_sums(name)
 
 
-@pytest.mark.parametrize("name", ["odd", "geared", "puma560"])
+@pytest.mark.parametrize("name", ["odd", "askew", "geared", "puma560"])
 def test_printed_lines_of_awkward_robots(name):
     check(name)
     check_sums(name)
