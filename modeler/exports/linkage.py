@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from modeler.core.errors import DataError
 from modeler.robot import Joint, JointKind, LinkFrame, Loop, Pose, Robot, linear_form, turned
@@ -100,6 +99,8 @@ def closed(robot: Robot) -> dict[str, float]:
     Raises:
         DataError: a loop of another kind; the loops do not close near [home].
     """
+    from scipy.optimize import least_squares  # a fit has no use for it
+
     names = [joint.name for joint in robot.moving]
     if robot.loops:
         for loop in robot.loops:
