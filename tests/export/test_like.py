@@ -287,6 +287,7 @@ def test_every_public_urdf_stays_as_it_is(path) -> None:
     try:
         robot = read_robot(path)
     except RobotError as error:
+        assert "no joint of the robot moves" in str(error) or "<robot> has no link" in str(error)
         pytest.skip(str(error))
     if not any(name.startswith("M") for name in robot.parameters):
         pytest.skip("no values")
