@@ -32,9 +32,7 @@ STAGES: dict[str, set[str]] = {
     "report": {"core", *NORTH, *SOUTH, "simulation"},
     "api": {"core", *NORTH, *SOUTH, "simulation", "exports", "report"},
     "studio": {"core", *NORTH, *SOUTH, "simulation", "exports", "report", "api"},
-    "cli": {
-        "core", *NORTH, *SOUTH, "simulation", "papers", "exports", "report", "api", "studio",
-    },
+    "cli": {"core", *NORTH, *SOUTH, "simulation", "papers", "exports", "report", "api", "studio"},
 }
 
 # An effect goes round: from the diagnosis into the robot description, and from there all the way.

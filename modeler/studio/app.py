@@ -1,6 +1,5 @@
 """The server: one page, nine screens, and what stands around them."""
 
-import json
 import socket
 from collections.abc import Callable, Sequence
 from pathlib import Path

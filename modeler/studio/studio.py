@@ -124,7 +124,6 @@ class Hub:
             self.sheets.popitem(last=False)
         return f"/sheet/{digest}.html"
 
-
     def close(self) -> None:
         """Ends what runs."""
         if self.running is not None:
