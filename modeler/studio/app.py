@@ -149,7 +149,7 @@ def _status(studio: Studio) -> None:
     """What runs, what went wrong, and the command lines."""
     with ui.footer(bordered=True).classes("studio-status"):
         error = ui.label().classes("studio-error").props("role=alert")
-        with ui.row().classes("items-center w-full no-wrap") as running:
+        with ui.row().classes("items-center w-full no-wrap studio-running") as running:
             ui.spinner(size="sm")
             doing = ui.label()
             bar = ui.linear_progress(show_value=False).classes("studio-bar")
