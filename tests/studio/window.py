@@ -15,8 +15,10 @@ from typing import Any
 from modeler.studio.project import FILE, Project, project_from_text
 from tests.browser.chromium import found
 
-_FLAGS = ("--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--disable-quic", "--no-first-run",
-          "--disable-background-networking", "--disable-component-update", "--disable-sync")  # fmt: skip
+_FLAGS = (
+    "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+)  # fmt: skip
 PATIENCE = 60_000.0  # ms
 
 
@@ -117,7 +119,8 @@ class Window:
     def idle(self) -> None:
         """Until no command runs and the screen is drawn."""
         self.page.wait_for_function(
-            "() => document.querySelector('.studio-screen') && !document.querySelector('.studio-running')"
+            "() => document.querySelector('.studio-screen')"
+            " && !document.querySelector('.studio-running:not(.hidden)')"
         )
 
     def sees(self, text: str) -> None:
