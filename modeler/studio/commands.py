@@ -81,7 +81,7 @@ def add(project: Project, effect: str, joint: str | None) -> Asked:
 
 def demo(log: str, seed: int) -> Asked:
     """A measured run of the demonstration arm, whose machine has what its robot file lacks."""
-    words = ("simulate", ROBOT, "--duration", "20", "--seed", str(seed), "--torque-noise", "0.01")
+    words = ("simulate", ROBOT, "--duration", "20", "--seed", str(seed), "--noise", "0.01")
     hidden = ("--hide", "load_friction@2", "--out", log)
     return Asked("simulate", (*words, *hidden), f"measure {log}", about=0)
 
