@@ -213,7 +213,9 @@ class Studio:
     def go(self, screen: str) -> None:
         """Shows another screen."""
         self.screen = screen
-        ui.navigate.history.push(f"/{screen}")
+        if self.room is not None:
+            with self.room:  # the button that was pressed may be gone
+                ui.navigate.history.push(f"/{screen}")
         self.redraw()
 
     def redraw(self) -> None:
