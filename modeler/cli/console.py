@@ -257,22 +257,33 @@ def _stdout_told() -> Iterator[None]:
 def run_command(args: argparse.Namespace, run: Callable[[argparse.Namespace], Json]) -> None:
     """Run the command of `args`, and write what it returns to the file that `--json` names.
 
-    `args.after`, if the command set one, judges the result when all is written.
+    `args.after`, if the command set one, judges the result when all is written. A command that goes
+    on after its result gives that to `args.tell` itself, and returns None.
 
     "-" is stdout, and so is /dev/stdout; it then carries the JSON alone.
     """
     alone = args.json is not None and _is_stdout(args.json)
-    with contextlib.redirect_stdout(io.StringIO()) if alone else contextlib.nullcontext():
-        content = run(args)
-    if args.json is not None:
+    stdout = sys.stdout
+
+    def tell(content: Json) -> None:
+        if args.json is None:
+            return
         from modeler.core.json import nulled  # it reads TOML too, which help need not
 
         told = with_schema(args.command, nulled(content))
         text = json.dumps(told, indent=1, allow_nan=False) + "\n"
         if alone:
-            write_stdout(text)
+            with contextlib.redirect_stdout(stdout):
+                write_stdout(text)
+                flush_stdout()
         else:
             write_atomically(Path(args.json), text)
+
+    args.tell = tell
+    with contextlib.redirect_stdout(io.StringIO()) if alone else contextlib.nullcontext():
+        content = run(args)
+    if content is not None:
+        tell(content)
     if hasattr(args, "after"):
         args.after(args)
 

@@ -47,12 +47,17 @@ class Guard:
 
     Attributes:
         address: to open, with its token.
+        once: the same, with one that is good for one time: while a browser is started with it, all
+            users of the machine can read it.
     """
 
     def __init__(self, app: ASGIApp, port: int) -> None:
         self.app = app
-        self._token = secrets.token_urlsafe(32)
-        self.address = f"http://127.0.0.1:{port}/?{TOKEN}={self._token}"
+        self._token, self._tokens_once = secrets.token_urlsafe(32), [secrets.token_urlsafe(32)]
+        self.address, self.once = (
+            f"http://127.0.0.1:{port}/?{TOKEN}={token}"
+            for token in (self._token, *self._tokens_once)
+        )
         self._kept = secrets.token_urlsafe(32)  # value of the cookie; it tells nothing of the token
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -99,10 +104,12 @@ class Guard:
 
     def _greeting(self, scope: Scope, headers: Headers) -> Response:
         """The cookie, for the token; then the address without it."""
-        given = parse_qs(scope["query_string"].decode("latin-1")).get(TOKEN, [])
-        right = [_same(each, self._token) for each in given]
-        if scope["type"] != "http" or scope["method"] not in _SAFE or right != [True]:
+        given = parse_qs(scope["query_string"].decode("latin-1")).get(TOKEN, [""])[0]
+        once = [each for each in self._tokens_once if _same(given, each)]
+        right = _same(given, self._token) or bool(once)
+        if not right or scope["type"] != "http" or scope["method"] != "GET":
             return PlainTextResponse(_REFUSED, 403)
+        self._tokens_once = [each for each in self._tokens_once if each not in once]
         answer: Response = RedirectResponse("/", 303)
         if headers.get("sec-fetch-site", "none") not in ("none", "same-origin"):
             answer = HTMLResponse(_GO_ON)

@@ -110,6 +110,7 @@ async def _page(client: Client, hub: Hub, screen: str) -> None:
     studio = Studio(hub, screen)
     hub.studios.append(studio)
     client.on_delete(lambda: _left(hub, studio))
+    ui.colors(primary="#0072b2", negative="#b3261e", positive="#00694a", warning="#b45f06")
     ui.page_title(f"{hub.workspace.folder.name} - modeler studio")
     _navigation(studio)
     _status(studio)

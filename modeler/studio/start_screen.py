@@ -68,10 +68,9 @@ async def begin_demo(hub: Hub) -> None:
             "its own: modeler studio FOLDER --demo"
         )
     write_atomically(hub.workspace.folder / ROBOT, builtin_text("demo-arm"))
-    hub.workspace.save(dataclasses.replace(hub.project, robot=ROBOT))
     for log, seed in _RUNS:
         await hub.run(commands.demo(log, seed))
     train, held = (log for log, _ in _RUNS)
     logs = ProjectLog(train, train=(Stretch(),)), ProjectLog(held, test=(Stretch(),))
-    hub.workspace.save(dataclasses.replace(hub.project, logs=logs))
+    hub.workspace.save(dataclasses.replace(hub.project, robot=ROBOT, logs=logs))
     hub.refresh()

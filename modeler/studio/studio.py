@@ -191,6 +191,7 @@ class Studio:
         if self.read_only:
             self.show_error(READ_ONLY)
             return None
+        self.show_error("")
         try:
             return await self.hub.run(asked, current, keep)
         except ModelerError as error:
@@ -206,13 +207,14 @@ class Studio:
         return await self.hub.viewer.ask(question, *arguments)
 
     def show_error(self, line: str) -> None:
-        """One line, in this window."""
+        """One line, in this window; "" takes the last one away."""
         self.kept["error"] = line
         self.told()
 
     def go(self, screen: str) -> None:
         """Shows another screen."""
         self.screen = screen
+        self.kept["error"] = ""
         if self.room is not None:
             with self.room:  # the button that was pressed may be gone
                 ui.navigate.history.push(f"/{screen}")
