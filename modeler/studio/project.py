@@ -46,7 +46,7 @@ class Stretch:
         """What is left of it between gaps."""
         left, start = [], self.start
         for gap in sorted(gaps, key=lambda gap: gap.start):
-            if gap.end <= start or gap.start >= self.end:
+            if gap.end <= max(start, gap.start) or gap.start >= self.end:
                 continue
             if gap.start > start:
                 left.append(Stretch(start, gap.start))
