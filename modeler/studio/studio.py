@@ -215,7 +215,9 @@ class Studio:
         """Shows another screen."""
         self.screen = screen
         self.kept["error"] = ""
-        ui.navigate.history.push(f"/{screen}")
+        if self.room is not None:
+            with self.room:  # the button that was pressed may be gone
+                ui.navigate.history.push(f"/{screen}")
         self.redraw()
 
     def redraw(self) -> None:
