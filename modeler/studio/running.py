@@ -20,12 +20,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeler.core.errors import on_one_line
-from modeler.studio.child import PATIENCE
 
 _PROGRESS = re.compile(r"progress (-|[\d.]+) (.*)")  # as `--progress lines` writes it
 _TOLD = re.compile(r"modeler(?: [\w-]+)?: (.*)")  # a note, an error, a wrong usage
 _MOST_LINES = 20_000
 _PIECE = 2**16
+_PATIENCE = 3.0  # s from the interrupt to the end by force
 
 INTERRUPTED = 130
 """Status of a command that was cancelled."""
@@ -115,7 +115,7 @@ class Running:
         self._signal(getattr(signal, "SIGKILL", signal.SIGTERM))
 
     async def _killed_later(self) -> None:
-        await asyncio.wait([self._end], timeout=PATIENCE)
+        await asyncio.wait([self._end], timeout=_PATIENCE)
         if not self._end.done():
             self.kill()
 
@@ -145,7 +145,7 @@ class Running:
         command, *rest = self.words
         self._process = process = await asyncio.create_subprocess_exec(
             # -P: a file of the project that is called numpy.py is no module
-            *(sys.executable, "-P", "-m", "modeler.studio.child"),
+            *(sys.executable, "-P", "-m", "modeler.cli.followed"),
             *(command, "--progress", "lines", *rest),
             cwd=self.folder,
             env=_environment(),

@@ -1,10 +1,10 @@
-"""A command as a child of the studio: it ends when the studio ends, however that came about.
+"""A command as the child of another program: it ends when that ends, however that came about.
 
-    python -m modeler.studio.child WORDS...
+    python -m modeler.cli.followed WORDS...
 
-Its standard input is a pipe that the studio holds open and never writes to: the pipe ends when the
-studio does, killed or not, on every system. The command is then interrupted as by Ctrl-C, so that
-nothing half-written is left; what does not heed that is killed, with all that it started.
+Its standard input is a pipe that the other program holds open and never writes to: the pipe ends
+when that does, killed or not, on every system. The command is then interrupted as by Ctrl-C, so
+that nothing half-written is left; what does not heed that is killed, with all that it started.
 """
 
 import os
@@ -18,7 +18,7 @@ PATIENCE = 3.0
 
 
 def _follow() -> None:
-    """Waits for the end of the studio."""
+    """Waits for the end of the other program."""
     while os.read(0, 4096):
         pass
     _signal_all(signal.SIGINT)
@@ -35,7 +35,7 @@ def _signal_all(number: int) -> None:
 
 
 if __name__ == "__main__":
-    # A studio that was itself started in the background ignores it, and would pass that on.
+    # A program that was itself started in the background ignores it, and passes that on.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Thread(target=_follow, daemon=True).start()
 
