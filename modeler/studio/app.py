@@ -25,6 +25,7 @@ from modeler.studio import (
     take_screen,
 )
 from modeler.studio.access import Guard
+from modeler.studio.commands import typed
 from modeler.studio.places import folder_lock
 from modeler.studio.project import Workspace
 from modeler.studio.studio import Hub, Studio
@@ -195,13 +196,6 @@ def _status(studio: Studio) -> None:
 
         studio.listeners.append(told)
         told()
-
-
-def typed(words: Sequence[str]) -> str:
-    """A command line, as a shell takes it."""
-    import shlex
-
-    return shlex.join(["modeler", *words])
 
 
 def _cancel(studio: Studio) -> None:

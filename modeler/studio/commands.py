@@ -4,6 +4,7 @@ Files are named relative to the folder of the project, in which the commands run
 studio itself (`--json`, `--picture`) comes to the words when they run, and is no part of a step.
 """
 
+import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -30,6 +31,11 @@ class Asked:
     title: str
     model: str = ""
     about: int | None = None
+
+
+def typed(words: Sequence[str]) -> str:
+    """A command line, as a shell takes it."""
+    return shlex.join(["modeler", *words])
 
 
 def bookkeeping(words: Sequence[str], number: int) -> tuple[list[str], str, str]:

@@ -44,7 +44,7 @@ class Hub:
         self, workspace: Workspace, allowed: tuple[Path, ...], screens: Mapping[str, Screen]
     ) -> None:
         self.workspace, self.allowed, self.screens = workspace, allowed, screens
-        self.viewer = Viewer(workspace.folder)
+        self.viewer = Viewer()
         self.running: Running | None = None
         self.studios: list[Studio] = []
         self.sheets: OrderedDict[str, str] = OrderedDict()
@@ -128,7 +128,7 @@ class Hub:
         """Ends what runs."""
         if self.running is not None:
             self.running.cancel()
-        self.viewer.close()
+        self.viewer.end()
 
 
 class Studio:
@@ -215,7 +215,9 @@ class Studio:
         """Shows another screen."""
         self.screen = screen
         self.kept["error"] = ""
-        ui.navigate.history.push(f"/{screen}")
+        if self.room is not None:
+            with self.room:  # the button that was pressed may be gone
+                ui.navigate.history.push(f"/{screen}")
         self.redraw()
 
     def redraw(self) -> None:

@@ -4,6 +4,7 @@ import dataclasses
 import math
 import random
 import tomllib
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -78,7 +79,7 @@ def test_what_is_left_of_a_stretch_is_all_but_its_gaps() -> None:
 
         for t in grid:
             assert holds(left, t) == (holds([own], t) and not holds(gaps, t))
-        assert all(one.end < other.start for one, other in zip(left, left[1:], strict=False))
+        assert all(one.end < other.start for one, other in pairwise(left))
 
 
 def test_stretches_are_written_as_commands_take_them() -> None:
