@@ -31,6 +31,7 @@ def page_content(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
         "name": skeleton.robot.name,
         "size": posture.size,
         "stated": bool(skeleton.robot.home),
+        "note": posture.note,
         **entries(posture, "closed held"),
         "loose": list(posture.loose),
         "rows": [_row(row, skeleton.robot) for row in skeleton.rows],

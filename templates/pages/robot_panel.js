@@ -1,6 +1,6 @@
 // What the user moves, and what stands beside the picture.
 
-const robot = JSON.parse(document.getElementById("content").textContent);
+let robot = JSON.parse(document.getElementById("content").textContent);
 const element = (id) => document.getElementById(id);
 const made = (tag, fields = {}, ...children) => {
   const node = Object.assign(document.createElement(tag), fields);
@@ -24,8 +24,8 @@ const page = {
 };
 window.modelerShow = page;
 
-const every = robot.free.map((_, k) => k);
-const follow = every.filter((k) => !robot.given.includes(k));
+const every = () => robot.free.map((_, k) => k);
+const follow = () => every().filter((k) => !robot.given.includes(k));
 
 let waiting = false;
 function redraw() {
@@ -54,6 +54,42 @@ page.move = (k, value) => {
   return reached;
 };
 
+// Move joints by name at once: {joint: value}; others stay, or follow where loops tie them.
+page.pose = (q) => {
+  const want = (k) => (Number.isFinite(q[robot.free[k]]) ? q[robot.free[k]] : page.u[k]);
+  if (page.byHand || robot.loops.length === 0) {
+    page.u = every().map(want);
+    say("");
+    show();
+    return true;
+  }
+  const values = robot.given.map(want);
+  let found = ledTo(robot, page.u, values);
+  if (!found.reached) {
+    const around = ledTo(robot, robot.home, values);
+    if (around.reached) found = around;
+  }
+  page.u = found.u;
+  say(found.reached ? "" : "cannot close there: the joints stop where the loops do");
+  show();
+  return found.reached;
+};
+
+// Another robot in the same picture: the eye stays where it is, and joints that were moved too.
+page.replace = (content) => {
+  const moved = page.u.some((x, k) => x !== robot.home[k]);
+  const q = moved ? Object.fromEntries(robot.free.map((name, k) => [name, page.u[k]])) : {};
+  robot = page.robot = content;
+  page.u = [...robot.home];
+  page.byHand = !robot.closed;
+  page.view.replace(robot);
+  element("mdh")?.remove();
+  element("note").textContent = robot.note;
+  begin();
+  if (moved) page.pose(q);
+  if (!page.view.holds(page.poses())) fit();
+};
+
 // The value of a cell of the table, as the robot stands.
 function now(row, name) {
   const own = { revolute: "theta", prismatic: "r" }[row.kind];
@@ -66,7 +102,7 @@ function slider(k) {
   const number = made("input", { type: "number", step: "any", ariaLabel: name });
   const value = made("span");
   const line = made("div", { className: row.actuated ? "joint actuated" : "joint" },
-    made("b", { textContent: name, title: `${row.kind}, ${row.actuated ? "actuated" : "passive"}` }), range, number, value);
+    made("b", { textContent: name, title: `${row.kind}, ${row.actuated ? "actuated" : "passive"}`, onclick: () => tell("joint", { name: row.name }) }), range, number, value);
   let dragged = false;
   range.addEventListener("input", () => { dragged = true; page.move(k, +range.value); });
   range.addEventListener("change", () => { dragged = false; show(); });
@@ -88,7 +124,7 @@ function slider(k) {
 }
 
 function list() {
-  page.sliders = (page.byHand ? every : robot.given).map(slider);
+  page.sliders = (page.byHand ? every() : robot.given).map(slider);
   element("moved").replaceChildren(...page.sliders.map((s) => s.line));
   element("open").checked = page.byHand;
   element("close").hidden = !page.byHand;
@@ -131,6 +167,7 @@ function loops() {
 function point(number) {
   if (page.view.pointed === number) return;
   page.view.pointed = number;
+  tell("pointed", { name: robot.rows[number]?.name ?? null });
   document.querySelectorAll("tr.pointed").forEach((line) => line.classList.remove("pointed"));
   if (number !== null) document.querySelector(`tr[data-row="${number}"]`)?.classList.add("pointed");
   redraw();
@@ -158,15 +195,20 @@ function tip(number, x, y) {
 
 function pointers() {
   const canvas = element("picture"), down = new Map();
-  let apart = 0;
+  let apart = 0, still = null; // where a click may be
   canvas.addEventListener("pointerdown", (e) => {
     canvas.setPointerCapture(e.pointerId);
+    still = down.size ? null : { x: e.clientX, y: e.clientY };
     down.set(e.pointerId, { x: e.clientX, y: e.clientY });
     canvas.classList.add("turning");
     tip(null);
   });
   const up = (e) => { down.delete(e.pointerId); apart = 0; canvas.classList.remove("turning"); };
-  canvas.addEventListener("pointerup", up);
+  canvas.addEventListener("pointerup", (e) => {
+    const row = still && robot.rows[page.view.rowAt(e.offsetX, e.offsetY)];
+    if (row) tell("joint", { name: row.name });
+    up(e);
+  });
   canvas.addEventListener("pointercancel", up);
   canvas.addEventListener("pointermove", (e) => {
     const last = down.get(e.pointerId);
@@ -177,6 +219,7 @@ function pointers() {
       return;
     }
     const [dx, dy] = [e.clientX - last.x, e.clientY - last.y];
+    if (still && Math.hypot(e.clientX - still.x, e.clientY - still.y) > 3) still = null;
     down.set(e.pointerId, { x: e.clientX, y: e.clientY });
     if (down.size === 2) {
       const [a, b] = [...down.values()], now = Math.hypot(a.x - b.x, a.y - b.y);
@@ -195,6 +238,14 @@ function pointers() {
     page.view.scale *= Math.exp(-0.0015 * e.deltaY);
     redraw();
   }, { passive: false });
+  canvas.addEventListener("keydown", (e) => {
+    const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }[e.key];
+    if (turn) page.view.turn(...turn);
+    else if ("+-".includes(e.key)) page.view.scale *= e.key === "+" ? 1.1 : 1 / 1.1;
+    else return;
+    e.preventDefault();
+    redraw();
+  });
 }
 
 const VIEWS = {
@@ -246,8 +297,9 @@ function buttons() {
     redraw();
   }));
   element("save").addEventListener("click", () => {
-    page.view.draw(page.poses());
+    page.view.draw(page.poses(), PAPER);
     made("a", { href: element("picture").toDataURL("image/png"), download: `${robot.name}.png` }).click();
+    redraw();
   });
   element("open").addEventListener("change", (e) => {
     if (!e.target.checked && !close()) return;
@@ -271,7 +323,7 @@ function buttons() {
 
 // Close the loops from where the joints stand: by those that follow, else by all.
 function close() {
-  const found = closedFrom(robot, page.u, follow) ?? closedFrom(robot, page.u, every);
+  const found = closedFrom(robot, page.u, follow()) ?? closedFrom(robot, page.u, every());
   if (found === null) {
     say("the loops do not close near here");
     element("open").checked = true;
@@ -282,7 +334,7 @@ function close() {
   return true;
 }
 
-page.homeLines = () => ["[home]", ...every.filter((k) => Math.abs(page.u[k]) > 1e-12)
+page.homeLines = () => ["[home]", ...every().filter((k) => Math.abs(page.u[k]) > 1e-12)
   .map((k) => `q${robot.free[k]} = ${Number.isInteger(+page.u[k].toPrecision(12)) ? page.u[k].toFixed(1) : rounded(page.u[k], 12)}`)].join("\n");
 
 function copy() {
@@ -309,7 +361,7 @@ function key() {
   }));
   for (const layer of ["masses", "fixed names", "loop names"]) {
     const parts = [...robot.dots, ...robot.labels];
-    if (!parts.some((p) => p.layer === layer)) document.querySelector(`[data-layers="${layer}"]`).parentElement.hidden = true;
+    document.querySelector(`[data-layers="${layer}"]`).parentElement.hidden = !parts.some((p) => p.layer === layer);
   }
 }
 
@@ -317,17 +369,23 @@ document.querySelectorAll("tr[data-row]").forEach((line) => {
   line.addEventListener("mouseenter", () => point(+line.dataset.row));
   line.addEventListener("mouseleave", () => point(null));
 });
-element("loops").hidden = element("hand").hidden = robot.loops.length === 0;
-if (!robot.closed) {
-  say(`the loops do not close near ${robot.stated ? "[home]: drawn as it is stated" : "all joints at 0: drawn so"}`);
-} else if (!robot.held) say("the loops do not close with the actuated joints as [home] states them: drawn nearby");
-else if (robot.loose.length) {
-  say(`${robot.loose.map((name) => `q${name}`).join(", ")} could move here with the actuated joints locked`);
+
+// All that stands beside the picture, for the robot as it is now.
+function begin() {
+  element("loops").hidden = element("hand").hidden = robot.loops.length === 0;
+  const home = robot.stated ? "[home]: drawn as it is stated" : "all joints at 0: drawn so";
+  say(!robot.closed ? `the loops do not close near ${home}`
+    : !robot.held ? "the loops do not close with the actuated joints as [home] states them: drawn nearby"
+    : robot.loose.length ? `${robot.loose.map((name) => `q${name}`).join(", ")} could move here with the actuated joints locked` : "");
+  key();
+  list();
+  show();
 }
-key();
+
 pointers();
 buttons();
-list();
 page.view.fit(page.poses(), boxes());
-show();
+begin();
 new ResizeObserver(fit).observe(element("stage"));
+matchMedia(DARK).addEventListener("change", redraw);
+tell("ready", standing());

@@ -1,6 +1,9 @@
 // The picture: orthographic, parts painted from far to near.
 
-const INK = "#1d1d1f", POINTED = "#ffb300";
+const POINTED = "#ffb300", DARK = "(prefers-color-scheme: dark)";
+const PAPER = { ground: "#ffffff", ink: "#1d1d1f", soft: "#5c5c62", thin: "#bbbbbb", gravity: "#6b4fa0" };
+const NIGHT = { ground: "#17171a", ink: "#ececf0", soft: "#b2b2ba", thin: "#55555c", gravity: "#b39ddb" };
+const FAINT = 0.22; // of what is not lit, where something is
 
 class View {
   constructor(canvas, robot) {
@@ -8,11 +11,30 @@ class View {
     this.robot = robot;
     this.hidden = new Set(["loop names"]);
     this.pointed = null;
+    this.lit = new Set(); // rows that are shown clearly, the others faintly
     this.items = [];
     this.kept = new Map(); // where labels stood: they stay there as long as they can
     this.poses = [];
     this.top = 0; // px, of what lies over the picture
     this.look(robot.view);
+  }
+
+  replace(robot) {
+    this.robot = robot;
+    this.pointed = null;
+    this.kept.clear();
+  }
+
+  marked(row) {
+    return row === this.pointed || this.lit.has(row);
+  }
+
+  // A colour for paper, as it is seen on the ground.
+  ink(color, least = 0.16) {
+    if (this.colors === PAPER) return color;
+    let found = color;
+    for (let k = 0; k < 8 && brightness(found) < least; k += 1) found = mixed(found, "#ffffff", 0.18);
+    return found;
   }
 
   look(rotation) {
@@ -50,10 +72,7 @@ class View {
     const box = this.canvas.getBoundingClientRect();
     this.width = box.width;
     this.height = box.height;
-    const points = [
-      ...this.robot.lines.flatMap((l) => l.ends.map((e) => this.point(e))),
-      ...this.robot.faces.flatMap((f) => f.points.map((x) => placed(frameOf(poses, f.frame), x))),
-    ];
+    const points = this.outline();
     const span = (axis) => {
       const along = points.map((p) => dot(axis, p));
       return [Math.min(...along), Math.max(...along)];
@@ -74,8 +93,26 @@ class View {
     }
   }
 
-  draw(poses) {
+  // True if all of the robot is in the window, and fills a good part of it.
+  holds(poses) {
     this.poses = poses;
+    const points = this.outline().map((p) => this.flat(p));
+    const xs = points.map((p) => p.x), ys = points.map((p) => p.y);
+    const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+    return left > 0 && low > 0 && right < this.width && high < this.height
+      && (right - left > 0.3 * this.width || high - low > 0.3 * this.height);
+  }
+
+  outline() {
+    return [
+      ...this.robot.lines.flatMap((l) => l.ends.map((e) => this.point(e))),
+      ...this.robot.faces.flatMap((f) => f.points.map((x) => placed(frameOf(this.poses, f.frame), x))),
+    ];
+  }
+
+  draw(poses, colors = matchMedia(DARK).matches ? NIGHT : PAPER) {
+    this.poses = poses;
+    this.colors = colors;
     const box = this.canvas.getBoundingClientRect(), ratio = window.devicePixelRatio || 1;
     this.width = box.width;
     this.height = box.height;
@@ -83,15 +120,23 @@ class View {
     this.canvas.height = Math.round(box.height * ratio);
     const pen = this.canvas.getContext("2d");
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    pen.fillStyle = "#fff";
+    pen.fillStyle = colors.ground;
     pen.fillRect(0, 0, this.width, this.height);
     this.unit = Math.max(0.8, Math.min(1.5, Math.min(this.width, this.height) / 620));
     this.items = [...this.faces(), ...this.pieces(), ...this.dots()];
     this.items.sort((a, b) => a.depth - b.depth);
-    for (const item of this.items) item.paint(pen);
+    for (const item of this.items) {
+      pen.globalAlpha = this.faint(item.row);
+      item.paint(pen);
+      pen.globalAlpha = 1;
+    }
     this.labels(pen);
     this.gravity(pen);
     this.ruler(pen);
+  }
+
+  faint(row) {
+    return this.lit.size && !this.lit.has(row) ? FAINT : 1;
   }
 
   shown(part) {
@@ -112,7 +157,7 @@ class View {
       if (solid && faces <= 0) continue;
       const points = corners.map((c) => this.flat(c));
       const bright = solid ? 0.74 + 0.42 * Math.max(0, dot(normal, light)) : 1;
-      const marked = part.row === this.pointed;
+      const marked = this.marked(part.row);
       yield {
         row: part.row,
         points,
@@ -121,13 +166,12 @@ class View {
           pen.beginPath();
           points.forEach((p, i) => (i ? pen.lineTo(p.x, p.y) : pen.moveTo(p.x, p.y)));
           pen.closePath();
-          pen.globalAlpha = part.opacity;
-          pen.fillStyle = shade(part.color, bright);
+          pen.globalAlpha *= part.opacity;
+          pen.fillStyle = shade(this.ink(part.color), bright);
           pen.fill();
           pen.strokeStyle = marked ? POINTED : pen.fillStyle;
           pen.lineWidth = marked ? 2 : 0.6;
           pen.stroke();
-          pen.globalAlpha = 1;
         },
       };
     }
@@ -164,7 +208,7 @@ class View {
 
   paintPiece(pen, part, a, b) {
     const width = part.width * this.unit, length = Math.hypot(b.x - a.x, b.y - a.y);
-    const marked = part.row === this.pointed && part.layer !== "gap";
+    const marked = this.marked(part.row) && part.layer !== "gap", color = this.ink(part.color);
     const stroke = (color, wide, cap) => {
       pen.lineCap = cap;
       pen.strokeStyle = color;
@@ -175,15 +219,15 @@ class View {
       pen.stroke();
     };
     // What lies in a face has no white rim on it.
-    if (marked || part.layer !== "platform") stroke(marked ? POINTED : "#fff", width + (marked ? 5 : 2.4), "butt");
+    if (marked || part.layer !== "platform") stroke(marked ? POINTED : this.colors.ground, width + (marked ? 5 : 2.4), "butt");
     pen.setLineDash(part.dashed ? [2.2 * width, 1.8 * width] : []);
-    stroke(part.color, width, part.dashed ? "butt" : "round");
+    stroke(color, width, part.dashed ? "butt" : "round");
     pen.setLineDash([]);
     const head = 3.2 * this.unit + 2 * width;
     if (!part.arrow || length < 0.5 * head) return;
     const [x, y] = [(b.x - a.x) / length, (b.y - a.y) / length];
     const long = Math.min(head, length);
-    pen.fillStyle = part.color;
+    pen.fillStyle = color;
     pen.beginPath();
     pen.moveTo(b.x + 0.3 * long * x, b.y + 0.3 * long * y);
     pen.lineTo(b.x - 0.7 * long * x - 0.36 * long * y, b.y - 0.7 * long * y + 0.36 * long * x);
@@ -199,13 +243,13 @@ class View {
         paint: (pen) => {
           pen.beginPath();
           pen.arc(p.x, p.y, radius, 0, 2 * Math.PI);
-          pen.fillStyle = part.color;
+          pen.fillStyle = this.ink(part.color);
           pen.fill();
           pen.lineWidth = 1;
-          pen.strokeStyle = part.row === this.pointed ? POINTED : "#fff";
+          pen.strokeStyle = this.marked(part.row) ? POINTED : this.colors.ground;
           pen.stroke();
           if (part.layer !== "masses") return;
-          pen.fillStyle = "#fff"; // quarters, as engineers mark it
+          pen.fillStyle = this.colors.ground; // quarters, as engineers mark it
           for (const from of [0, Math.PI]) {
             pen.beginPath();
             pen.moveTo(p.x, p.y);
@@ -240,7 +284,7 @@ class View {
       const box = this.place(key, group, { width, height }, { taken, segments, sleeves, others });
       taken.push(box);
       if (Math.hypot(box.x + width / 2 - group.x, box.y + height / 2 - group.y) > width / 2 + 26 * this.unit + this.robot.bulk * this.scale) {
-        pen.strokeStyle = "#bbb";
+        pen.strokeStyle = this.colors.thin;
         pen.lineWidth = 0.8;
         pen.beginPath();
         pen.moveTo(group.x, group.y);
@@ -250,10 +294,12 @@ class View {
       let x = box.x;
       group.parts.forEach((part, i) => {
         pen.lineWidth = 3;
-        pen.strokeStyle = "#ffffffd0";
+        pen.globalAlpha = this.faint(part.row);
+        pen.strokeStyle = `${this.colors.ground}d0`;
         pen.strokeText(part.text, x, box.y + height / 2);
-        pen.fillStyle = part.row === this.pointed ? INK : part.color;
+        pen.fillStyle = this.marked(part.row) ? this.colors.ink : this.ink(part.color, 0.3);
         pen.fillText(part.text, x, box.y + height / 2);
+        pen.globalAlpha = 1;
         x += widths[i] + gap;
       });
     }
@@ -290,7 +336,7 @@ class View {
     const [x, y] = this.rotation.slice(0, 2).map((axis) => dot(axis, g) / size);
     const length = 46 * this.unit, flat = Math.hypot(x, y);
     const [cx, cy] = [this.width - 44 * this.unit, this.height - 50 * this.unit];
-    pen.strokeStyle = pen.fillStyle = "#6b4fa0";
+    pen.strokeStyle = pen.fillStyle = this.colors.gravity;
     pen.lineWidth = 2.2 * this.unit;
     if (flat < 0.08) { // straight at the viewer, or away
       pen.beginPath();
@@ -301,9 +347,9 @@ class View {
       pen.fillText(dot(this.rotation[2], g) > 0 ? "•" : "×", cx, cy);
     } else {
       const [a, b] = [-0.5, 0.5].map((s) => ({ x: cx + s * length * x, y: cy - s * length * y }));
-      this.paintPiece(pen, { width: 2, color: "#6b4fa0", arrow: true, row: -2 }, a, b);
+      this.paintPiece(pen, { width: 2, color: this.colors.gravity, arrow: true, row: -2 }, a, b);
     }
-    pen.fillStyle = "#6b4fa0";
+    pen.fillStyle = this.colors.gravity;
     pen.font = `italic 600 ${Math.round(14 * this.unit)}px Georgia, serif`;
     pen.fillText("g", cx + 13 * this.unit, cy);
   }
@@ -313,7 +359,7 @@ class View {
     const most = 110 * this.unit / this.scale, ten = 10 ** Math.floor(Math.log10(most));
     const length = [5, 2, 1].map((n) => n * ten).find((n) => n <= most);
     const [x, y, w] = [16, this.height - 18, length * this.scale];
-    pen.strokeStyle = pen.fillStyle = "#5c5c62";
+    pen.strokeStyle = pen.fillStyle = this.colors.soft;
     pen.lineWidth = 1.5;
     pen.lineCap = "butt";
     pen.beginPath();
@@ -334,8 +380,21 @@ class View {
   }
 }
 
+const bytes = (color) => [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16));
+
+// Relative luminance, 0 to 1 (WCAG).
+function brightness(color) {
+  const [r, g, b] = bytes(color).map((c) => (c / 255) ** 2.2);
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+
+function mixed(color, other, share) {
+  const found = bytes(color).map((c, i) => Math.round(c + share * (bytes(other)[i] - c)));
+  return `#${found.map((c) => c.toString(16).padStart(2, "0")).join("")}`;
+}
+
 function shade(color, bright) {
-  const parts = [1, 3, 5].map((i) => parseInt(color.slice(i, i + 2), 16));
+  const parts = bytes(color);
   const lit = parts.map((c) => Math.round(bright <= 1 ? c * bright : c + (255 - c) * (bright - 1)));
   return `rgb(${lit.join(",")})`;
 }

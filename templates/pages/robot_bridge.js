@@ -1,0 +1,40 @@
+// The page in a frame of a page of the same origin: what it tells there, and what it heeds.
+// Told: ready and drawn {q, frames, gaps}, joint {name}, pointed {name}.
+// Heeded: posture {q}, light {rows}, robot {content}.
+
+document.documentElement.classList.toggle("bare", location.hash === "#bare");
+
+const framed = window.parent !== window && location.origin !== "null";
+
+function tell(modeler, content = {}) {
+  if (framed) window.parent.postMessage({ modeler, ...content }, location.origin);
+}
+
+// How the robot stands: variables by joint, poses by row as 4 x 4 matrices, gaps of the loops.
+function standing() {
+  const frames = page.poses().map(({ R, p }) => [...[0, 1, 2].map((i) => [R[0][i], R[1][i], R[2][i], p[i]]), [0, 0, 0, 1]]);
+  return {
+    q: Object.fromEntries(robot.free.map((name, k) => [name, page.u[k]])),
+    frames: Object.fromEntries(robot.rows.map((row, i) => [row.name, frames[i]])),
+    gaps: page.gaps(),
+  };
+}
+
+const HEEDED = {
+  posture: ({ q }) => { page.pose(q); },
+  light: ({ rows }) => {
+    page.view.lit = new Set(robot.rows.flatMap((row, i) => (rows.includes(row.name) ? [i] : [])));
+    redraw();
+  },
+  robot: ({ content }) => {
+    page.replace(content);
+    tell("drawn", standing());
+  },
+};
+
+if (framed) {
+  window.addEventListener("message", (event) => {
+    if (event.source !== window.parent || event.origin !== location.origin) return;
+    HEEDED[event.data?.modeler]?.(event.data);
+  });
+}
