@@ -2,9 +2,11 @@
 
 import asyncio
 import multiprocessing
+import os
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
 from typing import Any
 
 from modeler.core.errors import DataError, short_of_memory
@@ -18,7 +20,9 @@ class Viewer:
     out), and ends with this one, even if that is killed. The event loop never waits.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, folder: Path = Path()) -> None:
+        """Names of files are relative to the folder."""
+        self._folder = folder
         self._pool: ProcessPoolExecutor | None = None
         self._turn = asyncio.Lock()
         self._newest: dict[str, int] = {}
@@ -57,7 +61,9 @@ class Viewer:
     async def _answered(self, function: str, arguments: tuple[Any, ...]) -> Any:
         if self._pool is None:
             context = multiprocessing.get_context("spawn")
-            self._pool = ProcessPoolExecutor(1, mp_context=context, initializer=attend)
+            self._pool = ProcessPoolExecutor(
+                1, mp_context=context, initializer=_begun, initargs=(str(self._folder),)
+            )
         loop = asyncio.get_running_loop()
         return await loop.run_in_executor(self._pool, answer, function, arguments)
 
@@ -68,6 +74,12 @@ class Viewer:
             for process in list((pool._processes or {}).values()):
                 process.kill()
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _begun(folder: str) -> None:
+    """At the start of the process."""
+    attend()
+    os.chdir(folder)
 
 
 def answer(function: str, arguments: tuple[Any, ...]) -> Any:

@@ -4,7 +4,6 @@ Every function takes plain arguments and answers with plain data or a `Picture`.
 and kept until they change.
 """
 
-import os
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -59,7 +58,7 @@ def _state(place: str) -> tuple[str, int, int]:
     """A file as it is now; a window after it belongs to its name."""
     path = str(log_maps.file_and_span(place)[0])
     try:
-        status = os.stat(path)
+        status = Path(path).stat()
     except OSError as error:
         raise DataError(
             f"{path}: cannot be read ({error.strerror}); put the file back, or take it out"
@@ -370,7 +369,8 @@ def torque_picture(
     ends = float(time[rows[0]]), float(time[rows[-1]])
     what = f"{WORDS[unit]} [{unit}]"
     return Picture(
-        f"torque_{joint}", f"Joint {joint}: measured and predicted", validation.mask_caption(first, j),
+        f"torque_{joint}", f"Joint {joint}: measured and predicted",
+        validation.mask_caption(first, j),
         ((Panel("", label, what, tuple(above), marks=marks, spans=spans, x_range=ends),),
          (Panel("", label, f"residual [{unit}]", tuple(below), marks=marks, zero=True, spans=spans,
                 x_range=ends),)),
