@@ -653,6 +653,27 @@ _DEMO = Command(
     "write the diagnoses for machines",
 )  # fmt: skip
 
+_STUDIO = Command(
+    "studio", "studio:run_studio",
+    "all of this in the browser: see where the model fails, add what is missing",
+    "Opens the workbench in the browser: describe a robot, drop logs, fit, see where the model "
+    "fails, learn which effect is missing, add it and watch the error fall. Serves this machine "
+    "alone, until Ctrl-C; FOLDER keeps all that is done.",
+    "modeler studio arm",
+    (
+        value("folder", "FOLDER", places.Word,
+              "project folder, made if it is not there (default: the current one)", nargs="?",
+              default="."),
+        flag("--demo", "begin with the built-in arm that has a hidden effect"),
+        repeated("--allow", "DIR", places.Word,
+                 "folder whose logs and robot files may be chosen where they lie, besides FOLDER "
+                 "and the current one; may be repeated"),
+        value("--port", "N", int, "at which it answers (default: one that is free)", default=0),
+        flag("--no-open", "print the address, open no browser"),
+    ),
+    "write its address, before it serves, for machines",
+)  # fmt: skip
+
 _COMPLETION = Command(
     "completion", "completion:run_completion",
     "a script that lets a shell complete what you type",
@@ -670,6 +691,7 @@ _COMPLETION = Command(
 )  # fmt: skip
 
 FAMILIES: dict[str, tuple[Command, ...]] = {
+    "in the browser": (_STUDIO,),
     "describe": (_NEW, _CONVERT, _SHOW, _HOME, _DERIVE),
     "measure": (_EXCITE, _SIMULATE, _LOG),
     "identify": (_FIT, _COMPARE),

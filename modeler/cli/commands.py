@@ -141,8 +141,15 @@ def parser() -> argparse.ArgumentParser:
     for command in COMMANDS.values():
         command.add_to(commands)
     commands.choices["completion"].set_defaults(top=top)
-    for each in (top, *commands.choices.values()):
-        _add_loudness(each)
+    _add_loudness(top)
+    for each in commands.choices.values():
+        _add_loudness(each).add_argument(
+            "--progress",
+            choices=("bar", "lines"),
+            default="bar",
+            help="on a terminal a bar; lines: on stderr, for a program that reads "
+            "`progress SHARE TITLE`, SHARE 0 to 1 or -",
+        )
     return top
 
 
@@ -152,7 +159,7 @@ def commands_of(top: argparse.ArgumentParser) -> dict[str, argparse.ArgumentPars
     return dict(listed.choices)
 
 
-def _add_loudness(parser: argparse.ArgumentParser) -> None:
+def _add_loudness(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
     """Before the command or after it; a command that is not told keeps what was said before."""
     group = parser.add_argument_group("what is told")
     for loudness, short, text in (
@@ -162,6 +169,7 @@ def _add_loudness(parser: argparse.ArgumentParser) -> None:
         group.add_argument(
             short, f"--{loudness.value}", action="store_true", default=argparse.SUPPRESS, help=text
         )
+    return group
 
 
 def parsed(words: Sequence[str]) -> tuple[argparse.Namespace, Loudness]:

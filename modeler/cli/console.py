@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from modeler import __version__
-from modeler.core.errors import ModelerError
+from modeler.core.errors import ModelerError, on_one_line
 from modeler.core.files import Kind, destination, write_atomically
 
 if TYPE_CHECKING:
@@ -36,6 +36,9 @@ class Loudness(Enum):
 
 _LOUDNESS: ContextVar[Loudness] = ContextVar("loudness", default=Loudness.USUAL)
 
+_FOR_PROGRAMS: ContextVar[bool] = ContextVar("for programs", default=False)
+"""Whether progress is told in lines that a program reads, in place of a bar: `--progress lines`."""
+
 _TICK = 0.5  # s
 
 _PACKAGES = (
@@ -49,11 +52,17 @@ def loudness() -> Loudness:
 
 
 @contextmanager
-def using_loudness(wanted: Loudness) -> Iterator[None]:
-    """While this lasts, so much is told; warnings of libraries too."""
+def using_loudness(wanted: Loudness, for_programs: bool = False) -> Iterator[None]:
+    """While this lasts, so much is told; warnings of libraries too.
+
+    Args:
+        wanted: how much.
+        for_programs: True: progress as lines, even where little is told.
+    """
     import warnings
 
     before = _LOUDNESS.set(wanted)
+    lines = _FOR_PROGRAMS.set(for_programs)
     try:
         with warnings.catch_warnings():
             if wanted is Loudness.QUIET:
@@ -62,6 +71,7 @@ def using_loudness(wanted: Loudness) -> Iterator[None]:
                 warnings.simplefilter("default")
             yield
     finally:
+        _FOR_PROGRAMS.reset(lines)
         _LOUDNESS.reset(before)
 
 
@@ -85,6 +95,10 @@ def step(title: str) -> Iterator[None]:
 def clock(title: str) -> Iterator[None]:
     """Title and seconds on a terminal, while what could draw a bar is itself being loaded."""
     stream = sys.stderr
+    if _FOR_PROGRAMS.get():
+        _line(title, None)
+        yield
+        return
     if loudness() is Loudness.QUIET or stream is None or not stream.isatty():
         yield
         return
@@ -243,22 +257,33 @@ def _stdout_told() -> Iterator[None]:
 def run_command(args: argparse.Namespace, run: Callable[[argparse.Namespace], Json]) -> None:
     """Run the command of `args`, and write what it returns to the file that `--json` names.
 
-    `args.after`, if the command set one, judges the result when all is written.
+    `args.after`, if the command set one, judges the result when all is written. A command that goes
+    on after its result gives that to `args.tell` itself, and returns None.
 
     "-" is stdout, and so is /dev/stdout; it then carries the JSON alone.
     """
     alone = args.json is not None and _is_stdout(args.json)
-    with contextlib.redirect_stdout(io.StringIO()) if alone else contextlib.nullcontext():
-        content = run(args)
-    if args.json is not None:
+    stdout = sys.stdout
+
+    def tell(content: Json) -> None:
+        if args.json is None:
+            return
         from modeler.core.json import nulled  # it reads TOML too, which help need not
 
         told = with_schema(args.command, nulled(content))
         text = json.dumps(told, indent=1, allow_nan=False) + "\n"
         if alone:
-            write_stdout(text)
+            with contextlib.redirect_stdout(stdout):
+                write_stdout(text)
+                flush_stdout()
         else:
             write_atomically(Path(args.json), text)
+
+    args.tell = tell
+    with contextlib.redirect_stdout(io.StringIO()) if alone else contextlib.nullcontext():
+        content = run(args)
+    if content is not None:
+        tell(content)
     if hasattr(args, "after"):
         args.after(args)
 
@@ -303,6 +328,10 @@ def working(title: str) -> Iterator[None]:
 def _bar(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
     """A bar on a terminal; it moves to and fro where nobody knows the share."""
     hidden = loudness() is Loudness.QUIET or _SHOWN.get()
+    if _FOR_PROGRAMS.get() and not _SHOWN.get():
+        with _lines(title, total) as tell:
+            yield tell
+        return
     if hidden or sys.stderr is None or not sys.stderr.isatty():
         yield lambda share: None
         return
@@ -317,3 +346,29 @@ def _bar(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
             yield lambda share: bar.update(task, completed=share)
     finally:
         _SHOWN.reset(before)
+
+
+@contextmanager
+def _lines(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
+    """The same in lines: one at the beginning, then one where there is another percent to tell."""
+    told = [time.monotonic(), 0.0]
+
+    def tell(share: float) -> None:
+        now = time.monotonic()
+        if share >= told[1] + 0.01 and now >= told[0] + _PAUSE:
+            told[:] = now, share
+            _line(title, share)
+
+    before = _SHOWN.set(True)
+    try:
+        _line(title, None if total is None else 0.0)
+        yield tell
+    finally:
+        _SHOWN.reset(before)
+
+
+_PAUSE = 0.1  # s between two lines
+
+
+def _line(title: str, share: float | None) -> None:
+    _raw(f"progress {'-' if share is None else f'{min(share, 1.0):.2f}'} {on_one_line(title)}\n")

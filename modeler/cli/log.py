@@ -25,7 +25,7 @@ from modeler.core.files import write_atomically
 from modeler.core.json import nulled
 from modeler.core.table import aligned, percent
 from modeler.estimation import FitResult, identify, log_findings, stream
-from modeler.logs import LogInspection, LogMap, map_from_words
+from modeler.logs import LogInspection, LogMap, map_from_words, marks_of, most_of
 from modeler.observation import Observation, WholeLogNeeded, bands_of, noise_of_positions, source_of
 from modeler.report import channel_rows, clock_line, log_page, log_pictures, write_files, write_page
 from modeler.robot import with_log
@@ -51,7 +51,7 @@ def run_log(args: argparse.Namespace) -> Json:
     seen = look_at(args.log, compiled, args.map)
     doubts = [*seen.doubts]
     noise = noise_of_positions(seen.positions)
-    bands = bands_of(noise)
+    bands, marks = bands_of(noise), marks_of(seen)
     if compiled is not None:
         sure = suggested_map(seen.plain, mapping)
         ranged = suggested_map(seen.suggested, mapping)
@@ -61,6 +61,7 @@ def run_log(args: argparse.Namespace) -> Json:
         )  # fmt: skip
         if heard.report is not None:
             noise, bands = heard.report.noise, heard.report.bands
+            marks = most_of([*marks, *heard.report.logs[0].marks()])
         if stands:  # it fits as it is: a range alone is no doubt
             doubts = [line for line in doubts if line not in seen.ranged]
             seen = dataclasses.replace(seen, suggested=seen.plain)
@@ -83,7 +84,8 @@ def run_log(args: argparse.Namespace) -> Json:
         places.append(f"{len(written)} files in {args.picture}")
     if places:
         say(f"written: {', '.join(places)}")
-    return nulled(seen.to_json() | {"doubts": doubts, "bands": bands})
+    plain = [dataclasses.asdict(mark) for mark in marks]
+    return nulled(seen.to_json() | {"doubts": doubts, "bands": bands, "marks": plain})
 
 
 def _lines(seen: LogInspection, doubts: Sequence[str], noise: Sequence[str]) -> list[str]:

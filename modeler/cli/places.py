@@ -14,15 +14,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from modeler.core import files
-from modeler.core.builtin import MOTIONS, OTHER_PROGRAMS, builtin_file, builtin_names
+from modeler.core.builtin import LOG_ENDINGS, MOTIONS, OTHER_PROGRAMS, builtin_file, builtin_names
 from modeler.core.errors import DataError, ModelerError, file_and_window
 
 _MOTIONS = (".csv", ".parquet")
-LOG_ENDINGS = (
-    *_MOTIONS, ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy", ".xlsx", ".tsv",
-    ".lvm",
-)  # fmt: skip
-"""How the name of a log ends, and of nothing else."""
 
 
 class Word(str):

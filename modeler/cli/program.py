@@ -78,7 +78,7 @@ def _answer(words: Sequence[str], phase: Phase) -> None:
         from modeler.core.errors import ModelerError
 
         args, wanted = parsed(words)
-    with using_loudness(wanted):
+    with using_loudness(wanted, args.progress == "lines"):
         try:
             show_start(words)
             _carried_out(args, phase, wanted is Loudness.VERBOSE)

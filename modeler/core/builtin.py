@@ -15,6 +15,12 @@ CONVENTIONS = ("khalil", "craig", "classical")
 OTHER_PROGRAMS = (".par", ".urdf", ".xml", ".mjcf", ".xacro", ".sdf")
 """Endings of robot files of other programs: nothing of ours is ever written into one."""
 
+LOG_ENDINGS = (
+    ".csv", ".parquet", ".mat", ".h5", ".hdf5", ".mcap", ".db3", ".bag", ".npz", ".npy", ".xlsx",
+    ".tsv", ".lvm",
+)  # fmt: skip
+"""How the name of a log ends, and of nothing else."""
+
 MOTIONS = ("exciting", "point-to-point", "one-joint")
 """What the commanded motion of a simulation may be."""
 

@@ -317,16 +317,16 @@ def _gathered(futures: "Sequence[Future[R]]", done: Done) -> list[R]:
         raise
 
 
-def _attend() -> None:
+def attend() -> None:
     """A process ends, without a word, when the one that started it has: even if that was killed."""
     parent = multiprocessing.parent_process()
     assert parent is not None
 
-    def attend() -> None:
+    def follow() -> None:
         parent.join()
         os._exit(1)
 
-    threading.Thread(target=attend, daemon=True).start()
+    threading.Thread(target=follow, daemon=True).start()
 
 
 @contextmanager
@@ -350,7 +350,7 @@ def open_processes(count: int) -> Iterator[Processes]:
     os.environ[_WARNINGS] = f"{before[_WARNINGS] or 'default'},ignore:resource_tracker"
     try:
         context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(count, mp_context=context, initializer=_attend) as pool:
+        with ProcessPoolExecutor(count, mp_context=context, initializer=attend) as pool:
             try:
                 yield Processes(pool)
             except KeyboardInterrupt:

@@ -8,7 +8,7 @@ import numpy as np
 from modeler.estimation.least_squares import Estimate, Rows, repeated_in_passing, solve_by_qr
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import Compressed, triangle
-from modeler.observation import Observation
+from modeler.observation import Doubt, Observation
 
 _WORTH = 1.2  # a factor above it is said
 _LAGS = 60  # rows; with one row per 1 / (2.5 cut-off), 24 periods of the parallel filter
@@ -226,7 +226,7 @@ class Halves:
     factors: np.ndarray
     worst: tuple[int, int, str, float] | None = None
 
-    def sentences(self, names: Sequence[str], joints: Sequence[str]) -> list[str]:
+    def doubts(self, names: Sequence[str], joints: Sequence[str]) -> list[Doubt]:
         """One, if something differs."""
         if self.worst is None:
             return []
@@ -237,11 +237,12 @@ class Halves:
             else "and most of the residual lasts from row to row: noise that remembers, or an "
             "effect that is missing; `modeler diagnose` tells which"
         )
-        return [
+        line = (
             f"joint {joints[joint]}: rows of little and of much {signal} tell different "
             f"{names[column]}, {why}; the sigmas are raised for it, by up to a factor "
             f"{self.factors.max():.2g} ({names[int(self.factors.argmax())]})"
-        ]
+        )
+        return [Doubt(line, about=(joints[joint],))]
 
 
 def halves(

@@ -51,12 +51,20 @@ def negative(spec: ModuleSpec, result: FitResult) -> list[Doubt]:
             "not allow: a sign, a unit or the order of columns in the log may be wrong, or an "
             "effect is missing that this parameter stands in for; let `modeler diagnose` look",
             values=True,
+            about=joints_of_parameters(spec, [base.name]),
         )
         for base, estimate in zip(spec.base, result.parameters, strict=True)
         if estimate.sigma is not None
         and estimate.value < -_FAR * estimate.sigma
         and all(term.value >= 0.0 and term.parameter in possible for term in base.terms)
     ]
+
+
+def joints_of_parameters(spec: ModuleSpec, names: Sequence[str]) -> tuple[str, ...]:
+    """Rows of the table that base or standard parameters belong to, in the order of the names."""
+    row = {parameter.name: parameter.joint for parameter in spec.standard}
+    row |= {base.name: row[base.column_of] for base in spec.base if base.column_of in row}
+    return tuple(dict.fromkeys(row[name] for name in names if name in row))
 
 
 def undescribed(result: FitResult) -> list[Doubt]:
@@ -68,6 +76,7 @@ def undescribed(result: FitResult) -> list[Doubt]:
             "missing",
             certain=joint.relative_error > HALF,
             values=True,
+            about=(joint.name,),
         )
         for joint in result.joints
         if joint.relative_error is not None and joint.relative_error > LITTLE
@@ -111,6 +120,7 @@ def systematic(result: FitResult, lasting: np.ndarray) -> list[Doubt]:
             "torque is left and is no noise: an effect is missing, and the values of others stand "
             "in for it; `modeler diagnose` names it",
             values=True,
+            about=tuple(large),
         )
     ]
 
@@ -141,6 +151,7 @@ def scarce(result: FitResult, seen: CrossValidation) -> list[Doubt]:
             f"that do not belong together: {moved}; record a longer motion of all joints, at many "
             "speeds and poses, if `modeler log` finds no column exchanged, shifted or spoilt",
             certain=True,
+            about=tuple(name for name, _ in lost),
         )
     ]
 
@@ -167,6 +178,7 @@ def unexplained_joints(result: FitResult, seen: CrossValidation, scale: np.ndarr
                 f"to {percent(error)}: some rows hold what the windows do not show; fit "
                 "pieces, FILE@START:END, to find them",
                 certain=True,
+                about=(joint.name,),
             )
         )
     return found
@@ -201,6 +213,7 @@ def undetermined(spec: ModuleSpec, result: FitResult, spread: np.ndarray) -> lis
                 "with other parameters are known, not the values; record poses and accelerations "
                 "that the logs lack",
                 values=True,
+                about=joints_of_parameters(spec, vague),
             )
         )
     if aside:
@@ -209,6 +222,7 @@ def undetermined(spec: ModuleSpec, result: FitResult, spread: np.ndarray) -> lis
                 f"{_some(aside)}: not told by these logs and set aside; record a motion that moves "
                 "all joints over a wide range",
                 values=True,
+                about=joints_of_parameters(spec, aside),
             )
         )
     return found

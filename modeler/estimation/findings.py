@@ -282,8 +282,10 @@ def _explained(seen: Evidence) -> Hypothesis | None:
     likely = [one for score, one in found if score >= most - np.log(ALSO)]
     line = "; or: ".join(dict.fromkeys(one.fault.line for one in likely[:3]))
     certain = all(one.fault.certain for one in likely)
-    fault = replace(likely[0].fault, line=line, certain=certain)
-    return Hypothesis(fault, likely[0].data, tuple({j for one in likely for j in one.touches}))
+    touched = tuple({j for one in likely for j in one.touches})
+    about = tuple(seen.observation.joints[j].name for j in sorted(touched))
+    fault = replace(likely[0].fault, line=line, certain=certain, about=about)
+    return Hypothesis(fault, likely[0].data, touched)
 
 
 def _lowered(seen: Evidence, one: Hypothesis) -> float:

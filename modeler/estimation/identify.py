@@ -162,6 +162,7 @@ def fit_equations(
             observation, equations.compressed, alive, estimate,
             colour.factors * white / share**0.5, lasting, equations.conditions(alive).get("loaded"),
         )  # fmt: skip
+    told = differ.doubts(equations.names, [joint.name for joint in observation.joints])
     raised = np.sqrt(1.0 + (differ.factors**2 - 1.0) / share)
     factors = colour.factors * raised
     covariance = estimate.covariance * np.outer(factors, factors)
@@ -182,11 +183,12 @@ def fit_equations(
         sentences=(*equations.sentences, *_not_connected(observation, dead), *estimate.sentences,
                    *(tangle.sentence() for tangle in estimate.rank.aside), *estimate.unsettled(),
                    essential.sentence(data, estimate.beta), *colour.sentences(),
-                   *differ.sentences(equations.names, [j.name for j in observation.joints]),
+                   *(doubt.line for doubt in told),
                    *bands_disagree(observation, estimate)),
         reduced=reduced,
         standard=estimate.standard,
         own=estimate.sentences,
+        of_joints=tuple(told),
         by_load={
             name: joints_of(observation, equations.compressed(own), estimate.beta, estimate.sigma)
             for name, own in equations.conditions(alive).items()

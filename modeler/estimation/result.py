@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from modeler.core.table import POOLED, errors_by_unit, percent, text_by_unit
 from modeler.estimation.essential import Reduced
 from modeler.estimation.nearest_body import PREFIXES, pseudo_inertia_of
 from modeler.estimation.parameter import ParameterEstimate, parameter_lines, read_all, read_back
-from modeler.observation import Bands, Processing, processing_from_json
+from modeler.observation import Bands, Doubt, Processing, processing_from_json
 
 # The energy model beside the torque model of the same data: figures, and what they come to.
 
@@ -276,6 +276,20 @@ class JointFit:
 
 
 @dataclass(frozen=True)
+class JointVerdict(Brief):
+    """What a fit is worth on one joint.
+
+    Attributes:
+        light: "good": nothing speaks against it; "doubtful": its torques or its values are to be
+            taken with care; "bad": it is not described, not foretold, or its channels are wrong.
+        reasons: sentences; of what is good how well it is described and foretold.
+    """
+
+    light: Literal["good", "doubtful", "bad"]
+    reasons: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class Verdict(Brief):
     """How a fit ends.
 
@@ -286,6 +300,7 @@ class Verdict(Brief):
         line: for people: usable or not, why, what to do.
         doubts: all that speaks against it.
         unseen: faults that logs may have and these would not show, in words.
+        by_joint: the same joint by joint; empty in files that lack it.
     """
 
     usable: bool
@@ -293,6 +308,7 @@ class Verdict(Brief):
     line: str
     doubts: tuple[str, ...]
     unseen: tuple[str, ...] = ()
+    by_joint: Mapping[str, JointVerdict] = field(default_factory=dict)
 
     def warning(self) -> list[str]:
         """A line for whoever uses a model that is not usable; none for one that is."""
@@ -322,6 +338,7 @@ class FitResult(Presented):
         verdict: usable or not; None if nobody has judged it.
         standard: all standard parameters by name, SI, of an estimator that ends in them.
         own: those of the sentences that the estimator says of itself; not kept in model files.
+        of_joints: those of the sentences that doubt single joints; not kept in model files.
         essential: the reduced model; None if it has no parameter, or in files that lack it.
         directions: friction by direction, of joints whose viscous friction differs.
         energy: how it compares with the torque model; None for the torque model itself.
@@ -351,6 +368,7 @@ class FitResult(Presented):
     verdict: Verdict | None = None
     standard: Mapping[str, float] = field(default_factory=dict)
     own: tuple[str, ...] = ()
+    of_joints: tuple[Doubt, ...] = ()
     essential: Reduced | None = None
     directions: tuple[Directed, ...] = ()
     energy: EnergyReport | None = None
@@ -425,6 +443,7 @@ class FitResult(Presented):
             "usable_for": None if verdict is None else verdict.usable_for,
             "verdict": None if verdict is None else verdict.line,
             "doubts": [] if verdict is None else verdict.doubts,
+            "by_joint": {} if verdict is None else verdict.by_joint,
             **({"unseen": verdict.unseen} if verdict is not None and verdict.unseen else {}),
             **({"reading": dict(self.reading)} if self.reading else {}),
         })  # fmt: skip

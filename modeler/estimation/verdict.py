@@ -23,7 +23,13 @@ from modeler.estimation.identify import (
 from modeler.estimation.least_squares import solve_by_qr
 from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
 from modeler.estimation.prior import prior_of
-from modeler.estimation.result import FitResult, JointFit, Verdict, friction_by_direction
+from modeler.estimation.result import (
+    FitResult,
+    JointFit,
+    JointVerdict,
+    Verdict,
+    friction_by_direction,
+)
 from modeler.numerics.least_squares import Compressed, independent_columns, triangle
 from modeler.observation import Doubt, Observation, nearest_closed
 from modeler.runtime import CompiledModel
@@ -186,8 +192,40 @@ def with_verdict(
         found += [*_impossible(model.spec, result, data), *doubts.negative(model.spec, result)]
     verdict = _verdict(found, _predicts(equations, rows, result, seen))
     directions = friction_by_direction(model.spec, result)
-    verdict = dataclasses.replace(verdict, unseen=unseen)
+    by_joint = _by_joint([*found, *result.of_joints], result, seen)
+    verdict = dataclasses.replace(verdict, unseen=unseen, by_joint=by_joint)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
+
+
+def _by_joint(
+    found: Sequence[Doubt], result: FitResult, seen: CrossValidation
+) -> dict[str, JointVerdict]:
+    """What speaks against each joint: what is said of it, and of the whole robot.
+
+    What is said of no joint, and leaves prediction and values as they are, speaks against none.
+    """
+    names = {joint.name for joint in result.joints}
+    told = {}
+    for joint, error in zip(result.joints, seen.errors, strict=True):
+        own = [
+            doubt
+            for doubt in found
+            if joint.name in doubt.about
+            or (not names & set(doubt.about) and (doubt.certain or doubt.values))
+        ]
+        lines = tuple(dict.fromkeys(doubt.line for doubt in own))
+        if any(doubt.certain for doubt in own):
+            told[joint.name] = JointVerdict("bad", lines)
+        elif joint.relative_error is None:
+            told[joint.name] = JointVerdict("doubtful", ("none of its rows was fitted", *lines))
+        elif own:
+            told[joint.name] = JointVerdict("doubtful", lines)
+        else:
+            well = f"described to {percent(joint.relative_error)}"
+            if np.isfinite(error):
+                well += f", stretches that were left out foretold to {percent(float(error))}"
+            told[joint.name] = JointVerdict("good", (well,))
+    return told
 
 
 def _predicts(
@@ -312,6 +350,11 @@ def _impossible(spec: ModuleSpec, result: FitResult, data: Compressed) -> list[D
             "diagnose` look for an effect that they stand in for",
             certain=after > max(LITTLE, WIDE * before),
             values=True,
+            about=tuple(
+                joint
+                for name in blamed
+                for joint in doubts.joints_of_parameters(spec, [name]) or (name,)
+            ),
         )
     ]
 

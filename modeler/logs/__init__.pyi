@@ -22,9 +22,12 @@ from .inspect import (
 from .log_table import LogTable as LogTable
 from .mapping import (
     LogMap as LogMap,
+    find_unit as find_unit,
     map_from_table as map_from_table,
     map_from_words as map_from_words,
+    si_unit as si_unit,
 )
+from .marks import Mark as Mark, marks_of as marks_of, most_of as most_of
 from .rates import (
     clock_line as clock_line,
     common_factor as common_factor,

@@ -28,8 +28,8 @@ from modeler.logs.mapping import LENGTH, LogMap, find_unit, unit_named
 from modeler.logs.rates import moves, on_grid, rate_doubts, repeats_line
 from modeler.numerics.held import repeated_rows
 
-_GAP = 1.5  # of the median step
-_HELD = 3  # rows in a row at the extreme value that make it a limit
+GAP = 1.5  # of the median step
+HELD = 3  # rows in a row at the extreme value that make it a limit
 _STUCK = 0.005  # share of the rows
 _SLOW = 0.2  # share of rows in such runs, at any value, from which on a channel is only slow
 _JITTER = 0.05
@@ -393,8 +393,8 @@ def _clock(
     if not len(steps):
         raise DataError(f"{table.path}: column {name} has no values; expected the time of each row")
     step = float(np.median(steps)) if seen is None else 1.0 / seen.rate
-    even = steps[(steps > 0.0) & (steps <= _GAP * step)]
-    gaps = np.flatnonzero(steps > _GAP * step) if step > 0.0 else np.array([], dtype=int)
+    even = steps[(steps > 0.0) & (steps <= GAP * step)]
+    gaps = np.flatnonzero(steps > GAP * step) if step > 0.0 else np.array([], dtype=int)
     widest = int(gaps[np.argmax(steps[gaps])]) if gaps.size else 0
     return time, Clock(
         column=table.called(name),
@@ -439,7 +439,7 @@ def _extent(values: np.ndarray) -> _Extent:
         return _Extent(missing, np.full(5, np.nan), np.zeros(5, dtype=int))
     starts = np.append(0, np.flatnonzero(np.diff(finite)) + 1)  # where another value begins
     at, rows = finite[starts], np.diff(starts, append=finite.size)
-    rows[rows < _HELD] = 0
+    rows[rows < HELD] = 0
     low, high, inner = finite.min(), finite.max(), rows[1:-1]
     held = [inner[at[1:-1] == end].sum() for end in (low, high)]
     held = [rows[0], *held, inner.sum() - sum(held), rows[-1] if rows.size > 1 else 0]

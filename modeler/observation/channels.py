@@ -34,6 +34,7 @@ class Doubt:
             values of parameters are in doubt.
         joint: index of the joint whose torque has another scale; -1 for other doubts.
         unseen: True if it is no doubt, but tells which faults these logs would not show.
+        about: names of the joints that it is about; empty: the whole robot.
     """
 
     line: str
@@ -41,6 +42,7 @@ class Doubt:
     values: bool = False
     joint: int = -1
     unseen: bool = False
+    about: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

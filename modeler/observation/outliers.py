@@ -233,6 +233,7 @@ class Damage:
         joint: its name; "" of repeated rows.
         kind: of `Defect`.
         times: when each begins, s.
+        lasts: for how long each is bad, s; 0 of a leap.
         samples: that are not used for it.
         size: the largest, in `unit`.
         unit: of the channel.
@@ -243,6 +244,7 @@ class Damage:
     joint: str
     kind: str
     times: tuple[float, ...]
+    lasts: tuple[float, ...]
     samples: int
     size: float
     unit: str
@@ -483,18 +485,23 @@ def damages(log: Log, rows: int, spec: ModuleSpec, found: Defects) -> tuple[Dama
                     f"({percent(samples / rows)} of the rows) not used",
                     part=f"{log.name}@{same[0].time:.6g}:",
                 )
-                times = tuple(one.time for one in same)
                 line = f"{column}: {words}"
-                told.append(Damage(column, joint.name, kind, times, samples, size, unit, line))
+                when = _when(same, log.step)
+                told.append(Damage(column, joint.name, kind, *when, samples, size, unit, line))
     return tuple(told)
+
+
+def _when(found: Sequence[Defect], step: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """When each begins, and how long it is bad, s."""
+    return tuple(one.time for one in found), tuple((one.stop - one.start) * step for one in found)
 
 
 def _recorded_again(log: Log, rows: int, found: Sequence[Defect]) -> Damage:
     """Rows that were recorded more than once."""
     count = sum(one.stop - one.start for one in found)
-    times, rate = tuple(one.time for one in found[:1]), 1.0 / log.step
+    when, rate = _when(found[:1], log.step), 1.0 / log.step
     line = repeats_line(count, rows, rate)
-    return Damage("all channels", "", "repeated", times, count, rate, "Hz", line)
+    return Damage("all channels", "", "repeated", *when, count, rate, "Hz", line)
 
 
 _PER = {"q": "", "qd": "/s", "qdd": "/s^2"}

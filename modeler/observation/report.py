@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from modeler.core.brief import Brief
 from modeler.core.result import Presented
 from modeler.core.table import percent
+from modeler.logs import Mark
 from modeler.observation.consistency import SCATTERS, SHARE, STEPS, Contradiction
 from modeler.observation.motion_noise import ChannelNoise, MotionNoise
 from modeler.observation.outliers import Damage
@@ -116,6 +117,16 @@ class LogReport(Brief):
             )
         found += self._open()
         return [f"{self.name}: {line}" for line in (*found, *self.notes)]
+
+    def marks(self) -> list[Mark]:
+        """What no robot does, where it lies."""
+        found = [
+            Mark(one.kind, one.column, start, start + lasts, one.line)
+            for one in self.damages
+            for start, lasts in zip(one.times, one.lasts, strict=True)
+        ]
+        loops = "the loops cannot be closed here; not used, but check positions and geometry"
+        return found + [Mark("open", "all joints", t, t, loops) for t in self.open_times]
 
     def _open(self) -> list[str]:
         """A sentence where loops cannot be closed."""

@@ -26,6 +26,7 @@ from .models import (
     predict_together as predict_together,
 )
 from .pictures import (
+    binned_means as binned_means,
     overlay_picture as overlay_picture,
     overview_picture as overview_picture,
     residual_picture as residual_picture,
@@ -37,7 +38,18 @@ from .prediction import (
     Prediction as Prediction,
     residual as residual,
 )
-from .time_picture import broken as broken, time_picture as time_picture
+from .residual_structure import (
+    coordinate_unit as coordinate_unit,
+    coordinate_values as coordinate_values,
+    coordinates_of as coordinates_of,
+)
+from .time_picture import (
+    broken as broken,
+    mask_caption as mask_caption,
+    masked_spans as masked_spans,
+    running_time as running_time,
+    time_picture as time_picture,
+)
 from .verdict import (
     best_other as best_other,
     best_pattern as best_pattern,

@@ -89,7 +89,9 @@ def test_postures_are_taken_and_loops_follow(browser, served) -> None:
     drives = [robot.free[k] for k in robot.given]
     targets = dict(zip(drives, home.u[list(robot.given)] + [0.03, -0.05, 0.02], strict=True))
     page.evaluate(f"send({{modeler: 'posture', q: {json.dumps(targets)}}})")
-    frame.wait_for_function(f"Math.abs(modelerShow.u[{robot.given[0]}] - {targets[drives[0]]}) < 1e-9")
+    frame.wait_for_function(
+        f"Math.abs(modelerShow.u[{robot.given[0]}] - {targets[drives[0]]}) < 1e-9"
+    )
     u = np.array(frame.evaluate("modelerShow.u"))
     np.testing.assert_allclose(u[list(robot.given)], list(targets.values()), atol=1e-9)
     assert max(gap.distance for gap in gaps_of(robot, u)) < 1e-8
@@ -174,7 +176,9 @@ def test_nobody_else_is_heard(browser, served) -> None:
     assert frame.evaluate("modelerShow.u[0]") == 0 and page.evaluate("heard.length") == 0
     page.close()
     page, frame = opened(browser, served, text)
-    frame.evaluate("window.postMessage({modeler: 'posture', q: {'1': 1}}, '*'), 0")  # not the parent
+    frame.evaluate(
+        "window.postMessage({modeler: 'posture', q: {'1': 1}}, '*'), 0"
+    )  # not the parent
     frame.evaluate(DRAWN)
     assert frame.evaluate("modelerShow.u[0]") == 0
     page.close()

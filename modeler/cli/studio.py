@@ -1,0 +1,58 @@
+"""`modeler studio`: where the workbench is served, and what is printed of it."""
+
+import argparse
+import os
+import threading
+from pathlib import Path
+from urllib.parse import urlsplit
+
+from modeler.cli.console import flush_stdout, note, say
+from modeler.core.errors import ModelerError, installing
+
+_PORTS = range(65536)
+
+
+def run_studio(args: argparse.Namespace) -> None:
+    """Serves until Ctrl-C."""
+    if args.port not in _PORTS:
+        raise ModelerError(f"--port: got {args.port}; expected 1 to {_PORTS[-1]}, 0 for a free one")
+    for place in args.allow:
+        if not Path(place).is_dir():
+            raise ModelerError(f"--allow {place}: no such folder; expected one that holds logs")
+    try:
+        from modeler.studio import serve
+    except ModuleNotFoundError as error:
+        if (error.name or "").split(".")[0] == "modeler":
+            raise
+        raise ModelerError(
+            f"studio: needs the package {error.name}, which is not installed; "
+            f"run: {installing('studio')}"
+        ) from None
+    folder = Path(args.folder).resolve()
+    allowed = [Path.cwd(), *(Path(place).resolve() for place in args.allow)]
+
+    def told(address: str, once: str) -> None:
+        say(f"studio of {folder}: {address}")
+        port = urlsplit(address).port
+        say(f"over SSH: ssh -L {port}:127.0.0.1:{port} HOST, and the same address; Ctrl-C ends it")
+        flush_stdout()
+        before = os.umask(0o077)  # who has the token is let in
+        try:
+            args.tell({"address": address, "folder": str(folder), "pid": os.getpid()})
+        finally:
+            os.umask(before)
+        if not args.no_open:
+            threading.Thread(target=_open, args=[once], daemon=True).start()
+
+    serve(folder, allow=allowed, port=args.port, demo=args.demo, told=told)
+
+
+def _open(address: str) -> None:
+    """In the browser, where there is one with windows."""
+    import webbrowser
+
+    far = "SSH_CONNECTION" in os.environ
+    if far and not {"DISPLAY", "WAYLAND_DISPLAY"} & set(os.environ):
+        return  # what it would find is a browser of this terminal
+    if not webbrowser.open(address):
+        note("no browser was found; open the address in one")

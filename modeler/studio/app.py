@@ -1,0 +1,201 @@
+"""The server: one page, nine screens, and what stands around them."""
+
+import socket
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import uvicorn
+from fastapi import FastAPI, Response
+from fastapi.responses import FileResponse, HTMLResponse
+from nicegui import Client, ui
+
+from modeler.core.files import resource_dir
+from modeler.studio import (
+    data_screen,
+    days_screen,
+    fails_screen,
+    fall_screen,
+    fit_screen,
+    missing_screen,
+    motion_screen,
+    robot_screen,
+    start_screen,
+    take_screen,
+)
+from modeler.studio.access import Guard
+from modeler.studio.commands import typed
+from modeler.studio.places import folder_lock
+from modeler.studio.project import Workspace
+from modeler.studio.studio import Hub, Studio
+
+JOBS = {
+    "robot": ("Robot", robot_screen.draw),
+    "data": ("Data", data_screen.draw),
+    "fit": ("Fit", fit_screen.draw),
+    "fails": ("Where it fails", fails_screen.draw),
+    "missing": ("What is missing", missing_screen.draw),
+    "fall": ("Watch it fall", fall_screen.draw),
+    "days": ("Days and machines", days_screen.draw),
+    "motion": ("Next motion", motion_screen.draw),
+    "take": ("Take away", take_screen.draw),
+}
+"""The nine jobs, in the order in which they are done; Alt and the number goes there."""
+
+
+def serve(
+    folder: Path,
+    allow: Sequence[Path] = (),
+    port: int = 0,
+    demo: bool = False,
+    told: Callable[[str], None] = lambda address: None,
+) -> None:
+    """Serves the studio of a project folder on this machine, until it is interrupted.
+
+    Args:
+        folder: of the project; made if it is not there.
+        allow: folders whose files may be chosen where they lie, besides it.
+        port: 0: one that is free.
+        demo: True: begin with the built-in arm that has a hidden effect.
+        told: is called with the address, its token in it, when it answers.
+
+    Raises:
+        ModelerError: the folder cannot be used, or the port is taken.
+    """
+    with folder_lock(folder) as own, socket.socket() as door:
+        workspace = Workspace(folder, writable=own)
+        door.bind(("127.0.0.1", port))
+        screens = {name: draw for name, (_, draw) in JOBS.items()}
+        hub = Hub(workspace, (folder, *allow), {"start": start_screen.draw, **screens})
+        inner = FastAPI(openapi_url=None)
+        _routes(inner, hub)
+        _pages(hub, "missing" if demo else "")
+        ui.run_with(inner, title="modeler studio", dark=None, show_welcome_message=False)
+        guard = Guard(inner, door.getsockname()[1])
+        config = uvicorn.Config(guard, log_level="warning", lifespan="on")
+        told(guard.address)
+        try:
+            uvicorn.Server(config).run(sockets=[door])
+        finally:
+            hub.close()
+
+
+def _routes(app: FastAPI, hub: Hub) -> None:
+    """What is no page of the studio itself."""
+    own = resource_dir("templates") / "studio"
+
+    @app.get("/studio.{kind}")
+    def file(kind: str) -> Response:
+        if kind not in ("js", "css"):
+            return Response(status_code=404)
+        return FileResponse(own / f"studio.{kind}")
+
+    @app.get("/sheet/{digest}.html")
+    def sheet(digest: str) -> Response:
+        html = hub.sheets.get(digest)
+        return Response(status_code=404) if html is None else HTMLResponse(html)
+
+
+def _pages(hub: Hub, first: str) -> None:
+    @ui.page("/")
+    async def start(client: Client) -> None:
+        await _page(client, hub, first or ("robot" if hub.project.robot else "start"))
+
+    @ui.page("/{screen}")
+    async def job(client: Client, screen: str) -> None:
+        await _page(client, hub, screen if screen in hub.screens else "start")
+
+
+async def _page(client: Client, hub: Hub, screen: str) -> None:
+    ui.add_head_html('<link rel="stylesheet" href="/studio.css"><script src="/studio.js"></script>')
+    studio = Studio(hub, screen)
+    hub.studios.append(studio)
+    client.on_delete(lambda: _left(hub, studio))
+    ui.colors(primary="#0072b2", negative="#b3261e", positive="#00694a", warning="#b45f06")
+    ui.page_title(f"{hub.workspace.folder.name} - modeler studio")
+    _navigation(studio)
+    _status(studio)
+    studio.room = ui.element("main").classes("studio-room")
+    ui.on("popstate", lambda: None)
+    await client.connected()
+    studio.redraw()
+
+
+def _left(hub: Hub, studio: Studio) -> None:
+    """A window was closed; the next one may change things."""
+    if studio in hub.studios:
+        hub.studios.remove(studio)
+    hub.tell()
+
+
+def _navigation(studio: Studio) -> None:
+    """The nine jobs, with what is done of them."""
+    with ui.left_drawer(value=True, bordered=True).props("width=200").classes("studio-jobs"):
+        ui.label(studio.folder.name).classes("studio-title")
+        buttons = {}
+        for number, (name, (title, _)) in enumerate(JOBS.items(), start=1):
+            button = ui.button(f"{number}  {title}", on_click=lambda _, to=name: studio.go(to))
+            buttons[name] = button.props(f"flat no-caps align=left accesskey={number}")
+
+        def marked() -> None:
+            for name, button in buttons.items():
+                button.classes(
+                    add="studio-here" if name == studio.screen else "",
+                    remove="" if name == studio.screen else "studio-here",
+                )
+
+        studio.listeners.append(marked)
+        marked()
+
+
+def _status(studio: Studio) -> None:
+    """What runs, what went wrong, and the command lines."""
+    with ui.footer(bordered=True).classes("studio-status"):
+        error = ui.label().classes("studio-error").props("role=alert")
+        with ui.row().classes("items-center w-full no-wrap studio-running") as running:
+            ui.spinner(size="sm")
+            doing = ui.label()
+            bar = ui.linear_progress(show_value=False).classes("studio-bar")
+            ui.button("Cancel", on_click=lambda: _cancel(studio)).props("dense flat no-caps")
+        with ui.row().classes("items-center w-full no-wrap") as last:
+            ui.label("last command").classes("studio-soft")
+            line = ui.label().classes("studio-command")
+            ui.button(icon="content_copy", on_click=lambda: ui.clipboard.write(line.text)).props(
+                "dense flat round aria-label='copy the command'"
+            )
+        with ui.row().classes("items-center w-full") as reading:
+            ui.label("this window only reads: the project is open in another one")
+            ui.button("Take over", on_click=lambda: _take_over(studio)).props("dense no-caps")
+
+        def told() -> None:
+            hub = studio.hub
+            error.text = studio.kept.get("error", "")
+            error.visible = bool(error.text)
+            running.visible = hub.running is not None
+            if hub.running is not None:
+                doing.text = f"{hub.running.title}: {hub.running.doing}"
+                bar.props(remove="indeterminate")
+                if hub.running.share is None:
+                    bar.props("indeterminate")
+                else:
+                    bar.value = hub.running.share
+            steps = studio.project.steps
+            last.visible = bool(steps) and hub.running is None
+            line.text = typed(steps[-1].words) if steps else ""
+            reading.visible = studio.read_only
+
+        studio.listeners.append(told)
+        told()
+
+
+def _cancel(studio: Studio) -> None:
+    if studio.hub.running is not None and not studio.read_only:
+        studio.hub.running.cancel()
+
+
+def _take_over(studio: Studio) -> None:
+    """This window may change things from now on, the others only read."""
+    hub = studio.hub
+    if hub.workspace.writable and studio in hub.studios:
+        hub.studios.remove(studio)
+        hub.studios.insert(0, studio)
+        hub.refresh()

@@ -1,0 +1,101 @@
+"""What is typed for what is done: the words of every command line, from a project.
+
+Files are named relative to the folder of the project, in which the commands run. Bookkeeping of the
+studio itself (`--json`, `--picture`) comes to the words when they run, and is no part of a step.
+"""
+
+import shlex
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from modeler.studio.project import ROBOT, Project
+
+DRAWING = ("log", "fit", "compare", "diagnose", "add", "fleet")
+"""Commands whose pictures are kept as plain data."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A command that is to be run.
+
+    Attributes:
+        kind: of the step.
+        words: after `modeler`.
+        title: for people, while it runs and in the list of steps.
+        model: file that it writes; "" for none.
+        about: the step whose model it is about; None: the current one.
+    """
+
+    kind: str
+    words: tuple[str, ...]
+    title: str
+    model: str = ""
+    about: int | None = None
+
+
+def typed(words: Sequence[str]) -> str:
+    """A command line, as a shell takes it."""
+    return shlex.join(["modeler", *words])
+
+
+def bookkeeping(words: Sequence[str], number: int) -> tuple[list[str], str, str]:
+    """Words that come to those of a step, the JSON and the pictures that it writes."""
+    result = f"results/{number}.json"
+    pictures = f"results/{number}.pictures.json" if words[0] in DRAWING else ""
+    more = ["--picture", pictures] if pictures else []
+    return ["--json", result, *more], result, pictures
+
+
+def robot_copy(project: Project) -> str:
+    """Where the next step keeps the robot as it is now, which it works on."""
+    return f"robots/{project.next_number}.toml"
+
+
+def fit(project: Project, options: Sequence[str] = ()) -> Asked:
+    """The fit of the training stretches.
+
+    Args:
+        project: with a robot and logs.
+        options: more of `modeler fit`, as ("--method", "robust").
+    """
+    model = f"models/{project.next_number}.json"
+    words = ("fit", robot_copy(project), *project.words("train"), "--out", model)
+    return Asked("fit", (*words, *_mapped(project), *options), "fit", model, about=0)
+
+
+def compare(project: Project, files: Sequence[str] = (), options: Sequence[str] = ()) -> Asked:
+    """Measured against predicted: on the held-out stretches, or where there are none on all."""
+    logs = files or project.words("test") or project.words("train")
+    return Asked("compare", ("compare", project.model, *logs, *options), "compare")
+
+
+def diagnose(project: Project) -> Asked:
+    """What the current model lacks."""
+    words = ("diagnose", project.model, *project.words("train"), *_held(project))
+    bans = [word for effect in project.without for word in ("--without", effect)]
+    return Asked("diagnose", (*words, *bans), "look for what is missing")
+
+
+def add(project: Project, effect: str, joint: str | None) -> Asked:
+    """The current model with an effect more."""
+    model = f"models/{project.next_number}.json"
+    place = ("--joint", joint) if joint is not None else ()
+    words = ("add", project.model, effect, *project.words("train"), *place)
+    name = effect if joint is None else f"{effect}@{joint}"
+    return Asked("add", (*words, *_held(project), "--out", model), f"add {name}", model)
+
+
+def demo(log: str, seed: int) -> Asked:
+    """A measured run of the demonstration arm, whose machine has what its robot file lacks."""
+    words = ("simulate", ROBOT, "--duration", "20", "--seed", str(seed), "--noise", "0.01")
+    hidden = ("--hide", "load_friction@2", "--out", log)
+    return Asked("simulate", (*words, *hidden), f"measure {log}", about=0)
+
+
+def _mapped(project: Project) -> tuple[str, ...]:
+    return tuple(word for own in project.mapping for word in ("--map", own))
+
+
+def _held(project: Project) -> tuple[str, ...]:
+    held = project.words("test")
+    return ("--holdout", *held) if held else ()

@@ -1,0 +1,152 @@
+"""What several screens are made of: command lines, buttons that run them, lights, doubts."""
+
+import html
+from collections.abc import Callable, Iterable, Sequence
+from typing import Literal
+
+from nicegui import ui
+from nicegui.element import Element
+
+from modeler.core.errors import ModelerError
+from modeler.studio.commands import Asked, typed
+from modeler.studio.project import Step
+from modeler.studio.studio import Studio
+
+Light = Literal["good", "doubtful", "bad"]
+
+_SHAPES: dict[Light, str] = {"good": "\u25cf", "doubtful": "\u25b2", "bad": "\u25a0"}
+"""A disc, a triangle, a square: told apart without colour."""
+
+
+def head(title: str, text: str = "") -> None:
+    """What a screen is, and what one does there."""
+    ui.label(title).classes("studio-head")
+    if text:
+        ui.label(text).classes("studio-soft")
+
+
+def part(title: str) -> Element:
+    """A card with a title; what is drawn inside `with` belongs to it."""
+    with ui.card().classes("studio-card w-full") as card:
+        ui.label(title).classes("studio-part")
+    return card
+
+
+def command_line(words: Sequence[str]) -> ui.label:
+    """A command line beside a button that copies it; `text` of the label makes it another one."""
+    with ui.row().classes("items-center no-wrap studio-line"):
+        line = ui.label(typed(words)).classes("studio-command").props("tabindex=0")
+        copy = ui.button(icon="content_copy", on_click=lambda: ui.clipboard.write(line.text))
+        copy.props("dense flat round size=sm aria-label='copy the command line'")
+    return line
+
+
+def run_button(
+    studio: Studio,
+    title: str,
+    asked: Callable[[], Asked],
+    then: Callable[[Step], object] = lambda step: None,
+    current: bool = True,
+    small: bool = False,
+) -> Callable[[], None]:
+    """A button that carries out a command, with its command line beside it.
+
+    While a command runs, and where this window only reads, it cannot be pressed.
+
+    Args:
+        studio: the window.
+        title: of the button.
+        asked: the command, asked for when it is shown and when it is run.
+        then: is called with the step when it is done; not if it failed.
+        current: as of `Studio.run`.
+        small: True for one among others.
+
+    Returns:
+        What writes the command line anew, after what it depends on was changed.
+    """
+
+    async def pressed() -> None:
+        room = studio.room
+        try:
+            wanted = asked()
+        except ModelerError as error:
+            studio.show_error(str(error))
+            return
+        step = await studio.run(wanted, current)
+        if step is not None and room is not None:
+            with room:  # the screen with this button was drawn anew
+                then(step)
+
+    with ui.row().classes("items-center no-wrap w-full"):
+        button = ui.button(title, on_click=pressed).props("no-caps unelevated")
+        button.props("outline dense" if small else "size=lg")
+        busy_with(studio, button)
+        line = command_line(asked().words)
+
+    def renew() -> None:
+        line.text = typed(asked().words)
+
+    return renew
+
+
+def busy_with(studio: Studio, button: ui.button) -> ui.button:
+    """A button that changes the project: while a command runs, or another window may, it rests."""
+    return button.bind_enabled_from(
+        studio.hub, "running", lambda running: running is None and not studio.read_only
+    )
+
+
+def light(which: Light, text: str = "") -> None:
+    """A light by shape, word and colour."""
+    with ui.row().classes("items-center no-wrap gap-2"):
+        ui.label(_SHAPES[which]).classes(f"studio-light studio-{which}").props("aria-hidden=true")
+        ui.label(text or which).classes(f"studio-{which}")
+
+
+def doubt_lines(lines: Iterable[str], which: Light = "doubtful") -> None:
+    """Sentences that warn, each with its mark."""
+    for line in lines:
+        with ui.row().classes("items-start no-wrap gap-2"):
+            ui.label(_SHAPES[which]).classes(f"studio-light studio-{which}")
+            ui.label(line)
+
+
+def told(lines: Iterable[str]) -> None:
+    """Sentences, one below the other."""
+    for line in lines:
+        ui.label(line)
+
+
+def folded(title: str, lines: Sequence[str]) -> None:
+    """Sentences under a title that opens them; nothing where there are none."""
+    if lines:
+        with ui.expansion(f"{title} ({len(lines)})").classes("w-full studio-folded"):
+            told(lines)
+
+
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]], faint: Sequence[bool] = ()) -> None:
+    """Plain texts in rows; every text after a tab is shown when the mouse is over the cell.
+
+    Args:
+        heads: of the columns.
+        rows: of texts.
+        faint: by row, True for what is of less weight.
+    """
+
+    def cell(text: str) -> str:
+        shown, _, hint = text.partition("\t")
+        title = f' title="{html.escape(hint)}" class="studio-hint"' if hint else ""
+        return f"<td{title}>{html.escape(shown)}</td>"
+
+    lines = ["".join(f"<th scope=col>{html.escape(name)}</th>" for name in heads)]
+    marks = [""]
+    for k, row in enumerate(rows):
+        lines.append("".join(map(cell, row)))
+        marks.append(" class=studio-faint" if k < len(faint) and faint[k] else "")
+    body = "".join(f"<tr{mark}>{line}</tr>" for mark, line in zip(marks, lines, strict=True))
+    ui.html(f"<table class=studio-table>{body}</table>", sanitize=False)
+
+
+def go_button(studio: Studio, title: str, screen: str) -> None:
+    """To another screen."""
+    ui.button(title, on_click=lambda: studio.go(screen)).props("no-caps flat icon-right=east")

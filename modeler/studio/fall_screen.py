@@ -1,0 +1,10 @@
+"""The screen "fall"."""
+
+from nicegui import ui
+
+from modeler.studio.studio import Studio
+
+
+async def draw(studio: Studio) -> None:
+    """Draws it."""
+    ui.label("fall")

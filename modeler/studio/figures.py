@@ -1,0 +1,266 @@
+"""A picture as a figure of plotly.js: one translation for all that the studio draws."""
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
+from modeler.core.style import BLUE, SHADE
+
+if TYPE_CHECKING:
+    from nicegui import ui
+
+_WIDTH = 1150  # pixels that gaps between panels are thought for
+_LEFT, _RIGHT, _TOP, _BOTTOM, _LEGEND = 64, 16, 44, 48, 26
+_BETWEEN, _BESIDE, _SHARED = 84, 84, 42
+_MANY = 5000  # dots from which on they are drawn by the graphics processor
+_DIGITS = 6  # of the range of an axis: finer than a pixel at any zoom of thinned points
+_GRID, _FAINT = "rgba(128,128,128,0.25)", "rgba(128,128,128,0.8)"
+_NONE = "rgba(0,0,0,0)"
+_WHITE_TO_BLUE = [[0.0, "#ffffff"], [1.0, BLUE]]
+
+
+def figure(picture: Picture, time: str = "") -> dict[str, Any]:
+    """Data, layout and configuration for `ui.plotly`; title and caption stand beside it.
+
+    Grounds are transparent, texts are coloured by the style sheet of the page, which follows the
+    system into the dark. Zoom survives when the figure is drawn again.
+
+    Args:
+        picture: what to draw.
+        time: a name that pictures whose x is the time of one log share: the page gives them one
+            cursor and one zoom.
+    """
+    rows, columns = len(picture.panels), len(picture.panels[0])
+    layout: dict[str, Any] = {
+        "height": picture.height + _LEGEND,
+        "margin": {"l": _LEFT, "r": _RIGHT, "t": _TOP + _LEGEND, "b": _BOTTOM + _names(picture)},
+        "paper_bgcolor": _NONE, "plot_bgcolor": _NONE, "hovermode": "closest",
+        "barmode": "overlay", "uirevision": picture.name, "meta": {"time": time},
+        "font": {"family": "system-ui, sans-serif", "size": 12, "color": "#333333"},
+        "legend": {"orientation": "h", "x": 0, "xanchor": "left", "yref": "container", "y": 1,
+                   "yanchor": "top", "bgcolor": _NONE},
+        "shapes": [], "annotations": [],
+    }  # fmt: skip
+    data: list[dict[str, Any]] = []
+    across = _parts(picture.widths, (_WIDTH - _LEFT - _RIGHT), _BESIDE)
+    between = _SHARED if picture.shared_time else _BETWEEN + _names(picture)
+    inner = layout["height"] - layout["margin"]["t"] - layout["margin"]["b"]
+    down = [(1.0 - b, 1.0 - a) for a, b in _parts(picture.heights, inner, between)]
+    known: set[str] = set()
+    for i, row in enumerate(picture.panels):
+        for j, panel in enumerate(row):
+            if not panel.series:
+                continue
+            n = _number(i * columns + j)
+            axes = _axes(panel, n, across[j], down[i])
+            if picture.shared_time:
+                if i < rows - 1:
+                    axes[f"xaxis{n}"] |= {"showticklabels": False, "title": None}
+                if i:
+                    axes[f"xaxis{n}"]["matches"] = f"x{_number(j)}"
+            layout.update(axes)
+            data += _traces(panel, n, known)
+            layout["shapes"] += _shapes(panel, n)
+            layout["annotations"] += _notes(panel, n)
+    layout["showlegend"] = any(trace.get("showlegend") for trace in data)
+    return {"data": data, "layout": layout, "config": _CONFIG}
+
+
+_CONFIG = {
+    "displaylogo": False,
+    "doubleClick": "autosize",
+    "modeBarButtonsToRemove": ["lasso2d", "select2d", "autoScale2d"],
+}
+
+
+def draw(picture: Picture, time: str = "") -> "ui.plotly":
+    """Title, figure and caption as elements of the page; the figure can be drawn anew."""
+    from nicegui import ui
+
+    with ui.column().classes("picture w-full gap-1"):
+        if picture.title:
+            ui.label(picture.title).classes("picture-title")
+        plot = ui.plotly(figure(picture, time)).classes("w-full")
+        if picture.caption:
+            ui.label(picture.caption).classes("picture-caption")
+    return plot
+
+
+def x_range(change: dict[str, Any]) -> tuple[float, float] | None | bool:
+    """What a `plotly_relayout` says of x: both ends, None where all is shown, False: nothing."""
+    for key, value in change.items():
+        if key.startswith("xaxis") and key.endswith("autorange") and value:
+            return None
+        if key.startswith("xaxis") and key.endswith(".range"):
+            return float(value[0]), float(value[1])
+        if key.startswith("xaxis") and key.endswith(".range[0]"):
+            return float(value), float(change[key[:-2] + "1]"])
+    return False
+
+
+def _number(place: int) -> str:
+    """Of a pair of axes, as plotly.js counts them: the first has none."""
+    return str(place + 1) if place else ""
+
+
+def _names(picture: Picture) -> int:
+    """Pixels for names of bars in more than one line."""
+    every = (s for row in picture.panels for panel in row for s in panel.series)
+    names = (name for s in every if isinstance(s, Bars) for name in s.names)
+    return 15 * max((name.count("\n") for name in names), default=0)
+
+
+def _parts(shares: Sequence[float], room: float, gap: float) -> list[tuple[float, float]]:
+    """Ends of so many stretches of 0 to 1, with gaps between."""
+    inner = max(0.3, 1.0 - (len(shares) - 1) * gap / room)
+    between = (1.0 - inner) / max(1, len(shares) - 1)
+    found, at = [], 0.0
+    for share in shares:
+        wide = inner * share / sum(shares)
+        found.append((at, min(1.0, at + wide)))
+        at += wide + between
+    return found
+
+
+def plain(text: str) -> str:
+    """A text in which nothing is a tag; line breaks stay."""
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace("\n", "<br>")
+
+
+def _numbers(values: np.ndarray, log: bool = False) -> list[float | None]:
+    """What a screen shows of an array; what is not finite is a gap."""
+    exact = np.asarray(values, dtype=float)
+    held = np.isfinite(exact)
+    span = float(np.ptp(exact[held])) if held.any() else 0.0
+    if span > 0.0 and not log:
+        exact = np.round(exact, max(0, _DIGITS - math.floor(math.log10(span))))
+    found = exact.tolist()
+    return found if held.all() else [v if ok else None for v, ok in zip(found, held, strict=True)]
+
+
+def _traces(panel: Panel, n: str, known: set[str]) -> Iterator[dict[str, Any]]:
+    """The series of a panel; each label stands in the legend once."""
+    log, several = panel.scale == "log", len(panel.series) > 1
+    axes = {"xaxis": f"x{n}", "yaxis": f"y{n}"}
+    for span in panel.spans:
+        fresh = span.label not in known
+        known.add(span.label)
+        if fresh:
+            mark = {"symbol": "square", "size": 11, "color": span.color}
+            yield {"type": "scatter", "mode": "markers", "x": [None], "y": [None], **axes,
+                   "name": plain(span.label), "showlegend": True, "marker": mark,
+                   "legendgroup": span.label}  # fmt: skip
+    for series in panel.series:
+        fresh = several and series.label not in known and not isinstance(series, Heat)
+        if fresh:
+            known.add(series.label)
+        common = {"name": plain(series.label), "legendgroup": series.label,
+                  "showlegend": fresh, **axes}  # fmt: skip
+        yield common | _trace(series, log)
+
+
+def _trace(series: Series, log: bool) -> dict[str, Any]:
+    if isinstance(series, Heat):
+        return {
+            "type": "heatmap", "x": [plain(name) for name in series.columns],
+            "y": [plain(name) for name in series.rows],
+            "z": [_numbers(row, log=True) for row in series.values],
+            "text": [[plain(text) for text in row] for row in series.texts],
+            "texttemplate": "%{text}", "zmin": 0.0, "zmax": series.top, "showscale": False,
+            "colorscale": _WHITE_TO_BLUE, "xgap": 2, "ygap": 2, "hoverongaps": False,
+            "hovertemplate": "%{y}, %{x}: %{z:.4g}<extra></extra>",
+        }  # fmt: skip
+    style = series.style
+    if isinstance(series, Bars):
+        found: dict[str, Any] = {
+            "type": "bar", "x": [plain(name) for name in series.names],
+            "y": _numbers(series.values), "text": [plain(text) for text in series.texts],
+            "textposition": "outside" if series.base is None else "inside", "textangle": 0,
+            "cliponaxis": False, "constraintext": "none", "marker": {"color": style.color},
+            "opacity": style.opacity,
+        }  # fmt: skip
+        return found if series.base is None else found | {"base": _numbers(series.base)}
+    if isinstance(series, Band):
+        x, y = _outline(series)
+        return {"type": "scatter", "mode": "lines", "x": _numbers(x, log), "y": _numbers(y, log),
+                "line": {"width": 0}, "fill": "toself", "hoverinfo": "skip",
+                "fillcolor": style.color, "opacity": style.opacity}  # fmt: skip
+    kind = "scattergl" if isinstance(series, Points) and series.x.size > _MANY else "scatter"
+    drawn = {"type": kind, "x": _numbers(series.x, log), "y": _numbers(series.y, log),
+             "opacity": style.opacity}  # fmt: skip
+    line = {"color": style.color, "width": style.width, "dash": "dash" if style.dash else "solid"}
+    if isinstance(series, Curve):
+        return drawn | {"mode": "lines", "line": line}
+    if isinstance(series, Points):
+        return drawn | {
+            "mode": "markers",
+            "marker": {"color": style.color, "size": style.width + 1},
+        }
+    whiskers = {"array": _numbers(series.error, log), "thickness": 1, "width": 2}
+    return drawn | {"mode": "lines+markers" if style.width else "markers", "line": line,
+                    "marker": {"color": style.color, "size": 5}, "error_y": whiskers}  # fmt: skip
+
+
+def _outline(band: Band) -> tuple[np.ndarray, np.ndarray]:
+    """Round what lies between the curves, a closed piece for each run without a gap."""
+    held = np.isfinite(band.low) & np.isfinite(band.high)
+    x, y = [], []
+    for run in np.split(np.arange(held.size), np.flatnonzero(np.diff(held.astype(int))) + 1):
+        if run.size and held[run[0]]:
+            x += [band.x[run], band.x[run[::-1]], [np.nan]]
+            y += [band.high[run], band.low[run[::-1]], [np.nan]]
+    return (np.concatenate(x), np.concatenate(y)) if x else (np.empty(0), np.empty(0))
+
+
+def _axes(
+    panel: Panel, n: str, across: tuple[float, float], down: tuple[float, float]
+) -> dict[str, dict[str, Any]]:
+    log = panel.scale == "log"
+    common: dict[str, Any] = {"gridcolor": _GRID, "zeroline": False, "linecolor": _FAINT}
+    x = common | {"anchor": f"y{n}", "domain": list(across),
+                  "title": {"text": plain(panel.x_label), "standoff": 4}}  # fmt: skip
+    y = common | {"anchor": f"x{n}", "domain": list(down),
+                  "title": {"text": plain(panel.y_label), "standoff": 4}}  # fmt: skip
+    if log:
+        x |= {"type": "log", "dtick": 1}
+        y |= {"type": "log", "dtick": 1, "exponentformat": "e"}
+    if any(isinstance(s, Bars | Heat) for s in panel.series):
+        x["type"] = "category"
+    if any(isinstance(s, Heat) for s in panel.series):
+        x |= {"showgrid": False}
+        y |= {"type": "category", "autorange": "reversed", "showgrid": False, "automargin": True}
+    for axis, ends in ((x, panel.x_range), (y, panel.y_range)):
+        if ends is not None:
+            axis["range"] = [math.log10(end) if log else float(end) for end in ends]
+    return {f"xaxis{n}": x, f"yaxis{n}": y}
+
+
+def _shapes(panel: Panel, n: str) -> Iterator[dict[str, Any]]:
+    """Lines and shaded intervals of a panel; whole heights are in parts of it."""
+    whole = {"xref": f"x{n}", "yref": f"y{n} domain", "y0": 0, "y1": 1, "layer": "below"}
+    if panel.zero:
+        yield {"type": "line", "xref": f"x{n} domain", "yref": f"y{n}", "x0": 0, "x1": 1,
+               "y0": 0, "y1": 0, "layer": "below", "line": {"color": _FAINT, "width": 1}}  # fmt: skip
+    shaded = [(span.color, ends) for span in panel.spans for ends in span.ends]
+    shaded += [] if panel.shade is None else [(SHADE, np.array(panel.shade))]
+    for color, (start, end) in shaded:
+        yield {"type": "rect", "x0": float(start), "x1": float(end), "fillcolor": color,
+               "line": {"width": 0}, **whole}  # fmt: skip
+    for place, _ in panel.marks:
+        yield {"type": "line", "x0": float(place), "x1": float(place), **whole,
+               "line": {"color": _FAINT, "width": 1, "dash": "dot"}}  # fmt: skip
+
+
+def _notes(panel: Panel, n: str) -> Iterator[dict[str, Any]]:
+    place = {"xref": f"x{n}", "yref": f"y{n} domain", "showarrow": False, "y": 1}
+    if panel.title:
+        yield place | {"text": plain(panel.title), "xref": f"x{n} domain", "x": 0,
+                       "xanchor": "left", "yanchor": "bottom", "align": "left", "yshift": 4,
+                       "font": {"size": 13}}  # fmt: skip
+    for at, text in panel.marks:
+        if text:
+            yield place | {"text": plain(text), "x": float(at), "xanchor": "left",
+                           "yanchor": "top", "font": {"size": 11}}  # fmt: skip

@@ -1,0 +1,223 @@
+"""Files on the server's side: what may be chosen where it lies, what a project uses, its lock."""
+
+import contextlib
+import errno
+import os
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from modeler.core.builtin import LOG_ENDINGS, OTHER_PROGRAMS
+from modeler.core.errors import DataError, ModelerError
+from modeler.studio.project import FOLDERS, Project
+
+ROBOT_ENDINGS = (".toml", *OTHER_PROGRAMS)
+"""How the name of a robot file ends."""
+
+BEGUN = ".dropping-"
+"""How the name of a file begins that is not yet there as a whole."""
+
+_LOCK = ".studio.lock"
+_LEFT = re.compile(rf"{re.escape(BEGUN)}[0-9a-f]+|\.modeler-[0-9a-f]{{16}}")  # of who was killed
+_OF_STEP = re.compile(r"(\d+)\.(?:json|toml|pictures\.json)")
+
+
+def size_text(count: float) -> str:
+    """Bytes, as people say it."""
+    for unit in ("B", "kB", "MB", "GB"):
+        if count < 1000:
+            return f"{count:.3g} {unit}"
+        count /= 1000
+    return f"{count:.4g} TB"
+
+
+# One server writes a project; another one that opens its folder only reads.
+
+
+@contextlib.contextmanager
+def folder_lock(folder: Path) -> Iterator[bool]:
+    """True while the folder is ours; False where it is another studio's, or write-protected.
+
+    The system gives the lock back when a process ends, however it ends. What a killed one left
+    half-written is swept away.
+
+    Raises:
+        ModelerError: the folder is none, or cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        file = (folder / _LOCK).open("a+b")
+    except OSError as error:
+        if folder.is_dir() and error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+            yield False
+            return
+        raise ModelerError(
+            f"{folder}: cannot be used as a project folder ({error.strerror}); name another one"
+        ) from error
+    with file:
+        own = _locked(file.fileno())
+        if own:
+            _sweep(folder)
+        yield own
+
+
+def _locked(descriptor: int) -> bool:
+    try:
+        if os.name == "nt":
+            import msvcrt
+
+            msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined,unused-ignore]
+        else:
+            import fcntl
+
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
+
+
+def _sweep(folder: Path) -> None:
+    for place in (folder, *(folder / name for name in FOLDERS)):
+        with contextlib.suppress(OSError):
+            for found in place.iterdir():
+                if _LEFT.fullmatch(found.name):
+                    found.unlink()
+
+
+# The picker: folders and files under a few roots.
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A folder or a file that may be chosen.
+
+    Attributes:
+        name: as it is listed.
+        place: of it, its links followed.
+        size: bytes of a file; None: a folder.
+    """
+
+    name: str
+    place: Path
+    size: int | None
+
+    @property
+    def is_folder(self) -> bool:
+        """Whether it is one."""
+        return self.size is None
+
+
+@dataclass(frozen=True)
+class Roots:
+    """Folders below which the user may choose.
+
+    Attributes:
+        folders: of the project, and those of `--allow`.
+    """
+
+    folders: tuple[Path, ...]
+
+    def inside(self, place: Path | str) -> Path:
+        """The place, its links followed, if it is in one of the folders.
+
+        Raises:
+            DataError: it is not, or is not there.
+        """
+        try:
+            found = Path(place).resolve(strict=True)
+        except (OSError, ValueError, RuntimeError):  # ValueError: a NUL; RuntimeError: a ring
+            raise DataError(f"{place}: no such file; choose another one") from None
+        if not any(found.is_relative_to(folder.resolve()) for folder in self.folders):
+            raise DataError(
+                f"{place}: lies outside the folders that this studio may read; start it with "
+                f"--allow {found if found.is_dir() else found.parent}"
+            )
+        return found
+
+    def listed(self, folder: Path | str, endings: Sequence[str] = LOG_ENDINGS) -> list[Entry]:
+        """Folders, then files that end so; what is hidden or leads out is left out.
+
+        Raises:
+            DataError: the folder is none, is outside, or may not be read.
+        """
+        top = self.inside(folder)
+        try:
+            names = sorted((p.name for p in top.iterdir()), key=lambda name: (name.lower(), name))
+        except OSError as error:
+            raise DataError(f"{top}: cannot be listed ({error.strerror}); choose another") from None
+        entries = [self._entry(top, name, endings) for name in names if not name.startswith(".")]
+        return sorted(filter(None, entries), key=lambda entry: not entry.is_folder)
+
+    def _entry(self, top: Path, name: str, endings: Sequence[str]) -> Entry | None:
+        try:
+            place = self.inside(top / name)
+            if place.is_dir():
+                return Entry(name, place, None)
+            if place.is_file() and place.suffix.lower() in endings:
+                return Entry(name, place, place.stat().st_size)
+        except (DataError, OSError):
+            pass
+        return None
+
+
+# Disk: what a project uses, and what of it nobody needs.
+
+
+def disk_use(folder: Path) -> dict[str, int]:
+    """Bytes of a project by the folder that they are in; the rest is "other"."""
+    used = dict.fromkeys((*FOLDERS, "other"), 0)
+    for top, folders, names in os.walk(folder):
+        kind = Path(top).relative_to(folder).parts[:1] or ("other",)
+        for name in names:
+            with contextlib.suppress(OSError):
+                used[kind[0] if kind[0] in used else "other"] += os.lstat(f"{top}/{name}").st_size
+        folders[:] = [name for name in folders if not Path(top, name).is_symlink()]
+    return used
+
+
+@dataclass(frozen=True)
+class Spare:
+    """What no step on the way to the current one needs.
+
+    Attributes:
+        project: without the steps that were set aside.
+        files: theirs, and those of steps that never ended; relative to the folder.
+        size: bytes of them.
+    """
+
+    project: Project
+    files: tuple[str, ...]
+    size: int
+
+    def remove(self, folder: Path) -> None:
+        """The files; to be called when the project is saved."""
+        for file in self.files:
+            with contextlib.suppress(OSError):
+                (folder / file).unlink()
+
+
+def spare(folder: Path, project: Project) -> Spare:
+    """What tidying would take away; logs, pages and files of other names are not touched."""
+    way = {step.number for step in project.path()}
+    steps = tuple(
+        step
+        for step in project.steps
+        if step.number in way or (not step.model and step.parent in {0, *way})
+    )
+    needed = {step.number for step in steps}
+    named = {name for step in steps for name in (step.model, step.result, step.pictures)}
+    named |= {word.partition("@")[0] for step in steps for word in step.words} | {project.robot}
+    files = [
+        f"{name}/{found.name}"
+        for name in ("robots", "models", "results")
+        for found in _files(folder / name)
+        if (match := _OF_STEP.fullmatch(found.name)) and int(match[1]) not in needed
+    ]
+    files = [file for file in files if file not in named]
+    size = sum((folder / file).lstat().st_size for file in files)
+    return Spare(replace(project, steps=steps), tuple(files), size)
+
+
+def _files(folder: Path) -> Iterable[Path]:
+    return sorted(folder.iterdir()) if folder.is_dir() else ()

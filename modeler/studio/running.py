@@ -1,0 +1,213 @@
+"""Commands that the studio runs: one at a time, each a process of its own with progress and cancel.
+
+What computes something new is a command line, `python -m modeler.cli WORDS...` in the project
+folder; so the same words typed in a shell give the same numbers, and an error is the one line that
+the command prints.
+"""
+
+import asyncio
+import contextlib
+import os
+import re
+import shlex
+import signal
+import sys
+import sysconfig
+import time
+from collections import deque
+from collections.abc import AsyncIterator, Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeler.core.errors import on_one_line
+
+_PROGRESS = re.compile(r"progress (-|[\d.]+) (.*)")  # as `--progress lines` writes it
+_TOLD = re.compile(r"modeler(?: [\w-]+)?: (.*)")  # a note, an error, a wrong usage
+_MOST_LINES = 20_000
+_PIECE = 2**16
+_PATIENCE = 3.0  # s from the interrupt to the end by force
+
+INTERRUPTED = 130
+"""Status of a command that was cancelled."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a command ended.
+
+    Attributes:
+        status: of the process; 0 done, `INTERRUPTED` cancelled.
+        error: the line that says why it is not 0; "" where it is.
+        lines: of its stdout.
+        notes: lines that it told beside, without the error.
+        seconds: that it took.
+    """
+
+    status: int
+    error: str
+    lines: tuple[str, ...]
+    notes: tuple[str, ...]
+    seconds: float
+
+    @property
+    def cancelled(self) -> bool:
+        """Whether the user ended it."""
+        return self.status == INTERRUPTED
+
+
+class Running:
+    """A command that runs from now on, in the loop of events that runs here.
+
+    Args:
+        words: after `modeler`, as a shell would be given them.
+        folder: in which it runs.
+        title: what it is for, in a few words.
+
+    Attributes:
+        share: of the work that is done, 0 to 1; None where nobody knows.
+        doing: what it does now.
+        lines: of its stdout so far.
+        started: seconds of `time.monotonic`.
+    """
+
+    def __init__(self, words: Sequence[str], folder: Path, title: str) -> None:
+        self.words, self.folder, self.title = tuple(words), folder, title
+        self.share: float | None = None
+        self.doing = "starting"
+        self.lines: deque[str] = deque(maxlen=_MOST_LINES)
+        self.started = time.monotonic()
+        self._told: deque[str] = deque(maxlen=_MOST_LINES)
+        self._cancelled = False
+        self._process: asyncio.subprocess.Process | None = None
+        self._changed = asyncio.Event()
+        self._end = asyncio.create_task(self._carried_out())
+
+    @property
+    def seconds(self) -> float:
+        """Since it began."""
+        return time.monotonic() - self.started
+
+    async def wait(self, told: Callable[[], None] = lambda: None) -> Outcome:
+        """Until it ends; that nobody waits any more does not end it.
+
+        Args:
+            told: is called when it is further than before, and once in a second.
+        """
+        while not self._end.done():
+            ticking = asyncio.create_task(self._changed.wait())
+            await asyncio.wait([self._end, ticking], timeout=1.0, return_when="FIRST_COMPLETED")
+            ticking.cancel()
+            self._changed.clear()
+            told()
+        return self._end.result()
+
+    def cancel(self) -> None:
+        """As Ctrl-C does; what does not heed that is killed, with all that it started."""
+        if not self._cancelled and not self._end.done():
+            self._cancelled = True
+            self.doing = "cancelling"
+            self._changed.set()
+            self._signal(signal.SIGINT)
+            self._killing = asyncio.create_task(self._killed_later())
+
+    def kill(self) -> None:
+        """At once."""
+        self._signal(getattr(signal, "SIGKILL", signal.SIGTERM))
+
+    async def _killed_later(self) -> None:
+        await asyncio.wait([self._end], timeout=_PATIENCE)
+        if not self._end.done():
+            self.kill()
+
+    def _signal(self, number: int) -> None:
+        if self._process is None or self._process.returncode is not None:
+            return
+        with contextlib.suppress(ProcessLookupError):
+            if hasattr(os, "killpg"):
+                os.killpg(self._process.pid, number)
+            else:
+                self._process.send_signal(number)
+
+    async def _carried_out(self) -> Outcome:
+        try:
+            status = await self._followed()
+        except (OSError, ValueError) as error:  # ValueError: a NUL in a word
+            return self._ended(1, f"{self.title}: cannot be started ({error}); check {self.folder}")
+        except asyncio.CancelledError:
+            self.kill()
+            raise
+        if status and self._cancelled:
+            return self._ended(INTERRUPTED, f"{self.title}: cancelled")
+        return self._ended(status, "" if status == 0 else self._error(status))
+
+    async def _followed(self) -> int:
+        """Its status, when it has ended."""
+        command, *rest = self.words
+        self._process = process = await asyncio.create_subprocess_exec(
+            # -P: a file of the project that is called numpy.py is no module
+            *(sys.executable, "-P", "-m", "modeler.cli.followed"),
+            *(command, "--progress", "lines", *rest),
+            cwd=self.folder,
+            env=_environment(),
+            stdin=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.PIPE,
+            stderr=asyncio.subprocess.PIPE,
+            start_new_session=True,
+        )
+        assert process.stdin and process.stdout and process.stderr
+        if self._cancelled:
+            self.kill()
+        await asyncio.gather(self._hear(process.stdout), self._heed(process.stderr))
+        status = await process.wait()
+        process.stdin.close()
+        return status
+
+    def _ended(self, status: int, error: str) -> Outcome:
+        self.share, self.doing = 1.0, error or "done"
+        notes = [found[1] for line in self._told if (found := _TOLD.fullmatch(line))]
+        notes = [note for note in notes if note != error]
+        return Outcome(status, error, tuple(self.lines), tuple(notes), self.seconds)
+
+    async def _hear(self, stream: asyncio.StreamReader) -> None:
+        async for line in _lines(stream):
+            self.lines.append(line)
+
+    async def _heed(self, stream: asyncio.StreamReader) -> None:
+        async for line in _lines(stream):
+            found = _PROGRESS.fullmatch(line)
+            if found is None:
+                self._told.append(line)
+            elif not self._cancelled:
+                self.share = None if found[1] == "-" else min(float(found[1]), 1.0)
+                self.doing = found[2]
+                self._changed.set()
+
+    def _error(self, status: int) -> str:
+        """The line that the command printed; where it printed none, what is known of its end."""
+        last = next((line for line in reversed(self._told) if line.strip()), "")
+        if found := _TOLD.fullmatch(last):
+            return found[1]
+        if status == -getattr(signal, "SIGKILL", 9):
+            return f"{self.title}: the system ended it, as where memory runs out; take less of it"
+        line = shlex.join(["modeler", *self.words, "--verbose"])
+        return on_one_line(f"{self.title}: ended with status {status} ({last}); run `{line}`")
+
+
+async def _lines(stream: asyncio.StreamReader) -> AsyncIterator[str]:
+    """Of any length, the last one too where nothing ends it."""
+    rest = b""
+    while piece := await stream.read(_PIECE):
+        *whole, rest = (rest + piece).split(b"\n")
+        for line in whole:
+            yield line.decode(errors="replace").rstrip("\r")
+    if rest:
+        yield rest.decode(errors="replace")
+
+
+def _environment() -> dict[str, str]:
+    """Ours, in which the child finds this very package, wherever it was imported from."""
+    root = str(Path(__file__).resolve().parents[2])
+    found = dict(os.environ)
+    if root not in (sysconfig.get_path("purelib"), sysconfig.get_path("platlib")):
+        found["PYTHONPATH"] = os.pathsep.join(filter(None, [root, found.get("PYTHONPATH", "")]))
+    return found

@@ -1,0 +1,76 @@
+"""The empty page: three doors, a demonstration, a robot, a log."""
+
+import dataclasses
+from collections.abc import Callable
+
+from nicegui import ui
+
+from modeler.core.builtin import builtin_text
+from modeler.core.errors import ModelerError
+from modeler.core.files import write_atomically
+from modeler.studio import commands
+from modeler.studio.project import ROBOT, ProjectLog, Stretch
+from modeler.studio.studio import Hub, Studio
+
+_RUNS = (("logs/train.parquet", 1), ("logs/held_out.parquet", 2))
+
+
+async def draw(studio: Studio) -> None:
+    """Draws it."""
+    ui.label("Your robot's real dynamics").classes("studio-head")
+    ui.label(
+        "Compare a model with measurements, see where it fails, learn which physical effect is "
+        "missing, add it, and watch the error fall."
+    ).classes("studio-soft")
+    with ui.row().classes("studio-doors"):
+        _door(
+            "Try the demo", "play_circle",
+            "An arm with three joints, two measured runs, and an effect that its model lacks.",
+            lambda: _begin(studio),
+        )  # fmt: skip
+        _door(
+            "Start from a table", "precision_manufacturing",
+            "Paste the table of a paper, open a URDF, MJCF or .par, or take a built-in robot.",
+            lambda: studio.go("robot"),
+        )  # fmt: skip
+        _door(
+            "Start from a log", "show_chart",
+            "CSV, Parquet, MAT, HDF5, MCAP, ROS bags, sheets: see what is in it.",
+            lambda: studio.go("data"),
+        )  # fmt: skip
+
+
+def _door(title: str, icon: str, text: str, act: Callable[[], object]) -> None:
+    with ui.button(on_click=act).props("flat no-caps").classes("studio-door"), ui.column():
+        ui.icon(icon, size="2.5rem")
+        ui.label(title).classes("studio-door-title")
+        ui.label(text).classes("studio-soft")
+
+
+async def _begin(studio: Studio) -> None:
+    try:
+        await begin_demo(studio.hub)
+    except ModelerError as error:
+        studio.show_error(str(error))
+    else:
+        studio.go("data")
+
+
+async def begin_demo(hub: Hub) -> None:
+    """The demonstration arm, and two measured runs of a machine with a hidden effect.
+
+    Raises:
+        ModelerError: the folder has a robot already, or cannot be written.
+    """
+    if hub.project.robot:
+        raise ModelerError(
+            f"{hub.workspace.folder}: holds a robot already; open the demonstration in a folder of "
+            "its own: modeler studio FOLDER --demo"
+        )
+    write_atomically(hub.workspace.folder / ROBOT, builtin_text("demo-arm"))
+    for log, seed in _RUNS:
+        await hub.run(commands.demo(log, seed))
+    train, held = (log for log, _ in _RUNS)
+    logs = ProjectLog(train, train=(Stretch(),)), ProjectLog(held, test=(Stretch(),))
+    hub.workspace.save(dataclasses.replace(hub.project, robot=ROBOT, logs=logs))
+    hub.refresh()

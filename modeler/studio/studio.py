@@ -1,0 +1,244 @@
+"""What screens work with: the project, commands, questions to the viewer, and the other windows."""
+
+from __future__ import annotations  # a hub has studios, and each studio its hub
+
+import dataclasses
+import hashlib
+import time
+from collections import OrderedDict
+from collections.abc import Awaitable, Callable, Mapping
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from nicegui import background_tasks, ui
+from nicegui.element import Element
+
+from modeler.core.errors import ModelerError
+from modeler.core.files import read_text, write_atomically
+from modeler.studio import commands
+from modeler.studio.project import FOLDERS, MAKING, Project, Step, Workspace
+from modeler.studio.running import Running
+from modeler.studio.viewer import Viewer
+
+Screen = Callable[["Studio"], Awaitable[None]]
+"""Draws a screen into the element that is open."""
+
+_MOST_SHEETS = 60
+
+
+class Hub:
+    """One project folder, and all windows that look at it.
+
+    Attributes:
+        workspace: the folder.
+        viewer: the process that holds logs and predictions.
+        running: the command that runs; None: none.
+        studios: of the windows, the first of which may change things.
+        sheets: HTML of frames inside the page, by its digest.
+        allowed: folders whose files may be chosen where they lie.
+        screens: by name.
+    """
+
+    def __init__(
+        self, workspace: Workspace, allowed: tuple[Path, ...], screens: Mapping[str, Screen]
+    ) -> None:
+        self.workspace, self.allowed, self.screens = workspace, allowed, screens
+        self.viewer = Viewer()
+        self.running: Running | None = None
+        self.studios: list[Studio] = []
+        self.sheets: OrderedDict[str, str] = OrderedDict()
+
+    @property
+    def project(self) -> Project:
+        """As it is now."""
+        return self.workspace.project
+
+    def refresh(self) -> None:
+        """Every window shows the project anew."""
+        for studio in self.studios:
+            studio.redraw()
+
+    def tell(self) -> None:
+        """Every window shows how far the command is."""
+        for studio in self.studios:
+            studio.told()
+
+    async def run(self, asked: commands.Asked, current: bool = True, keep: bool = True) -> Step:
+        """Carries out a command, and keeps it as a step.
+
+        Args:
+            asked: command.
+            current: True if a model that it makes is looked at from now on.
+            keep: False for what is no step of the project.
+
+        Raises:
+            ModelerError: it failed or was cancelled; its line. Nothing is kept then.
+        """
+        if self.running is not None:
+            raise ModelerError(
+                f"{asked.title}: {self.running.title} runs still; wait for it, or cancel it"
+            )
+        if not self.workspace.writable:
+            self.workspace.save(self.project)  # says why not
+        number, parent = self.project.next_number, asked.about
+        more, result, pictures = commands.bookkeeping(asked.words, number)
+        self._prepare(asked, number)
+        self.running = Running([*asked.words, *more], self.workspace.folder, asked.title)
+        self.tell()
+        begun = time.perf_counter()
+        try:
+            outcome = await self.running.wait(self.tell)
+        finally:
+            self.running = None
+            self.tell()
+        if outcome.status != 0:
+            raise ModelerError(outcome.error)
+        step = Step(
+            number, self.project.current if parent is None else parent, asked.kind, asked.words,
+            asked.title, asked.model, result, pictures, round(time.perf_counter() - begun, 2),
+            datetime.now(UTC).isoformat(timespec="seconds"),
+        )  # fmt: skip
+        if keep:
+            steps = (*self.project.steps, step)
+            now = number if current and asked.kind in MAKING else self.project.current
+            self.workspace.save(dataclasses.replace(self.project, steps=steps, current=now))
+            self.refresh()
+        return step
+
+    def _prepare(self, asked: commands.Asked, number: int) -> None:
+        """Folders, and the robot as it is now if the command works on a copy of it."""
+        for name in FOLDERS:
+            (self.workspace.folder / name).mkdir(parents=True, exist_ok=True)
+        copy = f"robots/{number}.toml"
+        if copy in asked.words:
+            text = read_text(self.workspace.folder / self.project.robot)
+            write_atomically(self.workspace.folder / copy, text)
+
+    def sheet(self, html: str) -> str:
+        """The address of a page of its own, for a frame inside the page."""
+        digest = hashlib.sha256(html.encode()).hexdigest()[:20]
+        self.sheets[digest] = html
+        self.sheets.move_to_end(digest)
+        while len(self.sheets) > _MOST_SHEETS:
+            self.sheets.popitem(last=False)
+        return f"/sheet/{digest}.html"
+
+    def close(self) -> None:
+        """Ends what runs."""
+        if self.running is not None:
+            self.running.cancel()
+        self.viewer.end()
+
+
+class Studio:
+    """One window.
+
+    Attributes:
+        hub: of the folder.
+        screen: that is shown.
+        kept: what screens remember in this window, by their own names.
+    """
+
+    def __init__(self, hub: Hub, screen: str) -> None:
+        self.hub, self.screen = hub, screen
+        self.kept: dict[str, Any] = {}
+        self.room: Element | None = None
+        self.listeners: list[Callable[[], None]] = []
+
+    @property
+    def project(self) -> Project:
+        """As it is now."""
+        return self.hub.project
+
+    @property
+    def folder(self) -> Path:
+        """Of the project."""
+        return self.hub.workspace.folder
+
+    @property
+    def read_only(self) -> bool:
+        """True in all windows but the first, and where another process has the folder open."""
+        return not self.hub.workspace.writable or self.hub.studios[:1] != [self]
+
+    def change(self, redraw: bool = False, **fields: Any) -> bool:
+        """Makes the project another one; other windows show it.
+
+        Args:
+            redraw: True if this window is drawn anew too.
+            fields: of `Project`.
+
+        Returns:
+            True if it is saved; else the line is shown.
+        """
+        try:
+            if self.read_only:
+                raise ModelerError(READ_ONLY)
+            self.hub.workspace.save(dataclasses.replace(self.project, **fields))
+        except ModelerError as error:
+            self.show_error(str(error))
+            return False
+        for studio in self.hub.studios:
+            if studio is not self or redraw:
+                studio.redraw()
+            studio.told()
+        return True
+
+    async def run(
+        self, asked: commands.Asked, current: bool = True, keep: bool = True
+    ) -> Step | None:
+        """Carries out a command; None if it failed, whose line is shown then. See `Hub.run`."""
+        if self.read_only:
+            self.show_error(READ_ONLY)
+            return None
+        self.show_error("")
+        try:
+            return await self.hub.run(asked, current, keep)
+        except ModelerError as error:
+            self.show_error(str(error))
+            return None
+
+    async def view(self, question: str, *arguments: Any) -> Any:
+        """The answer of the viewer to a function of `studio.viewing`.
+
+        Raises:
+            ModelerError: it has none; its line.
+        """
+        return await self.hub.viewer.ask(question, *arguments)
+
+    def show_error(self, line: str) -> None:
+        """One line, in this window; "" takes the last one away."""
+        self.kept["error"] = line
+        self.told()
+
+    def go(self, screen: str) -> None:
+        """Shows another screen."""
+        self.screen = screen
+        self.kept["error"] = ""
+        if self.room is not None:
+            with self.room:  # the button that was pressed may be gone
+                ui.navigate.history.push(f"/{screen}")
+        self.redraw()
+
+    def redraw(self) -> None:
+        """The screen is drawn anew."""
+        if self.room is not None:
+            background_tasks.create(self._drawn(self.room), name=f"draw {self.screen}")
+        self.told()
+
+    async def _drawn(self, room: Element) -> None:
+        with room:
+            room.clear()
+            with ui.column().classes("studio-screen"):
+                try:
+                    await self.hub.screens[self.screen](self)
+                except ModelerError as error:
+                    ui.label(str(error)).classes("studio-error").props("role=alert")
+
+    def told(self) -> None:
+        """What stands around the screen is written anew."""
+        for listener in self.listeners:
+            listener()
+
+
+READ_ONLY = "this window only reads: another one has the project open; go on there or take over"

@@ -1,0 +1,94 @@
+"""The process that holds logs and predictions and answers small questions about them."""
+
+import asyncio
+import multiprocessing
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from typing import Any
+
+from modeler.core.errors import DataError, short_of_memory
+from modeler.core.jobs import attend
+
+
+class Viewer:
+    """Functions of `modeler.studio.viewing`, called in a process of its own.
+
+    The process is started when it is first asked, anew where it has ended (as when memory runs
+    out), and ends with this one, even if that is killed. The event loop never waits.
+    """
+
+    def __init__(self) -> None:
+        self._pool: ProcessPoolExecutor | None = None
+        self._turn = asyncio.Lock()
+        self._newest: dict[str, int] = {}
+        self._asked = 0
+
+    async def ask(self, function: str, *arguments: Any, kind: str = "") -> Any:
+        """What the function answers; questions are answered one after the other.
+
+        Args:
+            function: its name.
+            arguments: plain ones.
+            kind: of questions of which only the newest counts, as the window of one picture: one
+                that waits is dropped when the next comes, and its answer is None.
+
+        Raises:
+            ModelerError: as the function, or the process ended twice over it.
+        """
+        self._asked += 1
+        number = self._newest[kind] = self._asked
+        async with self._turn:
+            if kind and self._newest[kind] != number:
+                return None
+            try:
+                return await self._answered(function, arguments)
+            except BrokenProcessPool:
+                self.end()
+            try:
+                return await self._answered(function, arguments)
+            except BrokenProcessPool:
+                self.end()
+                raise DataError(
+                    "the process that draws logs ended in the middle of its work, twice, as when "
+                    "memory runs out; close other programs, or look at a shorter stretch"
+                ) from None
+
+    async def _answered(self, function: str, arguments: tuple[Any, ...]) -> Any:
+        if self._pool is None:
+            context = multiprocessing.get_context("spawn")
+            self._pool = ProcessPoolExecutor(1, mp_context=context, initializer=attend)
+        loop = asyncio.get_running_loop()
+        return await loop.run_in_executor(self._pool, answer, function, arguments)
+
+    def end(self) -> None:
+        """Lets go of the process; the next question starts another."""
+        if self._pool is not None:
+            pool, self._pool = self._pool, None
+            for process in list((pool._processes or {}).values()):
+                process.kill()
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def answer(function: str, arguments: tuple[Any, ...]) -> Any:
+    """A function of `viewing` on its arguments, in the process of the viewer.
+
+    Raises:
+        ModelerError: as the function, or memory ran out.
+    """
+    from modeler.studio import viewing
+
+    found: Callable[..., Any] = getattr(viewing, function)
+    try:
+        return found(*arguments)
+    except MemoryError as error:
+        viewing.forget()
+        raise DataError(
+            "memory ran out while a log was drawn; close other programs, or look at a shorter "
+            "stretch"
+        ) from error
+    except (OSError, RuntimeError) as error:
+        if not short_of_memory(error):
+            raise DataError(f"{function}: {error}") from error
+        viewing.forget()
+        raise DataError(f"memory ran out while a log was drawn ({error})") from error

@@ -1,0 +1,550 @@
+"""What the process of the viewer answers: windows of logs, torques and residuals as pictures.
+
+Every function takes plain arguments and answers with plain data or a `Picture`. Files are read once
+and kept until they change.
+"""
+
+import os
+from collections import OrderedDict
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+
+from modeler import validation
+from modeler.api import checks, log_maps, workflow
+from modeler.core.errors import DataError
+from modeler.core.figure import Curve, Heat, Means, Panel, Picture, Points, Series
+from modeler.core.manifest import JointSpec
+from modeler.core.style import BLACK, BLUE, GREEN, GREY, ORANGE, PINK, SKY, VERMILLION, Style
+from modeler.core.table import WORDS
+from modeler.core.thinning import thin_curves, thin_points
+from modeler.estimation import IdentifiedModel, load_model
+from modeler.logs import Columns, LogMap, LogTable, blocks_of, map_from_table, map_from_words
+from modeler.observation import FINGER, LONG
+from modeler.robot import Robot, read_robot
+from modeler.runtime import CompiledModel
+from modeler.validation import Prediction, running_time
+
+POINTS = 1500
+"""Of a curve that is drawn."""
+
+# What was read stays, by what it was read from.
+
+T = TypeVar("T")
+_HELD = 6  # of one kind
+_KEPT: dict[str, OrderedDict[Any, Any]] = {}
+
+
+def forget() -> None:
+    """Lets go of all that was read."""
+    _KEPT.clear()
+
+
+def _kept(kind: str, key: Any, make: Callable[[], T], most: int = _HELD) -> T:
+    """What was made for that key, or is made now; of each kind the last ones used stay."""
+    own = _KEPT.setdefault(kind, OrderedDict())
+    if key not in own:
+        own[key] = make()
+        while len(own) > most:
+            own.popitem(last=False)
+    own.move_to_end(key)
+    found: T = own[key]
+    return found
+
+
+def _state(place: str) -> tuple[str, int, int]:
+    """A file as it is now; a window after it belongs to its name."""
+    path = str(log_maps.file_and_span(place)[0])
+    try:
+        status = os.stat(path)
+    except OSError as error:
+        raise DataError(
+            f"{path}: cannot be read ({error.strerror}); put the file back, or take it out"
+        ) from None
+    return place, status.st_mtime_ns, status.st_size
+
+
+# Logs as they are.
+
+
+@dataclass(frozen=True)
+class LogFacts:
+    """What a log holds.
+
+    Attributes:
+        rows: of the file.
+        start, end: s.
+        names: of columns with numbers, ours where the mapping knows them.
+        units: of them as they are answered: SI for ours, as in the file for others.
+        coarse: True of a long log, of which a window is read when it is looked at.
+    """
+
+    rows: int
+    start: float
+    end: float
+    names: tuple[str, ...]
+    units: dict[str, str]
+    coarse: bool
+
+
+@dataclass(eq=False)
+class _Log:
+    """The rows of a log; of a long one the least and largest values of so many rows at a time."""
+
+    rows: int
+    time: np.ndarray  # (n,) s; of a long log (2n,), where the values of each piece begin and end
+    values: dict[str, np.ndarray]
+    units: dict[str, str]
+    source: "_Source | None" = None  # of a long log
+    near: dict[str, np.ndarray] = field(default_factory=dict)  # the last window, all rows of it
+    within: tuple[float, float] = (np.inf, -np.inf)  # s, of that window
+
+
+@dataclass(frozen=True)
+class _Source:
+    path: Path
+    mapping: LogMap
+    joints: tuple[JointSpec, ...]
+
+    def table(self, part: Columns | None = None, before: int = 0) -> LogTable:
+        return LogTable(self.path, self.mapping, self.joints, True, part, before)
+
+
+_PIECE = 256  # rows of a long log
+
+
+def log_facts(place: str, words: Sequence[str] = (), robot: str = "") -> LogFacts:
+    """Columns, units and extent of a log.
+
+    Args:
+        place: its file.
+        words: of the mapping, as of `--map`.
+        robot: robot file, whose [log] lies under them.
+    """
+    log = _log(place, words, robot)
+    names = tuple(log.values)
+    ends = float(log.time[0]), float(log.time[-1])
+    return LogFacts(log.rows, *ends, names, log.units, log.source is not None)
+
+
+def log_window(
+    place: str, names: Sequence[str], start: float, end: float, words: Sequence[str] = (),
+    robot: str = "", points: int = POINTS,
+) -> dict[str, tuple[np.ndarray, np.ndarray]]:  # fmt: skip
+    """Time and values of columns between two times, least and largest kept of what is thinned.
+
+    Args:
+        place: the log's file.
+        names: of columns, as `log_facts` has them; one that is not there is left out.
+        start: s; -inf and inf are allowed.
+        end: s.
+        words: of the mapping.
+        robot: robot file.
+        points: of each column, at most.
+    """
+    log = _log(place, words, robot)
+    time, values = _rows(log, start, end)
+    found = {}
+    for name in names:
+        if name in values:
+            kept = thin_curves((values[name],), points)
+            found[name] = time[kept], values[name][kept]
+    return found
+
+
+def log_motion(
+    place: str, words: Sequence[str] = (), robot: str = "", start: float = -np.inf,
+    end: float = np.inf, rate: float = 30.0,
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:  # fmt: skip
+    """Times of a film and the position of every joint there, rad or m.
+
+    Args:
+        place: the log's file.
+        words: of the mapping.
+        robot: robot file; it says which positions there are.
+        start: s.
+        end: s.
+        rate: pictures a second.
+    """
+    log = _log(place, words, robot)
+    time, values = _rows(log, start, end)
+    if time.size == 0:
+        return time, {}
+    count = min(int((time[-1] - time[0]) * rate) + 2, 20_000)
+    at = np.linspace(time[0], time[-1], count)
+    joints = [joint.name for joint in _joints(robot)]
+    named = {name: values[f"q{name}"] for name in joints if f"q{name}" in values}
+    return at, {name: np.interp(at, time, own) for name, own in named.items()}
+
+
+def _rows(log: _Log, start: float, end: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Time and columns between two times; of a long log all rows only of a short window."""
+    low, high = np.searchsorted(log.time, [start, end])
+    own = slice(max(0, low - 1), high + 1)
+    if log.source is None or high - low > 2 * POINTS:
+        return log.time[own], {name: v[own] for name, v in log.values.items()}
+    if not log.within[0] <= start <= end <= log.within[1]:
+        _look_closely(log, log.source, float(log.time[own][0]), float(log.time[own][-1]))
+    time = log.near["time"]
+    low, high = np.searchsorted(time, [start, end])
+    own = slice(max(0, low - 1), high + 1)
+    return time[own], {name: v[own] for name, v in log.near.items() if name in log.values}
+
+
+def _look_closely(log: _Log, source: _Source, start: float, end: float) -> None:
+    """Reads all rows of a window of a long log and as much again on either side."""
+    blocks = blocks_of(source.path)
+    assert blocks is not None
+    ends = np.searchsorted(log.time, [start, end]) / log.time.size
+    room = max(float(ends[1] - ends[0]), FINGER / blocks.rows)
+    first, rows = max(0.0, float(ends[0]) - room), int(3.0 * room * blocks.rows) + 2
+    for _ in range(8):  # of CSV the place of a row is known about
+        part = source.table(blocks.window(first, min(rows, blocks.rows)))
+        log.near = {name: part.numbers(name) for name in ("time", *log.values) if name in part}
+        time = log.near["time"] = _seconds(part, log.near.get("time"))
+        log.within = float(time[0]), float(time[-1])
+        if log.within[0] <= start and end <= log.within[1]:
+            break
+        if log.within[0] > start:
+            first = max(0.0, first - room)
+        rows = int(1.5 * rows)
+
+
+def _log(place: str, words: Sequence[str], robot: str) -> _Log:
+    key = (_state(place), tuple(words), robot and _state(robot))
+    return _kept("log", key, lambda: _read(place, words, robot), 3)
+
+
+def _read(place: str, words: Sequence[str], robot: str) -> _Log:
+    path = Path(log_maps.file_and_span(place)[0])
+    mapping = map_from_words(words)
+    if robot:
+        stated = _robot(robot)
+        mapping = mapping.overriding(map_from_table(stated.log_words, f"{robot}: [log]"))
+    joints = _joints(robot)
+    if mapping.auto:
+        guessed = log_maps.look_at(place, None, LogMap(names=mapping.names)).suggested
+        mapping = log_maps.suggested_map(guessed, mapping)
+    source, blocks = _Source(path, mapping, joints), blocks_of(path)
+    if blocks is not None and blocks.rows > LONG:
+        return _coarse(source, blocks)
+    table = source.table()
+    values = {n: table.numbers(n) for n in table.names if table.is_numeric(n)}
+    time = _seconds(table, values.pop("time", None))
+    return _Log(table.rows, time, values, _units(table, values, joints))
+
+
+def _coarse(source: _Source, blocks: Any) -> _Log:
+    """One pass over a long log: the least and the largest value of every piece of rows."""
+    rows, times, found = 0, list[np.ndarray](), dict[str, list[np.ndarray]]()
+    units: dict[str, str] = {}
+    for part in blocks.blocks(FINGER):
+        table = source.table(part, rows)
+        values = {n: table.numbers(n) for n in table.names if table.is_numeric(n)}
+        time = _seconds(table, values.pop("time", None))
+        starts = np.arange(0, table.rows, _PIECE)
+        times.append(np.column_stack([time[starts], time[np.append(starts[1:], table.rows) - 1]]))
+        for name, own in values.items():
+            ends = [np.fmin.reduceat(own, starts), np.fmax.reduceat(own, starts)]
+            found.setdefault(name, []).append(np.column_stack(ends).astype(np.float32))
+        units = units or _units(table, values, source.joints)
+        rows += table.rows
+    whole = {n: np.concatenate(v).ravel() for n, v in found.items() if len(v) == len(times)}
+    return _Log(rows, np.concatenate(times).ravel(), whole, units, source)
+
+
+def _seconds(table: LogTable, time: np.ndarray | None) -> np.ndarray:
+    """The clock; row numbers without one."""
+    return np.arange(table.before, table.before + table.rows, dtype=float) if time is None else time
+
+
+def _units(
+    table: LogTable, values: dict[str, np.ndarray], joints: Sequence[JointSpec]
+) -> dict[str, str]:
+    """SI of what is ours; of other columns what the file says."""
+    of_joint = {
+        f"{kind}{joint.name}": joint.effort_unit if kind == "tau" else joint.unit + per
+        for joint in joints
+        for kind, per in (("q", ""), ("qc", ""), ("qd", "/s"), ("qdd", "/s^2"), ("tau", ""))
+    }
+    return {name: of_joint.get(name, table.unit(name)) for name in values}
+
+
+def _robot(place: str) -> Robot:
+    return _kept("robot", _state(place), lambda: read_robot(place))
+
+
+def _joints(place: str) -> tuple[JointSpec, ...]:
+    """Of a robot file, without deriving anything; none without one."""
+    if not place:
+        return ()
+    robot = _robot(place)
+    return tuple(
+        JointSpec(j.name, "revolute" if j.angular else "prismatic", j.unit, j.effort_unit,
+                  j.actuated, robot.drive_gains.get(j.name), robot.drives.get(j.name))
+        for j in robot.coordinates
+    )  # fmt: skip
+
+
+# Torques of models on logs.
+
+
+@dataclass(frozen=True, eq=False)
+class _Judged:
+    """A model on logs."""
+
+    comparison: validation.Comparison
+    logs: tuple[str, ...]
+
+    @property
+    def prediction(self) -> Prediction:
+        return self.comparison.prediction
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """How good a model is on logs, joint by joint.
+
+    Attributes:
+        joints: names, in order.
+        errors: relative, of each.
+        sentences: of each, as `modeler compare` says it; of one that is not judged, why.
+        channels: of each: id and label of what its residual can be drawn over.
+        start, end: of the time axis of the pictures, s.
+    """
+
+    joints: tuple[str, ...]
+    errors: tuple[float, ...]
+    sentences: tuple[str, ...]
+    channels: tuple[tuple[str, str], ...]
+    start: float
+    end: float
+
+
+def verdict(model: str, logs: Sequence[str], words: Sequence[str] = ()) -> Verdict:
+    """What `modeler compare MODEL LOG...` says of every joint."""
+    judged = _judged(model, logs, words)
+    time = running_time(judged.prediction)[0]
+    items = judged.comparison.joints
+    return Verdict(
+        tuple(item.joint.name for item in items),
+        tuple(float(item.relative_error) for item in items),
+        tuple(validation.joint_verdict(item) for item in items),
+        tuple(_channels(judged, words)), float(time.min()), float(time.max()),
+    )  # fmt: skip
+
+
+def torque_picture(
+    models: Sequence[str], logs: Sequence[str], joint: str, start: float = -np.inf,
+    end: float = np.inf, words: Sequence[str] = (),
+) -> Picture:  # fmt: skip
+    """Measured and predicted torque of a joint between two times, and the residual below.
+
+    Args:
+        models: files; each is overlaid.
+        logs: FILE or FILE@START:END.
+        joint: its name.
+        start: on the axis of the picture, s; logs stand one after the other.
+        end: the same.
+        words: of the mapping.
+    """
+    first = _judged(models[0], logs, words).prediction
+    j = _number(first, joint)
+    time, label, marks = running_time(first)
+    rows = _between(time, start, end)
+    unit, alone = first.joints[j].effort_unit, len(models) == 1
+    above: list[Series] = [_curve(first, "measured", time, first.measured[:, j], rows, _MEASURED)]
+    below: list[Series] = []
+    for k, model in enumerate(models):
+        style = Style(_OF_MODELS[k % len(_OF_MODELS)], width=1.4, opacity=0.9)
+        p, name = _judged(model, logs, words).prediction, _short(model)
+        own = running_time(p)[0]  # rows of another model may be others
+        kept, left = _between(own, start, end), validation.residual(p)[:, j]
+        above.append(_curve(p, "predicted" if alone else name, own, p.predicted[:, j], kept, style))
+        left_named = "residual" if alone else f"{name}: residual"
+        below.append(_curve(p, left_named, own, left, kept, style))
+    spans = validation.masked_spans(first, j, time, rows)
+    ends = float(time[rows[0]]), float(time[rows[-1]])
+    what = f"{WORDS[unit]} [{unit}]"
+    return Picture(
+        f"torque_{joint}", f"Joint {joint}: measured and predicted", validation.mask_caption(first, j),
+        ((Panel("", label, what, tuple(above), marks=marks, spans=spans, x_range=ends),),
+         (Panel("", label, f"residual [{unit}]", tuple(below), marks=marks, zero=True, spans=spans,
+                x_range=ends),)),
+        430, True, (0.6, 0.4),
+    )  # fmt: skip
+
+
+_MEASURED = Style(BLACK, width=1.1)
+_OF_MODELS = (ORANGE, BLUE, GREEN, PINK, VERMILLION, SKY)
+
+
+def _between(time: np.ndarray, start: float, end: float) -> np.ndarray:
+    """Rows from one time to another; all where there are none."""
+    rows = np.flatnonzero((time >= start) & (time <= end))
+    return np.arange(time.size) if rows.size < 2 else rows
+
+
+def _curve(
+    prediction: Prediction, label: str, time: np.ndarray, values: np.ndarray, rows: np.ndarray,
+    style: Style,
+) -> Curve:  # fmt: skip
+    kept = rows[thin_curves((np.asarray(values[rows], dtype=float),), POINTS)]
+    return Curve(
+        label, *validation.broken(prediction.segment[kept], time[kept], values[kept]), style
+    )
+
+
+def residual_picture(
+    models: Sequence[str], logs: Sequence[str], joint: str, channel: str, words: Sequence[str] = ()
+) -> Picture:
+    """The residual of a joint over a channel: samples, means with two standard errors.
+
+    Args:
+        models: files; the samples are those of the first.
+        logs: FILE or FILE@START:END.
+        joint: its name.
+        channel: an id of `Verdict.channels`.
+        words: of the mapping.
+    """
+    judged = [_judged(model, logs, words) for model in models]
+    series: list[Series] = []
+    for k, (own, model) in enumerate(zip(judged, models, strict=True)):
+        p, j = own.prediction, _number(own.prediction, joint)
+        x, label = _channel(own, j, channel, words)
+        e = np.asarray(p.measured - p.predicted, dtype=float)[:, j]
+        rows = p.used[:, j] & np.isfinite(x)
+        if not rows.any():
+            raise DataError(f"joint {joint}: no row that counts has a value of {channel}")
+        x, e = x[rows], e[rows]
+        if not k:
+            kept = thin_points(x, e, POINTS)
+            series.append(Points("samples", x[kept], e[kept], _CLOUD))
+        told = "mean, 2 standard errors" if len(models) == 1 else f"{_short(model)}: mean"
+        style = Style(_OF_MODELS[(k + 1) % len(_OF_MODELS)], width=1.6)
+        series.append(Means(told, *validation.binned_means(x, e), style))
+    unit = judged[0].prediction.joints[j].effort_unit
+    panel = Panel("", label, f"residual [{unit}]", tuple(series), zero=True)
+    return Picture(f"residual_{joint}_{channel}", f"Joint {joint}: residual over {label}", "",
+                   ((panel,),), 360)  # fmt: skip
+
+
+_CLOUD = Style(GREY, width=2.6, opacity=0.45)
+
+
+def where_picture(model: str, logs: Sequence[str], words: Sequence[str] = ()) -> Picture:
+    """Joint by coordinate: the share of its residual's variance that follows that coordinate.
+
+    The share is by binned means, 1 - sum (e - mean of its bin)^2 / sum (e - mean)^2, less what
+    as many bins of noise would explain; so every column of a log has one.
+    """
+    judged = _judged(model, logs, words)
+    p, channels = judged.prediction, _channels(judged, words)
+    names = tuple(item.joint.name for item in judged.comparison.joints)
+    values = np.full((len(names), len(channels)), np.nan)
+    for i, name in enumerate(names):
+        j = _number(p, name)
+        for k, (channel, _) in enumerate(channels):
+            x, _ = _channel(judged, j, channel, words)
+            rows = p.used[:, j] & np.isfinite(x)
+            e = np.asarray(p.measured - p.predicted, dtype=float)[rows, j]
+            values[i, k] = 100.0 * explained(x[rows], e)
+    texts = tuple(tuple("" if np.isnan(v) else f"{v:.0f}" for v in row) for row in values)
+    heat = Heat(
+        "explained share", tuple(label for _, label in channels), names, values, texts, 100.0
+    )
+    return Picture(
+        "where", "Residual: which joint follows what",
+        "Share of each joint's residual variance, in percent, that its mean over that channel "
+        "explains, noise taken off. Coordinates move together: shares overlap. Choose a cell to "
+        "look at it.",
+        ((Panel("", "", "joint", (heat,)),),), 110 + 34 * len(names),
+    )  # fmt: skip
+
+
+def explained(x: np.ndarray, e: np.ndarray, bins: int = 24) -> float:
+    """Share of the variance of e that its mean in bins of x, alike in count, explains; 0 to 1.
+
+    Of noise, b bins of n samples explain (b - 1)/(n - 1) on average; that is taken off.
+    """
+    if x.size < 4 * bins or np.ptp(x) == 0.0:
+        return np.nan
+    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, bins + 1)))
+    which = np.searchsorted(edges[1:-1], x, side="right")
+    count = np.bincount(which)
+    mean = np.bincount(which, e) / np.maximum(count, 1)
+    whole = float(np.sum((e - e.mean()) ** 2))
+    if whole == 0.0:
+        return 0.0
+    left = float(np.sum((e - mean[which]) ** 2)) / max(x.size - int((count > 0).sum()), 1)
+    return max(0.0, 1.0 - left * (x.size - 1) / whole)
+
+
+def poses(
+    model: str, logs: Sequence[str], words: Sequence[str] = (), points: int = 20_000
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Time on the axis of the pictures and the position of every joint there, rad or m."""
+    p = _judged(model, logs, words).prediction
+    time = running_time(p)[0]
+    rows = np.arange(0, time.size, -(-time.size // points))
+    return time[rows], {info.name: p.q[rows, j] for j, info in enumerate(p.joints)}
+
+
+def _channels(judged: _Judged, words: Sequence[str]) -> list[tuple[str, str]]:
+    """Id and label: coordinates of the motion, then all other columns of the log."""
+    coordinates = {c.id: c for j in range(len(judged.prediction.joints))
+                   for c in validation.coordinates_of(judged.prediction, j)}  # fmt: skip
+    first = _log(judged.logs[0], words, "")
+    own = {f"{kind}{joint.name}" for joint in judged.prediction.joints
+           for kind in ("q", "qd", "qdd", "tau")}  # fmt: skip
+    others = [(name, name) for name in first.values if name not in {*own, "segment"}]
+    return [(name, c.label) for name, c in coordinates.items()] + others
+
+
+def _channel(judged: _Judged, j: int, channel: str, words: Sequence[str]) -> tuple[np.ndarray, str]:
+    """Values of a channel on all rows, NaN where the log has none, and its label."""
+    p = judged.prediction
+    coordinate = next((c for c in validation.coordinates_of(p, j) if c.id == channel), None)
+    if coordinate is not None:
+        unit = validation.coordinate_unit(p, j, channel)
+        values = validation.coordinate_values(p, j, channel)
+        return np.asarray(values, dtype=float), f"{coordinate.label} [{unit}]"
+    found, label = np.full(p.time.size, np.nan), channel
+    for run, place in enumerate(judged.logs):
+        rows = p.run == run
+        log = _log(place, words, "")
+        if channel in log.values and rows.any():
+            found[rows] = np.interp(p.time[rows], log.time, log.values[channel])
+            unit = log.units.get(channel, "")
+            label = f"{channel} [{unit}]" if unit else channel
+    return found, label
+
+
+def _number(prediction: Prediction, joint: str) -> int:
+    return next(j for j, info in enumerate(prediction.joints) if info.name == joint)
+
+
+def _judged(model: str, logs: Sequence[str], words: Sequence[str]) -> _Judged:
+    key = (_state(model), tuple(map(_state, logs)), tuple(words))
+    return _kept("judged", key, lambda: _compared(model, logs, words))
+
+
+def _compared(model: str, logs: Sequence[str], words: Sequence[str]) -> _Judged:
+    loaded, compiled = _model(model)
+    comparison, _ = checks.compared(loaded, list(logs), compiled, tuple(words))
+    return _Judged(comparison, tuple(logs))
+
+
+def _model(place: str) -> tuple[IdentifiedModel, CompiledModel]:
+    def load() -> tuple[IdentifiedModel, CompiledModel]:
+        model = load_model(place)
+        return model, workflow.recompile(model)
+
+    return _kept("model", _state(place), load)
+
+
+def _short(model: str) -> str:
+    return f"model {Path(model).stem}"

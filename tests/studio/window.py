@@ -1,0 +1,166 @@
+"""A studio as a process, and windows of a real browser that look at it."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from modeler.studio.project import FILE, Project, project_from_text
+from tests.browser.chromium import found
+
+_FLAGS = (
+    "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+)  # fmt: skip
+PATIENCE = 60_000.0  # ms
+
+
+@dataclass
+class Served:
+    """A studio that runs.
+
+    Attributes:
+        folder: of the project.
+        address: with its token.
+        process: of the server.
+    """
+
+    folder: Path
+    address: str
+    process: subprocess.Popen[str]
+
+    @property
+    def root(self) -> str:
+        """The address without the token."""
+        return self.address.partition("?")[0].rstrip("/")
+
+    @property
+    def project(self) -> Project:
+        """As its file says."""
+        place = self.folder / FILE
+        text = place.read_text(encoding="utf-8") if place.exists() else ""
+        return project_from_text(text, str(place))
+
+    def end(self, number: int = signal.SIGINT) -> int:
+        """Its status, after a signal."""
+        self.process.send_signal(number)
+        return self.process.wait(30)
+
+
+@contextmanager
+def served(folder: Path, *options: str) -> Iterator[Served]:
+    """A studio of a folder, as the command starts it."""
+    words = [sys.executable, "-m", "modeler.cli", "studio", str(folder), "--no-open", *options]
+    environment = os.environ | {"PYTHONUNBUFFERED": "1"}
+    process = subprocess.Popen(
+        words, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True
+    )
+    assert process.stdout is not None
+    try:
+        address = ""
+        for line in process.stdout:
+            if match := re.search(r"http://\S+", line):
+                address = match[0]
+                break
+        assert address, "the studio printed no address"
+        yield Served(folder, address, process)
+    finally:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            try:
+                process.wait(20)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        process.stdout.close()
+
+
+class Window:
+    """A window of the browser, as a person uses it.
+
+    Attributes:
+        page: of Playwright.
+        complaints: errors of the console, and requests that failed.
+    """
+
+    def __init__(self, page: Any) -> None:
+        self.page = page
+        self.complaints: list[str] = []
+        page.set_default_timeout(PATIENCE)
+        page.on("console", self._heard)
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+
+    def _heard(self, message: Any) -> None:
+        if message.type == "error":
+            self.complaints.append(message.text)
+
+    def open(self, studio: Served) -> "Window":
+        """With the token, and until the first screen is there."""
+        self.page.goto(studio.address)
+        self.page.wait_for_selector(".studio-screen")
+        return self
+
+    def go(self, job: str) -> None:
+        """To one of the nine jobs, by its title."""
+        self.page.get_by_role("button", name=job).first.click()
+        self.idle()
+
+    def click(self, name: str, exact: bool = False) -> None:
+        """A button."""
+        self.page.get_by_role("button", name=name, exact=exact).first.click()
+
+    def idle(self) -> None:
+        """Until no command runs and the screen is drawn."""
+        self.page.wait_for_function(
+            "() => document.querySelector('.studio-screen')"
+            " && !document.querySelector('.studio-running:not(.hidden)')"
+        )
+
+    def sees(self, text: str) -> None:
+        """Until this stands on the page."""
+        self.page.get_by_text(text).first.wait_for()
+
+    def picture(self, place: Path) -> None:
+        """What is seen, as PNG."""
+        self.page.screenshot(path=str(place))
+
+
+@contextmanager
+def opened(width: int = 1280, height: int = 800, dark: bool = False) -> Iterator[Any]:
+    """A function that opens windows of one browser."""
+    from playwright.sync_api import sync_playwright
+
+    program = found()
+    assert program is not None
+    with sync_playwright() as running:
+        browser = running.chromium.launch(executable_path=program, args=list(_FLAGS))
+        try:
+
+            def window(**more: Any) -> Window:
+                given = {
+                    "viewport": {"width": width, "height": height},
+                    "color_scheme": "dark" if dark else "light",
+                } | more
+                return Window(browser.new_context(**given).new_page())
+
+            yield window
+        finally:
+            browser.close()
+
+
+def without_browser() -> str:
+    """Why no window can be opened; "" if one can."""
+    try:
+        import playwright.sync_api  # noqa: F401
+    except ImportError:
+        return "NOT CHECKED: playwright is not installed"
+    if found() is None and shutil.which("chromium") is None:
+        return "NOT CHECKED: no browser is on the path"
+    return ""
