@@ -9,6 +9,7 @@ import csv
 import io
 import re
 import string
+import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -18,7 +19,7 @@ from modeler.core.expression import FUNCTIONS
 from modeler.core.toml_cells import listed
 from modeler.robot.conventions import ANGLES, CONVENTIONS, STEPS
 from modeler.robot.robot_text import columns_and_rows
-from modeler.robot.table_text import quoted_cell
+from modeler.robot.table_text import quoted_cell, with_columns
 
 _FULL_TURN = 6.3  # rad: a larger angle is in degrees
 _LONGEST = 20.0  # m: a larger length is in mm
@@ -338,3 +339,32 @@ def symbol_line(name: str) -> str:
     angle = name.lower().startswith(("alpha", "theta", "gamma", "beta", "phi", "th"))
     unit = "rad" if angle else "m"
     return f"{name} = {_PLACEHOLDER}".ljust(38) + f"# {unit}: a placeholder, write the value"
+
+
+def with_pasted(text: str, table: PastedTable) -> str:
+    """A robot file with another table, and lines for the symbols that it lacks.
+
+    Raises:
+        RobotError: the file has no table that can be replaced.
+    """
+    changed = with_columns(text, table.columns, table.rows, table.convention)
+    known = tomllib.loads(changed).get("symbols", {})
+    missing = [symbol_line(name) for name in table.symbols if name not in known]
+    if not missing:
+        return changed
+    head = re.search(r"(?m)^[ \t]*\[[ \t]*symbols[ \t]*\][^\n]*\n", changed)
+    if head is None:
+        head = re.search(r"(?m)^(?=[ \t]*\[[ \t]*mdh[ \t]*\])", changed)
+        missing = ["[symbols]", *missing, ""]
+    assert head is not None  # or there was no table
+    return changed[: head.end()] + "\n".join([*missing, changed[head.end() :]])
+
+
+def pasted_cells(text: str) -> list[list[str]]:
+    """A block of cells from the clipboard, for a part of a table: as they are, but readable."""
+    return [[_plain(cell) for cell in row] for row in _block(text.translate(_SIGNS))]
+
+
+def _block(text: str) -> list[list[str]]:
+    rows = csv.reader(io.StringIO(text.strip("\r\n")), delimiter="\t")
+    return [[" ".join(cell.split()) for cell in row] for row in rows]
