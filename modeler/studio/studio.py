@@ -19,7 +19,7 @@ from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import read_text, write_atomically
 from modeler.core.json import JsonError, parse_json
 from modeler.studio import commands
-from modeler.studio.project import FOLDERS, MAKING, Project, Step, Workspace
+from modeler.studio.project import FOLDERS, MAKING, ROBOT, Project, Step, Workspace
 from modeler.studio.running import Running
 from modeler.studio.viewer import Viewer
 
@@ -117,7 +117,7 @@ class Hub:
             (self.workspace.folder / name).mkdir(parents=True, exist_ok=True)
         copy = f"robots/{number}.toml"
         if copy in asked.words:
-            text = read_text(self.workspace.folder / self.project.robot)
+            text = read_text(self.workspace.folder / (self.project.robot or ROBOT))
             write_atomically(self.workspace.folder / copy, text)
 
     def sheet(self, html: str) -> str:
