@@ -188,7 +188,7 @@ def _values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
 
 def _row(p: Mapping[str, Any], relation: str, top: float) -> str:
     name, value, sigma = html.escape(p["name"]), p["value"], p["sigma"]
-    hint = f' class=studio-hint title="{html.escape(f"{p["name"]} = {relation}")}"' if relation else ""
+    hint = ""
     share = p["relative_sigma_percent"]
     cells = (
         ["set aside", "", "", p["unit"], ""]
