@@ -88,9 +88,10 @@ def answer(function: str, arguments: tuple[Any, ...]) -> Any:
     Raises:
         ModelerError: as the function, or memory ran out.
     """
-    from modeler.studio import viewing
+    from modeler.studio import robot_views, viewing
 
-    found: Callable[..., Any] = getattr(viewing, function)
+    own = robot_views if hasattr(robot_views, function) else viewing
+    found: Callable[..., Any] = getattr(own, function)
     try:
         return found(*arguments)
     except MemoryError as error:
