@@ -6,11 +6,11 @@ from pathlib import Path
 
 import uvicorn
 from fastapi import FastAPI, Response
-from fastapi.responses import FileResponse, HTMLResponse
+from fastapi.responses import HTMLResponse
 from nicegui import Client, ui
 
 from modeler.core.errors import ModelerError
-from modeler.core.files import resource_dir
+from modeler.core.files import read_text, resource_dir
 from modeler.studio import (
     data_screen,
     days_screen,
@@ -96,9 +96,11 @@ def _routes(app: FastAPI, hub: Hub) -> None:
 
     @app.get("/studio.{kind}")
     def file(kind: str) -> Response:
-        if kind not in ("js", "css"):
+        types = {"js": "text/javascript", "css": "text/css"}
+        if kind not in types:
             return Response(status_code=404)
-        return FileResponse(own / f"studio.{kind}")
+        parts = [read_text(path) for path in sorted(own.glob(f"*.{kind}"))]
+        return Response("\n".join(parts), media_type=types[kind])
 
     @app.get("/sheet/{digest}.html")
     def sheet(digest: str) -> Response:

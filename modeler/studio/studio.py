@@ -44,7 +44,7 @@ class Hub:
         self, workspace: Workspace, allowed: tuple[Path, ...], screens: Mapping[str, Screen]
     ) -> None:
         self.workspace, self.allowed, self.screens = workspace, allowed, screens
-        self.viewer = Viewer()
+        self.viewer = Viewer(workspace.folder)
         self.running: Running | None = None
         self.studios: list[Studio] = []
         self.sheets: OrderedDict[str, str] = OrderedDict()
@@ -198,13 +198,19 @@ class Studio:
             self.show_error(str(error))
             return None
 
-    async def view(self, question: str, *arguments: Any) -> Any:
-        """The answer of the viewer to a function of `studio.viewing`.
+    async def view(self, question: str, *arguments: Any, kind: str = "") -> Any:
+        """The answer of the viewer to a function of `studio.viewing`; see `Viewer.ask`.
+
+        Args:
+            question: name of the function.
+            arguments: of it; files relative to the folder.
+            kind: of questions of this window of which only the newest is answered, others None.
 
         Raises:
             ModelerError: it has none; its line.
         """
-        return await self.hub.viewer.ask(question, *arguments)
+        own = f"{id(self)} {kind}" if kind else ""
+        return await self.hub.viewer.ask(question, *arguments, kind=own)
 
     def show_error(self, line: str) -> None:
         """One line, in this window; "" takes the last one away."""

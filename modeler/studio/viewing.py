@@ -4,7 +4,6 @@ Every function takes plain arguments and answers with plain data or a `Picture`.
 and kept until they change.
 """
 
-import os
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -59,7 +58,7 @@ def _state(place: str) -> tuple[str, int, int]:
     """A file as it is now; a window after it belongs to its name."""
     path = str(log_maps.file_and_span(place)[0])
     try:
-        status = os.stat(path)
+        status = Path(path).stat()
     except OSError as error:
         raise DataError(
             f"{path}: cannot be read ({error.strerror}); put the file back, or take it out"
@@ -155,29 +154,58 @@ def log_window(
     return found
 
 
-def log_motion(
-    place: str, words: Sequence[str] = (), robot: str = "", start: float = -np.inf,
-    end: float = np.inf, rate: float = 30.0,
-) -> tuple[np.ndarray, dict[str, np.ndarray]]:  # fmt: skip
-    """Times of a film and the position of every joint there, rad or m.
+def log_film(
+    place: str, names: Sequence[str], words: Sequence[str] = (), robot: str = "",
+    start: float = -np.inf, end: float = np.inf, rate: float = 30.0,
+) -> dict[str, np.ndarray]:  # fmt: skip
+    """Values of columns at times that are evenly apart, and those, as `time`.
 
     Args:
         place: the log's file.
+        names: of columns, as `log_facts` has them; one that is not there is left out.
         words: of the mapping.
-        robot: robot file; it says which positions there are.
+        robot: robot file.
         start: s.
         end: s.
         rate: pictures a second.
     """
-    log = _log(place, words, robot)
-    time, values = _rows(log, start, end)
-    if time.size == 0:
-        return time, {}
-    count = min(int((time[-1] - time[0]) * rate) + 2, 20_000)
-    at = np.linspace(time[0], time[-1], count)
-    joints = [joint.name for joint in _joints(robot)]
-    named = {name: values[f"q{name}"] for name in joints if f"q{name}" in values}
-    return at, {name: np.interp(at, time, own) for name, own in named.items()}
+    time, values = _rows(_log(place, words, robot), start, end)
+    known = time[np.isfinite(time)]
+    if known.size == 0:
+        return {"time": known}
+    count = min(int((known[-1] - known[0]) * rate) + 2, 20_000)
+    at = np.linspace(known[0], known[-1], count)
+    found = {"time": at}
+    for name in (name for name in names if name in values):
+        there = np.isfinite(values[name]) & np.isfinite(time)
+        found[name] = np.interp(at, time[there], values[name][there]) if there.any() else at * np.nan
+    return found
+
+
+def log_guess(place: str, robot: str = "") -> LogGuess:
+    """What the columns of a log are by their names and ranges.
+
+    Args:
+        place: the log's file.
+        robot: robot file; "" where there is none yet: joints are then counted from 1.
+    """
+
+    def look() -> LogGuess:
+        path, joints = Path(place), robot_joints(robot)
+        stated = _robot(robot).log_words if robot else {}
+        names = LogMap(names=map_from_table(stated, f"{robot}: [log]").names)
+        blocks = blocks_of(path)
+        part = None if blocks is None or blocks.rows <= LONG else windows_of(blocks, 8, 4096)
+        table = LogTable(path, names, joints, True, part)
+        seen = inspect_log(table, names, joints, (None, None))
+        columns = [name for name, _ in table.found.columns]
+        count = 1 if seen.positions is None else len(seen.positions.names)
+        found, ranged = guess_from(seen.suggested, seen.plain, joints or anybody(count), columns)
+        clock = next((part for part in seen.streams if part.clock), None)
+        alike = [part.kind for part in seen.streams].count(clock.kind) > 1 if clock else False
+        return LogGuess(found, ranged, clock.name if clock and alike else "", seen.doubts)
+
+    return _kept("guess", (_state(place), robot and _state(robot)), look, 60)
 
 
 def _rows(log: _Log, start: float, end: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
@@ -224,7 +252,7 @@ def _read(place: str, words: Sequence[str], robot: str) -> _Log:
     if robot:
         stated = _robot(robot)
         mapping = mapping.overriding(map_from_table(stated.log_words, f"{robot}: [log]"))
-    joints = _joints(robot)
+    joints = robot_joints(robot)
     if mapping.auto:
         guessed = log_maps.look_at(place, None, LogMap(names=mapping.names)).suggested
         mapping = log_maps.suggested_map(guessed, mapping)
@@ -277,7 +305,7 @@ def _robot(place: str) -> Robot:
     return _kept("robot", _state(place), lambda: read_robot(place))
 
 
-def _joints(place: str) -> tuple[JointSpec, ...]:
+def robot_joints(place: str) -> tuple[JointSpec, ...]:
     """Of a robot file, without deriving anything; none without one."""
     if not place:
         return ()
@@ -370,7 +398,8 @@ def torque_picture(
     ends = float(time[rows[0]]), float(time[rows[-1]])
     what = f"{WORDS[unit]} [{unit}]"
     return Picture(
-        f"torque_{joint}", f"Joint {joint}: measured and predicted", validation.mask_caption(first, j),
+        f"torque_{joint}", f"Joint {joint}: measured and predicted",
+        validation.mask_caption(first, j),
         ((Panel("", label, what, tuple(above), marks=marks, spans=spans, x_range=ends),),
          (Panel("", label, f"residual [{unit}]", tuple(below), marks=marks, zero=True, spans=spans,
                 x_range=ends),)),
