@@ -55,7 +55,7 @@ _DASK = value(
 _FORCE = flag(
     "--force", "write also over files of DIR that no earlier run wrote, or that were edited since"
 )
-_PICTURES = "folder for every picture as PNG, SVG and CSV"
+_PICTURES = "folder for every picture as PNG, SVG and CSV; or a file for all as plain data"
 _OPEN = flag("--open", "show the page in the browser; without --report one in a temporary folder")
 _DRAWN = "draw it: .png, .svg or .pdf"
 METHODS = (*get_args(errors.Method), errors.GAIN_METHOD, errors.TWO_STEPS)
@@ -73,8 +73,9 @@ def _page(kind: type[places.Output] = places.Output) -> tuple[Argument, Argument
     return value("--report", "PAGE.html", kind, text, old=("--page",)), _OPEN
 
 
-def _pictures(kind: type[places.OutputFolder]) -> Argument:
-    return value("--picture", "DIR", kind, _PICTURES, old=("--pictures",))
+def _pictures(kind: type[places.Pictures] = places.Pictures) -> Argument:
+    old = () if kind is places.Pictures else ("--pictures",)
+    return value("--picture", "DIR|FILE.json", kind, _PICTURES, old=old)
 
 
 class Methods(places.Word):
@@ -367,7 +368,7 @@ _FIT = Command(
         value("--essential-below", "PERCENT", float,
               "keep in the reduced model what has a sigma below this share of its value (papers: "
               "15); left out: what an F-test misses"),
-        _PROCESSING, _LOAD, _DASK, *_page(),
+        _PROCESSING, _LOAD, _DASK, *_page(), _pictures(),
     ),
     lacks=_out_of_fit,
 )  # fmt: skip
@@ -440,7 +441,7 @@ _FLEET = Command(
                   "processes that read logs; left out: one for few logs, all processors for many"),
             _DASK,
         )),
-        *_page(),
+        *_page(), _pictures(),
     ),
 )  # fmt: skip
 
@@ -459,7 +460,7 @@ _DIAGNOSE = Command(
                 "logs of other motion: errors come from them, nothing is fitted to them"),
         repeated("--without", "EFFECT[@J]", places.Word,
                  "an effect that this robot does not have, on one joint or at all"),
-        _MAP, *_page(),
+        _MAP, *_page(), _pictures(),
     ),
 )  # fmt: skip
 
@@ -480,7 +481,7 @@ _ADD = Command(
         several("--holdout", "LOG", places.LogFile, "logs of other motion to judge on"),
         value("--robot-out", "FILE.toml", places.Output, "write the new robot file too",
               old=("--robot",)),
-        _MAP, *_page(),
+        _MAP, *_page(), _pictures(),
     ),
 )  # fmt: skip
 

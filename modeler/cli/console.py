@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from modeler import __version__
+from modeler.cli.places import OutputFolder
 from modeler.core.errors import ModelerError, on_one_line
 from modeler.core.files import Kind, destination, write_atomically
 
@@ -183,14 +184,24 @@ def draw_page(place: str | None, page: "Callable[[], Page]") -> None:
         say(f"written: {written}")
 
 
-def draw_pictures(folder: str | None, pictures: "Callable[[], Sequence[Picture]]") -> None:
-    """Writes pictures and their numbers into a folder, if one is given."""
-    if folder is not None:
-        from modeler.report import write_files
+def draw_pictures(place: str | None, pictures: "Callable[[], Sequence[Picture]]") -> None:
+    """Writes pictures and their numbers, if a place for them is given."""
+    if place is not None:
+        say(f"written: {written_pictures(place, pictures())}")
 
-        with progress("drawing pictures") as bar:
-            written = write_files(Path(folder), pictures(), bar)
-        say(f"written: {len(written)} files in {folder}")
+
+def written_pictures(place: str, pictures: "Sequence[Picture]") -> str:
+    """Writes pictures into a folder, or as plain data into a file; says where they are."""
+    if not isinstance(place, OutputFolder):
+        from modeler.core.picture_file import pictures_text
+
+        write_atomically(Path(place), pictures_text(pictures))
+        return place
+    from modeler.report import write_files
+
+    with progress("drawing pictures") as bar:
+        written = write_files(Path(place), pictures, bar)
+    return f"{len(written)} files in {place}"
 
 
 def write_stdout(text: str) -> None:

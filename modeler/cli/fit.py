@@ -13,7 +13,17 @@ from modeler.api.log_maps import settled
 from modeler.api.long_logs import Telling
 from modeler.api.workflow import compile_model, derive, generate
 from modeler.cli.command_table import ALL, Methods
-from modeler.cli.console import Json, draw_page, note, progress, say, say_lines, show_next, working
+from modeler.cli.console import (
+    Json,
+    draw_page,
+    draw_pictures,
+    note,
+    progress,
+    say,
+    say_lines,
+    show_next,
+    working,
+)
 from modeler.cli.lists import robot_of, use_options_of
 from modeler.core.errors import GAIN_METHOD, DataError
 from modeler.core.files import write_atomically
@@ -21,7 +31,7 @@ from modeler.core.jobs import Workers, open_workers
 from modeler.core.table import aligned
 from modeler.estimation import OF_TRIANGLES, IdentifiedModel, save_model, side_by_side
 from modeler.observation import Log, Observation, Processing, check_apart
-from modeler.report import after_fit, estimators_page, remarks_of, table_of, values_of, write_page
+from modeler.report import after_fit, estimators_page, remarks_of, table_of, values_of
 from modeler.robot import INERTIAL, read_robot, robot_from_text, with_parameters
 
 
@@ -157,12 +167,13 @@ def _written(
     *told, verdict = model.fit.lines()
     say_lines([*observation.report.lines(), "", *lines, *told])
     say(f"written: {args.out}")
-    if args.report is not None:
+    if args.report is not None or args.picture is not None:
         from modeler.report import fit_page  # pages take long to load
 
         following = after_fit(args.out, args.logs, args.robot, model.fit, args.map)
         page = fit_page(model, observation.report.lines(), args.out, following)
-        say(f"written: {write_page(Path(args.report), page)}")
+        draw_page(args.report, lambda: page)
+        draw_pictures(args.picture, page.pictures)
     if args.robot_out is not None:
         robot = robot_from_text(model.robot_text, "robot of the model")
         # Of inertial parameters only those that the robot file may state.
@@ -200,7 +211,10 @@ def _compare_methods(args: argparse.Namespace, processing: Processing) -> Json:
     tables = (aligned(table, (0,)) for table in (table_of(tried), values_of(tried)))
     say_lines([*lines, *(row.rstrip() for table in tables for row in ("", *table)), ""])
     say_lines(f"{method}: {remark}" for method, remark in remarks_of(tried))
-    draw_page(args.report, lambda: estimators_page(args.robot, tried, lines))
+    if args.report is not None or args.picture is not None:
+        page = estimators_page(args.robot, tried, lines)
+        draw_page(args.report, lambda: page)
+        draw_pictures(args.picture, page.pictures)
     return {
         "training": list(args.logs),
         "holdout": list(args.holdout),

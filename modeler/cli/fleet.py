@@ -7,7 +7,7 @@ from pathlib import Path
 
 from modeler.api import compile_model, derive, generate
 from modeler.api.fleets import file_and_at, reduce_logs
-from modeler.cli.console import Json, draw_page, progress, say_lines, working
+from modeler.cli.console import Json, draw_page, draw_pictures, progress, say_lines, working
 from modeler.cli.lists import robot_of
 from modeler.cli.places import LOG_ENDINGS
 from modeler.core.errors import DataError
@@ -38,7 +38,10 @@ def run_fleet(args: argparse.Namespace) -> Json:
     with working("comparing machines and days"):
         found = fleet_of(emitted.spec, given)
     say_lines(fleet_lines(found))
-    draw_page(args.report, lambda: fleet_page(found))
+    if args.report is not None or args.picture is not None:
+        page = fleet_page(found)
+        draw_page(args.report, lambda: page)
+        draw_pictures(args.picture, page.pictures)
     return found.to_json()
 
 

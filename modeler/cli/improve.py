@@ -5,7 +5,17 @@ from pathlib import Path
 
 import modeler.api.improve as improve
 from modeler import report
-from modeler.cli.console import Json, progress, say, say_lines, show_next, working
+from modeler.cli.console import (
+    Json,
+    draw_page,
+    draw_pictures,
+    progress,
+    say,
+    say_lines,
+    show_next,
+    working,
+    written_pictures,
+)
 from modeler.cli.lists import use_options_of
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
@@ -29,8 +39,7 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     with progress("looking for missing effects") as bar:
         diagnosis = improve.missing(model, compiled, logs, args.without, bar)
     following = report.after_diagnosis(args.model, args.logs, args.holdout, diagnosis)
-    wrote = []
-    if args.report is not None:
+    if args.report is not None or args.picture is not None:
         shown = [Path(place).name for place in (*args.logs, *args.holdout)]
         provenance = [
             f"model: {model.spec.robot}, {len(model.beta)} base parameters, fitted on "
@@ -40,11 +49,10 @@ def run_diagnose(args: argparse.Namespace) -> Json:
         ]
         origin = report.Origin(args.model, shown, bool(diagnosis.held_out), following)
         with working("drawing"):
-            place = report.write_page(
-                Path(args.report), report.diagnosis_page(diagnosis, provenance, origin)
-            )
-        wrote = [f"written: {place}"]
-    say_lines([*lines(diagnosis), *model.warning, *wrote])
+            page = report.diagnosis_page(diagnosis, provenance, origin)
+    say_lines([*lines(diagnosis), *model.warning])
+    draw_page(args.report, lambda: page)
+    draw_pictures(args.picture, lambda: page.pictures())
     show_next(following)
     return diagnosis.to_json()
 
@@ -97,11 +105,16 @@ def run_add(args: argparse.Namespace) -> Json:
     if args.robot_out is not None:
         write_atomically(Path(args.robot_out), better.robot_text)
         places.append(args.robot_out)
-    if args.report is not None and better.history:
+    drawn = []
+    if (args.report is not None or args.picture is not None) and better.history:
         held = better.history[-1].held_out
         origin = report.Origin(args.out, held or args.logs, bool(held), following)
-        report.write_page(Path(args.report), report.additions_page(better, left_out, origin))
-        places.append(args.report)
+        page = report.additions_page(better, left_out, origin)
+        if args.report is not None:
+            places.append(str(report.write_page(Path(args.report), page)))
+        drawn = page.pictures()
+    if args.picture is not None:
+        places.append(written_pictures(args.picture, drawn))
     say_lines([*waterfall(better), *added(better), *left_out])
     say_lines([*notes(better, max(1, len(model.history))), *model.warning])
     if better.fit.verdict is not None:

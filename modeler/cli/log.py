@@ -18,7 +18,7 @@ from modeler.api.log_maps import (
     suggested_map,
 )
 from modeler.api.long_logs import are_long, judged_long, too_long
-from modeler.cli.console import Json, progress, say, say_lines, working
+from modeler.cli.console import Json, say, say_lines, working, written_pictures
 from modeler.cli.lists import check_own_file, read_robot_with_notes
 from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import write_atomically
@@ -27,7 +27,7 @@ from modeler.core.table import aligned, percent
 from modeler.estimation import FitResult, identify, log_findings, stream
 from modeler.logs import LogInspection, LogMap, map_from_words, marks_of, most_of
 from modeler.observation import Observation, WholeLogNeeded, bands_of, noise_of_positions, source_of
-from modeler.report import channel_rows, clock_line, log_page, log_pictures, write_files, write_page
+from modeler.report import channel_rows, clock_line, log_page, log_pictures, write_page
 from modeler.robot import with_log
 from modeler.runtime import CompiledModel
 
@@ -79,9 +79,7 @@ def run_log(args: argparse.Namespace) -> Json:
         with working("drawing the page"):
             places.append(str(write_page(Path(args.report), log_page(seen, doubts, [], bands))))
     if args.picture is not None:
-        with progress("drawing pictures") as bar:
-            written = write_files(Path(args.picture), log_pictures(seen, bands), bar)
-        places.append(f"{len(written)} files in {args.picture}")
+        places.append(written_pictures(args.picture, log_pictures(seen, bands)))
     if places:
         say(f"written: {', '.join(places)}")
     plain = [dataclasses.asdict(mark) for mark in marks]

@@ -12,6 +12,7 @@ import stat
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from modeler.core import files
 from modeler.core.builtin import LOG_ENDINGS, MOTIONS, OTHER_PROGRAMS, builtin_file, builtin_names
@@ -196,13 +197,27 @@ class ModuleFolder(OutputFolder):
     )  # fmt: skip
 
 
-class PictureFolder(OutputFolder):
+class PictureData(Output):
+    """A file of pictures as plain data."""
+
+
+class Pictures(OutputFolder):
+    """Of the pictures of a page; a name that ends in .json is one file with their numbers."""
+
+    writes: tuple[str, ...] = ("*.png", "*.svg", "*.csv")
+
+    def __new__(cls, text: str) -> Any:
+        """The folder, or the file."""
+        return PictureData(text) if text.lower().endswith(".json") else super().__new__(cls, text)
+
+
+class PictureFolder(Pictures):
     """Of the pictures of a comparison."""
 
     writes = ("overview.*", "joint_*_time.*", "joint_*_residual.*", "joint_*_free_run.*")
 
 
-class LogPictures(OutputFolder):
+class LogPictures(Pictures):
     """Of the pictures of a log."""
 
     writes = ("clock.*", "channels_*.*")

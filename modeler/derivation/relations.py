@@ -11,7 +11,7 @@ from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from modeler.core.expression import decimal_text
+from modeler.core.expression import decimal_text, parse
 from modeler.core.formula import Formula, latex_name, name, number, operator, row
 from modeler.core.latex_display import DisplayedEquation, display
 from modeler.derivation.result import (
@@ -207,6 +207,22 @@ def as_json(robot: str, base: BaseParameters) -> dict[str, Any]:
         "proof": base.proof.kind,
         "certificate": _certificate(base.proof),
     }
+
+
+def from_json(entry: Mapping[str, Any], halves: bool = False) -> BaseParameter:
+    """A base parameter as `as_json` wrote it; its place among the columns is not kept."""
+    terms = []
+    for term in entry["terms"]:
+        read = parse(str(term["coefficient"]))
+        letters = {letter: sympy.Symbol(letter) for letter in read.names}
+        functions = {known: getattr(sympy, known) for known in ("sin", "cos", "tan", "sqrt", "exp")}
+        exact = read.fold(letters, functions, sympy.pi, _rational)
+        terms.append(Term(exact, term["parameter"]))
+    return BaseParameter(entry["name"], -1, tuple(terms), halves)
+
+
+def _rational(value: Fraction) -> sympy.Rational:
+    return sympy.Rational(value.numerator, value.denominator)
 
 
 def _certificate(proof: Proof) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from .definition import (
 from .effect import (
     Acts as Acts,
     Effect as Effect,
+    EffectColumn as EffectColumn,
     EnergyBlock as EnergyBlock,
     Form as Form,
     Memory as Memory,

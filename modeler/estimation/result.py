@@ -301,6 +301,8 @@ class Verdict(Brief):
         doubts: all that speaks against it.
         unseen: faults that logs may have and these would not show, in words.
         by_joint: the same joint by joint; empty in files that lack it.
+        possible: whether a machine with these values could be built; None where nobody asked, as
+            where the logs are at fault.
     """
 
     usable: bool
@@ -309,6 +311,7 @@ class Verdict(Brief):
     doubts: tuple[str, ...]
     unseen: tuple[str, ...] = ()
     by_joint: Mapping[str, JointVerdict] = field(default_factory=dict)
+    possible: bool | None = None
 
     def warning(self) -> list[str]:
         """A line for whoever uses a model that is not usable; none for one that is."""
@@ -444,6 +447,7 @@ class FitResult(Presented):
             "verdict": None if verdict is None else verdict.line,
             "doubts": [] if verdict is None else verdict.doubts,
             "by_joint": {} if verdict is None else verdict.by_joint,
+            "possible": None if verdict is None else verdict.possible,
             **({"unseen": verdict.unseen} if verdict is not None and verdict.unseen else {}),
             **({"reading": dict(self.reading)} if self.reading else {}),
         })  # fmt: skip

@@ -181,6 +181,7 @@ def with_verdict(
     seen = crossed(equations, rows, sigma, refit, prior)
     unseen = tuple(doubt.line for doubt in told if doubt.unseen)
     found = [doubt for doubt in told if not doubt.unseen]
+    possible = None
     if not any(doubt.certain for doubt in found):  # else what the fit says is said of the fault
         found += [*time_doubts(model, observation, result), *doubts.noisy_motion(observation)]
         found += [*doubts.scarce(result, seen), *doubts.undescribed(result)]
@@ -189,11 +190,13 @@ def with_verdict(
         found += doubts.systematic(result, _lasting(equations, rows, result))
         found += [Doubt(line, values=True) for line in result.contradicted]
         found += doubts.undetermined(model.spec, result, _spread(data, result))
-        found += [*_impossible(model.spec, result, data), *doubts.negative(model.spec, result)]
+        impossible = _impossible(model.spec, result, data)
+        possible = not impossible
+        found += [*impossible, *doubts.negative(model.spec, result)]
     verdict = _verdict(found, _predicts(equations, rows, result, seen))
     directions = friction_by_direction(model.spec, result)
     by_joint = _by_joint([*found, *result.of_joints], result, seen)
-    verdict = dataclasses.replace(verdict, unseen=unseen, by_joint=by_joint)
+    verdict = dataclasses.replace(verdict, unseen=unseen, by_joint=by_joint, possible=possible)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
 
 

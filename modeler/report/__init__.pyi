@@ -4,7 +4,7 @@ from .comparison import (
     comparison_page as comparison_page,
     contest_page as contest_page,
 )
-from .derivation import derivation_page as derivation_page
+from .derivation import derivation_page as derivation_page, relations_html as relations_html
 from .diagnosis import diagnosis_page as diagnosis_page
 from .estimators import (
     estimators_page as estimators_page,
@@ -36,8 +36,10 @@ from .robot_drawing import modes_bytes as modes_bytes, picture_bytes as picture_
 from .robot_page import (
     PICTURE_KINDS as PICTURE_KINDS,
     modes_html as modes_html,
+    page_content as page_content,
     posture_json as posture_json,
     posture_lines as posture_lines,
+    robot_html as robot_html,
     show as show,
 )
 from .robot_skeleton import size_of as size_of, skeleton_of as skeleton_of

@@ -1,7 +1,7 @@
 """Robots and what is derived from them: page, tables and figures of a notebook."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeler.codegen import Derivation
@@ -12,9 +12,9 @@ from modeler.core.table import MathCell, Table
 from modeler.derivation import HomeModes, relations, written
 from modeler.report.blocks import Block, FormulaBlock, PageTable, Paragraph
 from modeler.report.figures import robot_figure
-from modeler.report.page import Origin, Page, Section
+from modeler.report.page import Origin, Page, Section, render
 from modeler.report.robot_page import robot_text, table_head, table_rows
-from modeler.robot import JointKind, Robot, written_table
+from modeler.robot import JointKind, Robot, parameter_words, written_table
 from modeler.runtime import CompiledModel
 
 
@@ -219,3 +219,27 @@ def _table(robot: Robot, tied: Sequence[str]) -> list[Block]:
     )
     blocks: list[Block] = [PageTable(head, rows, note, dict.fromkeys(head, "number"))]
     return blocks + [Paragraph(line) for line in tied]
+
+
+def relations_html(result: Mapping[str, Any], robot: Robot) -> str:
+    """The base parameters of a result of `modeler derive --json`, typeset, as a part of a page.
+
+    Each names the rows that it is about, and says what every term is.
+
+    Args:
+        result: as JSON has it.
+        robot: that was derived.
+    """
+    words = parameter_words(robot)
+    entries = []
+    for entry in result["base"]:
+        parameter = relations.from_json(entry, robot.halves)
+        first, *terms = relations.relation_formula(parameter)
+        known = [(term.parameter, words.get(term.parameter)) for term in parameter.terms]
+        rows = dict.fromkeys(row for _, word in known if word for row in word.rows)
+        unit = next((word.unit for _, word in known if word), entry.get("unit", ""))
+        told = list(zip(terms, known, strict=True))
+        entries.append({"name": entry["name"], "pieces": (first, *terms), "unit": unit,
+                        "rows": " ".join(rows), "terms": told})  # fmt: skip
+    without = [(name, words.get(name)) for name in result["unidentifiable"]]
+    return render("relations", entries=entries, without=without)

@@ -14,7 +14,7 @@ import jinja2
 
 from modeler.core.figure import Picture
 from modeler.core.files import page_place, resource_dir, write_atomically
-from modeler.report.blocks import Block
+from modeler.report.blocks import Block, Figure
 from modeler.report.figure_page import Numbers, cells, drawn, keys, packed, plotted
 
 if TYPE_CHECKING:
@@ -247,6 +247,17 @@ class Page:
     def __str__(self) -> str:
         """The HTML."""
         return page_text(self)
+
+    def pictures(self) -> list[Picture]:
+        """All that it shows, in order, each under a name of its own."""
+        blocks = (block for section in self.sections for block in section.blocks)
+        found: dict[str, Picture] = {}
+        for picture in (block.picture for block in blocks if isinstance(block, Figure)):
+            name = picture.name
+            alike = sum(own == name or own.startswith(f"{name}_again_") for own in found)
+            name = f"{name}_again_{alike}" if name in found else name
+            found[name] = dataclasses.replace(picture, name=name)
+        return list(found.values())
 
 
 def page_text(sheet: Page) -> str:

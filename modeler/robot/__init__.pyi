@@ -19,9 +19,11 @@ from .edit import (
     with_coupling as with_coupling,
     with_drive_gains as with_drive_gains,
     with_effect as with_effect,
+    with_effect_on as with_effect_on,
     with_effects as with_effects,
     with_gravity as with_gravity,
     with_home_text as with_home_text,
+    with_limits as with_limits,
     with_log as with_log,
     with_own_effect as with_own_effect,
     with_parameters as with_parameters,
@@ -31,6 +33,14 @@ from .loops import read_home as read_home
 from .mdh_rows import roll_pitch_yaw as roll_pitch_yaw
 from .mjcf import mjcf_tree as mjcf_tree
 from .motors import joint_directions as joint_directions
+from .parameter_words import ParameterWords as ParameterWords, parameter_words as parameter_words
+from .pasted import (
+    PastedTable as PastedTable,
+    pasted_cells as pasted_cells,
+    pasted_robot as pasted_robot,
+    pasted_table as pasted_table,
+    with_pasted as with_pasted,
+)
 from .read import read_robot as read_robot, robot_from_text as robot_from_text
 from .robot import (
     INERTIAL as INERTIAL,
@@ -53,6 +63,14 @@ from .start import (
     convert as convert,
     new_robot as new_robot,
     template_robot as template_robot,
+)
+from .table_text import (
+    TableText as TableText,
+    cell_of as cell_of,
+    table_text as table_text,
+    with_cell as with_cell,
+    with_row as with_row,
+    without_row as without_row,
 )
 from .tree_cuts import lock_values as lock_values
 from .urdf import urdf_tree as urdf_tree

@@ -279,6 +279,70 @@ def _belongs(
     return False
 
 
+def with_effect_on(
+    text: str, effect: str, joint: str, wanted: bool, everyone: Sequence[str]
+) -> str:
+    """The robot file where a joint has a plain effect, or has it no more.
+
+    Args:
+        text: of the file.
+        effect: id.
+        joint: name.
+        wanted: True: it has it.
+        everyone: the joints that "all" means.
+
+    Raises:
+        RobotError: see `with_effects`.
+    """
+    effects: dict[str, Any] = dict(_stated(text, "effects"))
+    known = effect_named(effect, _catalogue(text))
+    ids = (effect,) if known is None else (known.id, *known.aliases)
+    name = next((n for n in effects if n in ids), effect)
+    before = effects.get(name, [])
+    has = list(everyone) if before == "all" else list(before)
+    kept = [e for e in has if (e["joint"] if isinstance(e, dict) else e) != joint]
+    kept += [joint] if wanted else []
+    every = sorted(map(str, kept)) == sorted(everyone)
+    effects[name] = "all" if every else [e for e in everyone if e in kept] + [
+        e for e in kept if e not in everyone
+    ]  # fmt: skip
+    return with_effects(text, {n: joints for n, joints in effects.items() if joints})
+
+
+def with_limits(text: str, joint: str, cells: Sequence[str]) -> str:
+    """The robot file with other limits of a joint; without them where all cells are empty.
+
+    Args:
+        text: of the file.
+        joint: name.
+        cells: lower, upper, speed, acceleration, as a robot file may write them.
+
+    Raises:
+        RobotError: the file's own table is written in a way that cannot be replaced line by line.
+    """
+    limits = dict(_stated(text, "limits"))
+    limits[joint] = [_cell(cell) for cell in cells]
+    if not any(cell.strip() for cell in cells):
+        del limits[joint]
+    return _with_table(text, "limits", limits, "one joint a line")
+
+
+def _stated(text: str, table: str) -> Mapping[str, Any]:
+    """A table with its entries for every leg."""
+    document = tomllib.loads(text)
+    found: Mapping[str, Any] = expanded(document, Place("robot file")).get(table, {})
+    return found
+
+
+def _cell(text: str) -> str | float:
+    """A number as such, all else as text."""
+    plain = text.strip()
+    try:
+        return float(plain)
+    except ValueError:
+        return plain
+
+
 def _toml(value: object) -> str:
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)

@@ -1,18 +1,23 @@
 """The server: one page, nine screens, and what stands around them."""
 
+import io
 import socket
+import zipfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from urllib.parse import quote
 
 import uvicorn
 from fastapi import FastAPI, Response
-from fastapi.responses import FileResponse, HTMLResponse
+from fastapi.responses import HTMLResponse
 from nicegui import Client, ui
 
-from modeler.core.files import resource_dir
+from modeler.core.errors import ModelerError
+from modeler.core.files import read_text, resource_dir
 from modeler.studio import (
     data_screen,
     days_screen,
+    dropped,
     fails_screen,
     fall_screen,
     fit_screen,
@@ -47,7 +52,7 @@ def serve(
     allow: Sequence[Path] = (),
     port: int = 0,
     demo: bool = False,
-    told: Callable[[str], None] = lambda address: None,
+    told: Callable[[str, str], None] = lambda address, once: None,
 ) -> None:
     """Serves the studio of a project folder on this machine, until it is interrupted.
 
@@ -56,14 +61,22 @@ def serve(
         allow: folders whose files may be chosen where they lie, besides it.
         port: 0: one that is free.
         demo: True: begin with the built-in arm that has a hidden effect.
-        told: is called with the address, its token in it, when it answers.
+        told: is called when it answers, with the address, its token in it, and one that can be
+            opened once.
 
     Raises:
         ModelerError: the folder cannot be used, or the port is taken.
     """
     with folder_lock(folder) as own, socket.socket() as door:
         workspace = Workspace(folder, writable=own)
-        door.bind(("127.0.0.1", port))
+        try:
+            door.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # one that ended may linger
+            door.bind(("127.0.0.1", port))
+            door.listen()  # who comes before all is ready waits
+        except OSError as error:
+            raise ModelerError(
+                f"--port {port}: cannot be opened ({error.strerror}); choose another one, or 0"
+            ) from None
         screens = {name: draw for name, (_, draw) in JOBS.items()}
         hub = Hub(workspace, (folder, *allow), {"start": start_screen.draw, **screens})
         inner = FastAPI(openapi_url=None)
@@ -72,7 +85,7 @@ def serve(
         ui.run_with(inner, title="modeler studio", dark=None, show_welcome_message=False)
         guard = Guard(inner, door.getsockname()[1])
         config = uvicorn.Config(guard, log_level="warning", lifespan="on")
-        told(guard.address)
+        told(guard.address, guard.once)
         try:
             uvicorn.Server(config).run(sockets=[door])
         finally:
@@ -81,18 +94,49 @@ def serve(
 
 def _routes(app: FastAPI, hub: Hub) -> None:
     """What is no page of the studio itself."""
+    dropped.add_route(app, hub.workspace.folder, lambda: hub.workspace.writable)
     own = resource_dir("templates") / "studio"
 
     @app.get("/studio.{kind}")
     def file(kind: str) -> Response:
-        if kind not in ("js", "css"):
+        types = {"js": "text/javascript", "css": "text/css"}
+        if kind not in types:
             return Response(status_code=404)
-        return FileResponse(own / f"studio.{kind}")
+        parts = [read_text(path) for path in sorted(own.glob(f"*.{kind}"))]
+        return Response("\n".join(parts), media_type=types[kind])
+
+    @app.get("/download/{key}")
+    def download(key: str) -> Response:
+        content, name = hub.downloads.get(key, (b"", ""))
+        if not name:
+            return Response(status_code=404)
+        if isinstance(content, bytes):
+            return _attached(content, name)
+        if content.is_dir():
+            return _attached(_zipped(content, name), f"{name}.zip")
+        if not content.is_file():
+            return Response("the file is gone; make it again\n", 404)
+        return FileResponse(content, filename=name)
 
     @app.get("/sheet/{digest}.html")
     def sheet(digest: str) -> Response:
         html = hub.sheets.get(digest)
         return Response(status_code=404) if html is None else HTMLResponse(html)
+
+
+def _zipped(folder: Path, name: str) -> bytes:
+    """A folder as ZIP, in a folder of that name."""
+    held = io.BytesIO()
+    with zipfile.ZipFile(held, "w", zipfile.ZIP_DEFLATED) as archive:
+        for file in sorted(file for file in folder.rglob("*") if file.is_file()):
+            archive.write(file, f"{name}/{file.relative_to(folder).as_posix()}")
+    return held.getvalue()
+
+
+def _attached(content: bytes, name: str) -> Response:
+    """Bytes that the browser saves."""
+    headers = {"content-disposition": f"attachment; filename*=UTF-8''{quote(name)}"}
+    return Response(content, media_type="application/octet-stream", headers=headers)
 
 
 def _pages(hub: Hub, first: str) -> None:

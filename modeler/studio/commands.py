@@ -4,11 +4,12 @@ Files are named relative to the folder of the project, in which the commands run
 studio itself (`--json`, `--picture`) comes to the words when they run, and is no part of a step.
 """
 
+import re
 import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from modeler.studio.project import ROBOT, Project
+from modeler.studio.project import Project, Step
 
 DRAWING = ("log", "fit", "compare", "diagnose", "add", "fleet")
 """Commands whose pictures are kept as plain data."""
@@ -85,6 +86,7 @@ def add(project: Project, effect: str, joint: str | None) -> Asked:
     return Asked("add", (*words, *_held(project), "--out", model), f"add {name}", model)
 
 
+<<<<<<< HEAD
 def look(project: Project, file: str) -> Asked:
     """What is in a log, and with a robot what contradicts it."""
     robot = ("--robot", project.robot) if project.robot else ()
@@ -98,8 +100,64 @@ def new_robot(joints: int) -> Asked:
 
 
 def demo(log: str, seed: int) -> Asked:
+=======
+def again(project: Project, step: Step) -> Asked:
+    """The page of what a step found: the same command, which ends as it did."""
+    number, own = project.next_number, out_of(step.words)
+    page, model = f"pages/{number}.html", f"models/{number}.json"
+    words = (*(model if word == own else word for word in step.words), "--report", page)
+    return Asked("page", words, f"page of {step.title}", page, about=step.number)
+
+
+def physical(project: Project) -> Asked:
+    """Which physical parameters follow from the values, if some are known."""
+    return Asked("physical", ("physical", project.model), "physical parameters")
+
+
+def generate(project: Project, precision: str = "double") -> Asked:
+    """C with the fitted values."""
+    folder = f"taken/{project.next_number}_c"
+    single = () if precision == "double" else ("--precision", precision)
+    words = ("generate", project.model, "--out", folder, *single)
+    return Asked("generate", words, "write C", folder)
+
+
+def export(project: Project, to: str, like: str = "") -> Asked:
+    """The robot with its values for another program.
+
+    Args:
+        project: with a model.
+        to: urdf, mjcf or sdf.
+        like: file of the same robot, of which only numbers are replaced.
+    """
+    out = f"taken/{project.next_number}.{'xml' if to == 'mjcf' else to}"
+    words = ("export", project.model, *(("--like", like) if like else ("--to", to)), "--out", out)
+    return Asked("export", words, f"write {to.upper()}", out)
+
+
+def out_of(words: Sequence[str]) -> str:
+    """What a command writes: the word behind `--out`."""
+    return words[words.index("--out") + 1] if "--out" in words else ""
+
+
+def as_it_was(asked: Asked, step: Step | None) -> bool:
+    """Whether a step is what would be done now, but for the numbers of its own files."""
+    return step is not None and _plain(asked.words) == _plain(step.words)
+
+
+def _plain(words: Sequence[str]) -> list[str]:
+    own = out_of(words)
+    return [word for word in words if word != own and not _COPY.fullmatch(word)]
+
+
+_COPY = re.compile(r"robots/\d+\.toml")
+
+
+def demo(project: Project, log: str, seed: int) -> Asked:
+>>>>>>> main
     """A measured run of the demonstration arm, whose machine has what its robot file lacks."""
-    words = ("simulate", ROBOT, "--duration", "20", "--seed", str(seed), "--noise", "0.01")
+    robot = robot_copy(project)
+    words = ("simulate", robot, "--duration", "20", "--seed", str(seed), "--noise", "0.01")
     hidden = ("--hide", "load_friction@2", "--out", log)
     return Asked("simulate", (*words, *hidden), f"measure {log}", about=0)
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from modeler.core.figure import Band, Bars, Curve, Heat, Means, Panel, Picture, Points, Series
+from modeler.core.figure import Band, Bars, Curve, Heat, Panel, Picture, Points, Series
 from modeler.core.style import BLUE, SHADE
 
 if TYPE_CHECKING:
@@ -89,16 +89,16 @@ def draw(picture: Picture, time: str = "") -> "ui.plotly":
     return plot
 
 
-def x_range(change: dict[str, Any]) -> tuple[float, float] | None | bool:
-    """What a `plotly_relayout` says of x: both ends, None where all is shown, False: nothing."""
+def x_range(change: dict[str, Any]) -> tuple[float, float] | None:
+    """What a `plotly_relayout` says of x: both ends, infinite where all is shown; or nothing."""
     for key, value in change.items():
         if key.startswith("xaxis") and key.endswith("autorange") and value:
-            return None
+            return -math.inf, math.inf
         if key.startswith("xaxis") and key.endswith(".range"):
             return float(value[0]), float(value[1])
         if key.startswith("xaxis") and key.endswith(".range[0]"):
             return float(value), float(change[key[:-2] + "1]"])
-    return False
+    return None
 
 
 def _number(place: int) -> str:
@@ -242,8 +242,8 @@ def _shapes(panel: Panel, n: str) -> Iterator[dict[str, Any]]:
     """Lines and shaded intervals of a panel; whole heights are in parts of it."""
     whole = {"xref": f"x{n}", "yref": f"y{n} domain", "y0": 0, "y1": 1, "layer": "below"}
     if panel.zero:
-        yield {"type": "line", "xref": f"x{n} domain", "yref": f"y{n}", "x0": 0, "x1": 1,
-               "y0": 0, "y1": 0, "layer": "below", "line": {"color": _FAINT, "width": 1}}  # fmt: skip
+        yield {"type": "line", "xref": f"x{n} domain", "yref": f"y{n}", "x0": 0, "x1": 1, "y0": 0,
+               "y1": 0, "layer": "below", "line": {"color": _FAINT, "width": 1}}  # fmt: skip
     shaded = [(span.color, ends) for span in panel.spans for ends in span.ends]
     shaded += [] if panel.shade is None else [(SHADE, np.array(panel.shade))]
     for color, (start, end) in shaded:

@@ -3,7 +3,7 @@
     project.toml            what follows
     robot.toml              the robot as it is edited
     robots/N.toml           the robot as it was when step N began
-    logs/ models/ results/ motions/ pages/
+    logs/ models/ results/ motions/ pages/ taken/
 
 A `Project` is what the file says and does not change; a `Workspace` holds the one that is valid now
 and writes the next. The file is written in one piece, so that whoever is killed loses no more than
@@ -24,7 +24,7 @@ from modeler.core.json import UndeclaredEntry, built, parse_toml
 
 FILE = "project.toml"
 ROBOT = "robot.toml"
-FOLDERS = ("robots", "logs", "models", "results", "motions", "pages")
+FOLDERS = ("robots", "logs", "models", "results", "motions", "pages", "taken")
 
 MAKING = ("fit", "add", "undo")
 """Kinds of steps that end in a model; other steps say something about one."""

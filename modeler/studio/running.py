@@ -133,8 +133,10 @@ class Running:
             status = await self._followed()
         except (OSError, ValueError) as error:  # ValueError: a NUL in a word
             return self._ended(1, f"{self.title}: cannot be started ({error}); check {self.folder}")
-        except asyncio.CancelledError:
+        except asyncio.CancelledError:  # the studio ends
             self.kill()
+            if self._process is not None:
+                await self._process.wait()
             raise
         if status and self._cancelled:
             return self._ended(INTERRUPTED, f"{self.title}: cancelled")

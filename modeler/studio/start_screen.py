@@ -69,7 +69,7 @@ async def begin_demo(hub: Hub) -> None:
         )
     write_atomically(hub.workspace.folder / ROBOT, builtin_text("demo-arm"))
     for log, seed in _RUNS:
-        await hub.run(commands.demo(log, seed))
+        await hub.run(commands.demo(hub.project, log, seed))
     train, held = (log for log, _ in _RUNS)
     logs = ProjectLog(train, train=(Stretch(),)), ProjectLog(held, test=(Stretch(),))
     hub.workspace.save(dataclasses.replace(hub.project, robot=ROBOT, logs=logs))

@@ -2,9 +2,11 @@
 
 import asyncio
 import multiprocessing
+import os
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
 from typing import Any
 
 from modeler.core.errors import DataError, short_of_memory
@@ -18,7 +20,9 @@ class Viewer:
     out), and ends with this one, even if that is killed. The event loop never waits.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, folder: Path = Path()) -> None:
+        """Names of files are relative to the folder."""
+        self._folder = folder
         self._pool: ProcessPoolExecutor | None = None
         self._turn = asyncio.Lock()
         self._newest: dict[str, int] = {}
@@ -57,7 +61,9 @@ class Viewer:
     async def _answered(self, function: str, arguments: tuple[Any, ...]) -> Any:
         if self._pool is None:
             context = multiprocessing.get_context("spawn")
-            self._pool = ProcessPoolExecutor(1, mp_context=context, initializer=attend)
+            self._pool = ProcessPoolExecutor(
+                1, mp_context=context, initializer=_begun, initargs=(str(self._folder),)
+            )
         loop = asyncio.get_running_loop()
         return await loop.run_in_executor(self._pool, answer, function, arguments)
 
@@ -70,15 +76,22 @@ class Viewer:
             pool.shutdown(wait=False, cancel_futures=True)
 
 
+def _begun(folder: str) -> None:
+    """At the start of the process."""
+    attend()
+    os.chdir(folder)
+
+
 def answer(function: str, arguments: tuple[Any, ...]) -> Any:
     """A function of `viewing` on its arguments, in the process of the viewer.
 
     Raises:
         ModelerError: as the function, or memory ran out.
     """
-    from modeler.studio import viewing
+    from modeler.studio import robot_views, viewing
 
-    found: Callable[..., Any] = getattr(viewing, function)
+    own = robot_views if hasattr(robot_views, function) else viewing
+    found: Callable[..., Any] = getattr(own, function)
     try:
         return found(*arguments)
     except MemoryError as error:

@@ -16,7 +16,7 @@ from modeler.estimation.model_file import FORMAT as MODEL_FORMAT
 from tests.json_schemas import check_schema, faults, schemas
 from tests.repository import ROOT
 
-OTHERS = {"definitions": 1, "manifest": MANIFEST_FORMAT, "model": MODEL_FORMAT}
+OTHERS = {"definitions": 1, "pictures": 1, "manifest": MANIFEST_FORMAT, "model": MODEL_FORMAT}
 
 # What scripts read: names that must not change between versions. A list stands for its entries, {}
 # for the entries of an object whose names are the user's.

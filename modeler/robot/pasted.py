@@ -1,0 +1,370 @@
+"""A table of a paper or a spreadsheet, as it comes from the clipboard, as the table of a robot file.
+
+Rows are lines; cells stand between tabs, semicolons or bars, or blanks. The first line may have
+headings: letters with or without an index (`alpha_i-1`, `a(j)`, Greek or spelt), units behind them
+(`[deg]`, `(mm)`). Nothing is evaluated: cells become text, which the reader of robot files judges.
+"""
+
+import csv
+import io
+import re
+import string
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from modeler.core.builtin import template_text
+from modeler.core.errors import RobotError
+from modeler.core.expression import FUNCTIONS
+from modeler.core.toml_cells import listed
+from modeler.robot.conventions import ANGLES, CONVENTIONS, STEPS
+from modeler.robot.robot_text import columns_and_rows
+from modeler.robot.table_text import quoted_cell, with_columns
+
+_FULL_TURN = 6.3  # rad: a larger angle is in degrees
+_LONGEST = 20.0  # m: a larger length is in mm
+_PLACEHOLDER = 0.1  # m, of a length whose value the table does not tell
+
+_SIGNS = str.maketrans({
+    "\u2212": "-", "\u2013": "-", "\u2014": "-", "\u00a0": " ", "\u2009": " ", "\u202f": " ",
+    "\u00d7": "*", "\u00b7": "*", "\u22c5": "*", "\u03c0": "pi", "\u03b8": "theta",
+    "\u03d1": "theta", "\u03b1": "alpha", "\u03b3": "gamma", "\u03c3": "sigma", "\u03bc": "mu",
+    "\u00b5": "mu", "\ufeff": "", "\u00ba": "\u00b0", "\u2032": "'", "\u2217": "*",
+    **{chr(0x2080 + k): str(k) for k in range(10)},
+})  # fmt: skip
+_WORDS = {
+    "j": "j i k joint link axis n no nr row frame # gelenk achse",
+    "a": "a ant antecedent",
+    "parent": "parent",
+    "mu": "mu",
+    "sigma": "sigma type kind",
+    "gamma": "gamma",
+    "b": "b",
+    "alpha": "alpha twist",
+    "d": "d",
+    "theta": "theta th angle",
+    "r": "r",
+}
+_LETTER = {word: letter for letter, words in _WORDS.items() for word in words.split()}
+_UNITS = {
+    "deg": "deg", "degree": "deg", "degrees": "deg", "grad": "deg", "\u00b0": "deg", "rad": "rad",
+    "radians": "rad", "mm": "mm", "cm": "cm", "m": "m", "in": "in", "inch": "in",
+}  # fmt: skip
+_MEASURE = re.compile(r"(?:\s*[\[(/,]\s*|\s+)(?:in\s+)?([a-z\u00b0]+)\s*[\])]?$")
+_HEADING = re.compile(rf"({'|'.join(sorted(_LETTER, key=len, reverse=True))})([ijk](?:-1)?)?")
+_SIGMAS = {"r": "0", "revolute": "0", "p": "1", "prismatic": "1", "t": "1", "f": "2", "fixed": "2"}
+_GUESSED = {
+    "khalil": {4: "alpha d theta r", 5: "j alpha d theta r", 7: "j a sigma alpha d theta r",
+               6: "j sigma alpha d theta r", 8: "j a mu sigma alpha d theta r",
+               9: "j a sigma gamma b alpha d theta r",
+               10: "j a mu sigma gamma b alpha d theta r"},
+    "craig": {4: "alpha a d theta", 5: "j alpha a d theta", 6: "j sigma alpha a d theta"},
+    "classical": {4: "theta d a alpha", 5: "j theta d a alpha", 6: "j sigma theta d a alpha"},
+}  # fmt: skip
+"""Columns of a table without headings, by how many it has."""
+_NAME = re.compile(r"[A-Za-z]\w*")
+
+
+@dataclass(frozen=True)
+class PastedTable:
+    """A table that was pasted.
+
+    Attributes:
+        convention: whose it is.
+        columns: names, in its letters.
+        rows: cells by column.
+        symbols: names in it that need a value.
+        notes: what was taken for what, one line each.
+    """
+
+    convention: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    symbols: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def pasted_table(text: str, convention: str = "") -> PastedTable:
+    """The table in a text from the clipboard.
+
+    Args:
+        text: lines of cells.
+        convention: whose table it is; "": what its headings say, Khalil's without any.
+
+    Raises:
+        RobotError: it has no cells, or columns that nobody can name.
+    """
+    lines = _cells(text.translate(_SIGNS))
+    if not lines or max(map(len, lines)) < 2:
+        raise RobotError(
+            "pasted table: got no cells; expected lines of cells, as a spreadsheet copies them, "
+            "such as `1  0  0  q1  0` under headings such as `j  alpha  d  theta  r`"
+        )
+    heads = [_heading(cell) for cell in lines[0]]
+    named = sum(head is not None and head[0] != "j" for head in heads) >= 2
+    body = lines[1:] if named else lines
+    if not body:
+        raise RobotError("pasted table: got headings alone; expected a line for each joint below")
+    notes: list[str] = []
+    if named:
+        unknown = [cell for cell, head in zip(lines[0], heads, strict=True) if head is None]
+        if unknown:
+            raise RobotError(
+                f'pasted table, headings: got "{unknown[0]}"; expected letters among '
+                f"{listed(dict.fromkeys(_LETTER.values()))}, each with a unit or without"
+            )
+        known = [head for head in heads if head is not None]
+        convention = convention or _whose(known, body)
+        columns, units = [head[0] for head in known], [head[2] for head in known]
+    else:
+        convention = convention or "khalil"
+        columns = _GUESSED[convention].get(len(body[0]), "").split()
+        units = [""] * len(columns)
+        if not columns:
+            raise RobotError(
+                f"pasted table: got {len(body[0])} columns without headings; expected "
+                f"{listed(map(str, sorted(_GUESSED[convention])))} of them, or a first line with "
+                f"headings among {listed(CONVENTIONS[convention].values())}"
+            )
+        notes.append(f"no headings: taken as {' '.join(columns)}")
+    columns = [_own_letter(column, convention) for column in columns]
+    _check(columns, body, convention)
+    return _table(columns, units, body, convention, notes)
+
+
+def _cells(text: str) -> list[list[str]]:
+    """Lines of cells, without those that are empty everywhere."""
+    lines = [line for line in text.splitlines() if line.strip(" \t;|&\\")]
+    mark = next((m for m in "\t;|&" if any(m in line for line in lines)), "")
+    if mark:
+        lines = [line.strip(" ").removesuffix("\\\\").strip(" ") for line in lines]
+        lines = [line.strip("|") if mark == "|" else line for line in lines]
+        rows = list(csv.reader(io.StringIO("\n".join(lines)), delimiter=mark))
+        rows = [row for row in rows if any(cell.strip(" -:") for cell in row)]
+    else:
+        rows = [re.split(r"\s{2,}", line.strip()) for line in lines]
+        if any(len(row) < 2 for row in rows):
+            rows = [line.split() for line in lines]
+    width = max(map(len, rows), default=0)
+    full = [[" ".join(cell.split()) for cell in [*row, *[""] * (width - len(row))]] for row in rows]
+    kept = [k for k in range(width) if any(row[k] for row in full)]
+    return [[row[k] for k in kept] for row in full]
+
+
+def _heading(cell: str) -> tuple[str, str, str] | None:
+    """Letter, index, unit of a heading; None of what is none."""
+    text, unit = cell.lower().strip(), ""
+    measure = _MEASURE.search(text)
+    if measure is not None and measure[1] in _UNITS:
+        text, unit = text[: measure.start()], _UNITS[measure[1]]
+    found = _HEADING.fullmatch(re.sub(r"[\s\\_{}()$.*]", "", text))
+    return None if found is None else (_LETTER[found[1]], found[2] or "", unit)
+
+
+def _whose(heads: Sequence[tuple[str, str, str]], body: Sequence[Sequence[str]]) -> str:
+    """By the letters, their indices, their order; a of Khalil's is the name of the row above."""
+    letters = [letter for letter, _, _ in heads]
+    behind = {letter for letter, index, _ in heads if index.endswith("-1")}
+    if {"r", "gamma", "b"} & set(letters) or not {"a", "d", "alpha", "theta"} <= set(letters):
+        return "khalil"
+    if "parent" in letters or "alpha" in behind:
+        return "craig"
+    above = [row[letters.index("j")] for row in body[:-1]] if "j" in letters else []
+    if [row[letters.index("a")] for row in body[1:]] == above:
+        return "khalil"
+    return "classical" if letters.index("theta") < letters.index("alpha") else "craig"
+
+
+def _own_letter(column: str, convention: str) -> str:
+    """`parent` of Khalil's is a."""
+    return "a" if convention == "khalil" and column == "parent" else column
+
+
+def _check(columns: Sequence[str], body: Sequence[Sequence[str]], convention: str) -> None:
+    allowed = [*CONVENTIONS[convention].values()]
+    for column in columns:
+        if column not in allowed:
+            raise RobotError(
+                f"pasted table, headings: got {column}; expected letters of a table of "
+                f"convention {convention}: {listed(allowed)}"
+            )
+        if columns.count(column) > 1:
+            raise RobotError(f"pasted table, headings: {column} stands twice; remove one")
+    for number, row in enumerate(body, start=1):
+        if len(row) != len(columns):
+            raise RobotError(
+                f"pasted table, line {number}: got {len(row)} cells, expected {len(columns)}"
+            )
+
+
+def _table(
+    columns: list[str], units: list[str], body: Sequence[Sequence[str]], convention: str,
+    notes: list[str],
+) -> PastedTable:  # fmt: skip
+    khalil = {letter: column for column, letter in CONVENTIONS[convention].items()}
+    kinds = [khalil[column] for column in columns]
+    rows = [{kind: _plain(cell) for kind, cell in zip(kinds, row, strict=True)} for row in body]
+    for number, row in enumerate(rows, start=1):
+        row["j"] = re.sub(r"\W|_|^(joint|link|axis)", "", row.get("j", "").lower()) or str(number)
+        row["sigma"] = _SIGMAS.get(row.get("sigma", "").lower(), row.get("sigma", ""))
+    unit_of = dict(zip(kinds, units, strict=True))
+    for kind in kinds:
+        if kind in _GEOMETRY and not unit_of[kind]:
+            unit_of[kind] = _unit_by_size(kind, CONVENTIONS[convention][kind], rows, notes)
+    for row in rows:
+        _with_variable(row)
+        for kind in _GEOMETRY:
+            if kind in row:
+                row[kind] = _measured(row[kind], unit_of.get(kind, ""), row["j"])
+    used = [c for c in CONVENTIONS[convention] if c in ("j", *kinds) or _needed(c, rows)]
+    cells = [tuple(row.get(column) or _default(column, row) for column in used) for row in rows]
+    symbols = _symbols(cells, [row["j"] for row in rows])
+    letters = tuple(CONVENTIONS[convention][column] for column in used)
+    return PastedTable(convention, letters, tuple(cells), symbols, tuple(notes))
+
+
+_GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
+
+
+def _needed(column: str, rows: Sequence[dict[str, str]]) -> bool:
+    """A column that was not pasted, but that a row uses."""
+    return any(row.get(column, "") not in ("", "0") for row in rows)
+
+
+def _default(column: str, row: dict[str, str]) -> str:
+    if column == "mu":
+        return "0" if row.get("sigma") == "2" else "1"
+    return "0"
+
+
+def _plain(cell: str) -> str:
+    """A cell with points for decimal commas, degrees as `deg`, without marks of variables."""
+    cell = re.sub(r"(?<=\d),(?=\d{3}(\D|$))(?=.*\.)", "", cell)  # 1,234.5
+    cell = re.sub(r"(?<=\d),(?=\d)", ".", cell)
+    cell = re.sub(r"\s*\u00b0", " deg", cell)
+    cell = re.sub(r"\\(?=[a-z])|\$|[{}]", "", cell)
+    cell = re.sub(r"(?<=[A-Za-z])_(?=\d)", "", cell)
+    cell = re.sub(r"[\u2019'*]+$", "", cell.strip())  # q1*, the mark of a variable
+    cell = re.sub(r"^\+\s*", "", cell)
+    return "0" if cell in ("-", "--", "/") else cell
+
+
+def _with_variable(row: dict[str, str]) -> None:
+    """The joint variable as q<j>, in its column; a number there is its offset."""
+    name, variable = row["j"], f"q{row['j']}"
+    turns = rf"\b(?:theta|th|q|t){re.escape(name)}\b|^(?:theta|q|var|variable)$"
+    slides = rf"\b(?:d|r|q){re.escape(name)}\b|^(?:d|r|q|var|variable)$"
+    theta, r = row.get("theta", ""), row.get("r", "")
+    if not row["sigma"]:
+        turning = re.search(turns, theta) is not None
+        sliding = not turning and re.search(slides, r) is not None
+        row["sigma"] = "1" if sliding else "0"
+    if row["sigma"] == "2":
+        return
+    home, pattern = ("r", slides) if row["sigma"] == "1" else ("theta", turns)
+    cell = re.sub(pattern, variable, row.get(home, ""))
+    if variable not in cell:
+        zero = not cell or re.fullmatch(r"[+-]?0(\.0*)?( *(deg|mm|cm|m|in))?", cell)
+        cell = variable if zero else f"{variable} {'' if cell.startswith('-') else '+ '}{cell}"
+        cell = re.sub(r" -(?=\S)", " - ", cell)
+    row[home] = cell
+
+
+def _unit_by_size(
+    kind: str, letter: str, rows: Sequence[dict[str, str]], notes: list[str]
+) -> str:
+    """The unit of a column without one, where its numbers are too large for rad or m."""
+    cells = [row.get(kind, "") for row in rows]
+    if any(re.search(r"\d\s*(deg|mm|cm|m|in)\b|pi", cell) for cell in cells):
+        return ""
+    sizes = [abs(float(n.replace(" ", ""))) for cell in cells for n in _numbers(cell)]
+    most = max(sizes, default=0.0)
+    if kind in ANGLES and most > _FULL_TURN:
+        notes.append(f"column {letter}: taken in degrees, for {most:g} rad is more than a turn")
+        return "deg"
+    if kind not in ANGLES and most > _LONGEST:
+        notes.append(f"column {letter}: taken in mm, for {most:g} m is long")
+        return "mm"
+    return ""
+
+
+def _numbers(cell: str) -> list[str]:
+    return re.findall(r"(?<![\w.])[+-]?\s*\d+(?:\.\d*)?(?:[eE][+-]?\d+)?(?![\w.])", cell)
+
+
+def _measured(cell: str, unit: str, name: str) -> str:
+    """The numbers of a cell with the unit of their column."""
+    if not cell or unit in ("", "rad", "m") or re.search(r"\d\s*(deg|mm|cm|m|in)\b|pi\b", cell):
+        return cell
+
+    def with_unit(found: "re.Match[str]") -> str:
+        return found[0] if float(found[1]) == 0 else f"{found[0]} {unit}"
+
+    terms = r"(?<![\w.*/])(?<![*/] )(\d+(?:\.\d*)?(?:[eE][+-]?\d+)?)(?![\w.])(?!\s*[*/(])"
+    return re.sub(terms, with_unit, cell)
+
+
+def _symbols(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[str, ...]:
+    """Names that are neither variables, functions nor units."""
+    known = {*FUNCTIONS, "pi", "deg", "mm", "cm", "m", "in", *(f"q{name}" for name in names)}
+    used = (name for row in rows for cell in row[1:] for name in _NAME.findall(cell))
+    return tuple(dict.fromkeys(n for n in used if n not in known and n not in names))
+
+
+def pasted_robot(table: PastedTable, name: str) -> str:
+    """A robot file with that table, which derives as it is.
+
+    Args:
+        table: pasted.
+        name: of the robot.
+    """
+    stated = f'convention = "{table.convention}"\n' if table.convention != "khalil" else ""
+    cells = [
+        [quoted_cell(cell, column) for cell, column in zip(row, table.columns, strict=True)]
+        for row in table.rows
+    ]
+    lines = columns_and_rows(table.columns, cells)
+    words = {"\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta", "\u2192": "->"}
+    values = {
+        "name": name, "title": f"{name}, a table that was pasted",
+        "symbols": "\n".join(symbol_line(symbol) for symbol in table.symbols),
+        "table": stated + "\n".join(lines).rstrip(), "limits": "",
+        "step": STEPS[table.convention].translate(str.maketrans(words)).replace("; ", "\n# "),
+    }  # fmt: skip
+    return string.Template(template_text("serial")).substitute(values)
+
+
+def symbol_line(name: str) -> str:
+    """A line of `[symbols]` for a name whose value is to be written yet."""
+    angle = name.lower().startswith(("alpha", "theta", "gamma", "beta", "phi", "th"))
+    unit = "rad" if angle else "m"
+    return f"{name} = {_PLACEHOLDER}".ljust(38) + f"# {unit}: a placeholder, write the value"
+
+
+def with_pasted(text: str, table: PastedTable) -> str:
+    """A robot file with another table, and lines for the symbols that it lacks.
+
+    Raises:
+        RobotError: the file has no table that can be replaced.
+    """
+    changed = with_columns(text, table.columns, table.rows, table.convention)
+    known = tomllib.loads(changed).get("symbols", {})
+    missing = [symbol_line(name) for name in table.symbols if name not in known]
+    if not missing:
+        return changed
+    head = re.search(r"(?m)^[ \t]*\[[ \t]*symbols[ \t]*\][^\n]*\n", changed)
+    if head is None:
+        head = re.search(r"(?m)^(?=[ \t]*\[[ \t]*mdh[ \t]*\])", changed)
+        missing = ["[symbols]", *missing, ""]
+    assert head is not None  # or there was no table
+    return changed[: head.end()] + "\n".join([*missing, changed[head.end() :]])
+
+
+def pasted_cells(text: str) -> list[list[str]]:
+    """A block of cells from the clipboard, for a part of a table: as they are, but readable."""
+    return [[_plain(cell) for cell in row] for row in _block(text.translate(_SIGNS))]
+
+
+def _block(text: str) -> list[list[str]]:
+    rows = csv.reader(io.StringIO(text.strip("\r\n")), delimiter="\t")
+    return [[" ".join(cell.split()) for cell in row] for row in rows]

@@ -1,0 +1,90 @@
+"""Requests to a studio as no browser would send them: any header, any path, any body."""
+
+import base64
+import http.client
+import os
+import re
+import socket
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from urllib.parse import urlsplit
+
+from tests.studio.window import Served
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came back."""
+
+    status: int
+    headers: dict[str, str]
+    body: bytes
+
+    @property
+    def text(self) -> str:
+        return self.body.decode(errors="replace")
+
+
+def port_of(studio: Served) -> int:
+    return urlsplit(studio.address).port or 0
+
+
+def ask(
+    studio: Served,
+    path: str = "/",
+    method: str = "GET",
+    body: bytes | Iterable[bytes] | None = None,
+    **headers: str,
+) -> Answer:
+    """Sends a request; `host=` replaces the header, `sec_fetch_site=` is Sec-Fetch-Site."""
+    given = {"host": f"127.0.0.1:{port_of(studio)}"}
+    given |= {name.replace("_", "-"): value for name, value in headers.items()}
+    connection = http.client.HTTPConnection("127.0.0.1", port_of(studio), timeout=60)
+    try:
+        connection.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
+        if isinstance(body, bytes):
+            given["content-length"] = str(len(body))
+        for name, value in given.items():
+            connection.putheader(name, value)
+        connection.endheaders()
+        for part in [body] if isinstance(body, bytes) else body or ():
+            connection.send(part)
+        answer = connection.getresponse()
+        found = {name.lower(): value for name, value in answer.getheaders()}
+        return Answer(answer.status, found, answer.read())
+    finally:
+        connection.close()
+
+
+def let_in(studio: Served, **headers: str) -> str:
+    """The cookie, in exchange for the token."""
+    answer = ask(studio, studio.address.removeprefix(studio.root), **headers)
+    return answer.headers["set-cookie"].partition(";")[0]
+
+
+def websocket_status(studio: Served, headers: Mapping[str, str]) -> int:
+    """What a websocket is answered with: 101 if it is taken."""
+    key = base64.b64encode(os.urandom(16)).decode()
+    lines = [
+        "GET /_nicegui_ws/socket.io/?EIO=4&transport=websocket HTTP/1.1",
+        "Connection: Upgrade", "Upgrade: websocket", "Sec-WebSocket-Version: 13",
+        f"Sec-WebSocket-Key: {key}", *(f"{name}: {value}" for name, value in headers.items()),
+    ]  # fmt: skip
+    with socket.create_connection(("127.0.0.1", port_of(studio)), timeout=20) as line:
+        line.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
+        return int(re.match(rb"HTTP/1\.1 (\d+)", line.recv(4096))[1])
+
+
+def form(files: Mapping[str, bytes], boundary: str = "edge") -> bytes:
+    """Files as a browser sends them."""
+    parts = [
+        f'--{boundary}\r\nContent-Disposition: form-data; name="f"; filename="{name}"\r\n'
+        "Content-Type: application/octet-stream\r\n\r\n".encode()
+        + data
+        + b"\r\n"
+        for name, data in files.items()
+    ]
+    return b"".join(parts) + f"--{boundary}--\r\n".encode()
+
+
+FORM = "multipart/form-data; boundary=edge"

@@ -1,0 +1,185 @@
+"""Who is let in: a real server, asked as foreign pages, other users and broken clients would."""
+
+import asyncio
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from modeler.studio.access import Guard
+from tests.studio.requests import FORM, ask, form, let_in, port_of, websocket_status
+from tests.studio.window import Served, served
+
+SECRET = "what nobody may read"
+
+
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory) -> Iterator[Served]:
+    top = tmp_path_factory.mktemp("access")
+    (top / "secret.csv").write_text(SECRET)
+    with served(top / "project") as one:
+        (one.folder / "logs").mkdir(exist_ok=True)
+        (one.folder / "logs" / "out.csv").symlink_to(top / "secret.csv")
+        yield one
+
+
+@pytest.fixture(scope="module")
+def cookie(studio: Served) -> str:
+    return let_in(studio)
+
+
+EVERYWHERE = ("/", "/fit", "/studio.js", "/drop/logs", "/sheet/x.html", "/_nicegui/x",
+              "/favicon.ico", "/no-such-place",
+              "/_nicegui_ws/socket.io/?EIO=4&transport=polling")  # fmt: skip
+
+
+@pytest.mark.parametrize("path", EVERYWHERE)
+@pytest.mark.parametrize("method", ["GET", "POST", "PUT", "DELETE", "OPTIONS"])
+def test_without_the_cookie_nothing_answers(studio: Served, path: str, method: str) -> None:
+    answer = ask(studio, path, method)
+    assert answer.status == 403 and answer.text.count("\n") == 1
+    assert "open the address that it printed in the terminal" in answer.text
+    assert "set-cookie" not in answer.headers
+
+
+def test_the_token_becomes_a_cookie_and_leaves_the_address(studio: Served) -> None:
+    path = studio.address.removeprefix(studio.root)
+    answer = ask(studio, path)
+    assert answer.status == 303 and answer.headers["location"] == "/"
+    given = answer.headers["set-cookie"].lower()
+    assert "; httponly" in given and "; samesite=strict" in given and "token" not in given
+    token = path.partition("token=")[2]
+    assert len(token) >= 43 and token not in answer.headers["set-cookie"]
+    assert ask(studio, cookie=answer.headers["set-cookie"].partition(";")[0]).status == 200
+
+
+def test_where_a_page_led_here_the_page_goes_on_by_itself(studio: Served) -> None:
+    """A strict cookie would not be sent after a redirect."""
+    path = studio.address.removeprefix(studio.root)
+    seen = {"sec_fetch_site": "cross-site", "sec_fetch_mode": "navigate"}
+    answer = ask(studio, path, sec_fetch_dest="document", **seen)
+    assert answer.status == 200 and "refresh" in answer.text and "set-cookie" in answer.headers
+    assert ask(studio, path, sec_fetch_dest="iframe", **seen).status == 403
+
+
+@pytest.mark.parametrize("wrong", ["", "x", "{}x", "x{}", "{0}&token={0}x", "%00", "%C3%A9"])
+def test_a_wrong_token_is_none(studio: Served, wrong: str) -> None:
+    token = studio.address.partition("token=")[2]
+    status = ask(studio, f"/?token={wrong.format(token)}").status
+    assert status == (303 if wrong.startswith("{0}&") else 403)
+
+
+def test_another_port_has_another_cookie(studio: Served, cookie: str) -> None:
+    """Browsers send the cookies of all ports; a forwarded port is another name of the cookie."""
+    name, _, value = cookie.partition("=")
+    assert str(port_of(studio)) in name
+    assert ask(studio, cookie=f"modeler-studio-1={value}").status == 403
+    assert ask(studio, cookie=f"{name}=x{value}").status == 403
+    assert ask(studio, cookie=f'bad cookie=["; modeler-studio-1=x; {cookie}').status == 200
+    forwarded = let_in(studio, host="localhost:9")
+    assert forwarded.startswith("modeler-studio-9=")
+    assert ask(studio, cookie=forwarded, host="localhost:9").status == 200
+
+
+@pytest.mark.parametrize("host", ["localhost:{}", "LocalHost", "[::1]:{}", "127.0.0.1:{}"])
+def test_names_of_this_machine_are_known(studio: Served, cookie: str, host: str) -> None:
+    named = host.format(port_of(studio))
+    assert ask(studio, cookie=let_in(studio, host=named), host=named).status == 200
+    assert (ask(studio, cookie=cookie, host=named).status == 200) == ("{}" in host)
+
+
+@pytest.mark.parametrize(
+    "host",
+    [
+        "evil.example", "127.0.0.1.evil.example:{}", "localhost.evil.example", "evil.example:{}",
+        "127.0.0.1:{}@evil.example", "0.0.0.0:{}", "2130706433:{}", "", "localhost:",
+        "127.0.0.1:{}, evil.example", "127.0.0.1:{}\xa0",
+    ],
+)  # fmt: skip
+def test_foreign_names_are_refused_even_with_the_cookie(studio, cookie, host: str) -> None:
+    """DNS rebinding."""
+    answer = ask(studio, cookie=cookie, host=host.format(port_of(studio)))
+    assert answer.status == 403 and "got another host" in answer.text
+
+
+FOREIGN = [
+    {"origin": "http://evil.example"}, {"origin": "null"}, {"origin": "https://127.0.0.1:{}"},
+    {"origin": "http://127.0.0.1:1"}, {"origin": "http://127.0.0.1"}, {"origin": "http://localhost:{}"},
+    {"sec_fetch_site": "cross-site"}, {"sec_fetch_site": "same-site"},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("headers", FOREIGN, ids=str)
+def test_foreign_pages_are_refused_even_with_the_cookie(studio, cookie, headers) -> None:
+    """CSRF, and sockets opened by other pages: their browser sends the cookie where it may."""
+    sent = {name: value.format(port_of(studio)) for name, value in headers.items()}
+    data = form({"forged.csv": b"a\n1\n"})
+    answer = ask(studio, "/drop/logs", "POST", data, content_type=FORM, cookie=cookie, **sent)
+    assert answer.status == 403 and "asked by another page" in answer.text
+    assert ask(studio, "/", cookie=cookie, **sent).status == 403
+    assert not list(studio.folder.glob("logs/forged*"))
+    named = {name.replace("_", "-"): value for name, value in sent.items()}
+    host = {"Host": f"127.0.0.1:{port_of(studio)}"}
+    assert websocket_status(studio, {**host, "Cookie": cookie, **named}) == 403
+
+
+def test_a_websocket_needs_the_cookie_and_takes_no_token(studio: Served, cookie: str) -> None:
+    host = f"127.0.0.1:{port_of(studio)}"
+    own = {"Host": host, "Origin": f"http://{host}"}
+    assert websocket_status(studio, own) == 403
+    assert websocket_status(studio, {**own, "Cookie": f"{cookie}x"}) == 403
+    assert websocket_status(studio, {**own, "Cookie": cookie, "Host": "evil.example"}) == 403
+    assert websocket_status(studio, {**own, "Cookie": cookie}) == 101
+
+
+CLIMBING = (
+    "../secret.csv", "../../secret.csv", "../../../../../../../../etc/passwd", "/etc/passwd",
+    "%2e%2e/secret.csv", "..%2f..%2fsecret.csv", "%2e%2e%2f%2e%2e%2fsecret.csv", "%2fetc%2fpasswd",
+    "..%5csecret.csv", "....//secret.csv", "%252e%252e/secret.csv", "secret.csv%00", "%00",
+    "logs/out.csv", "project.toml/../../secret.csv", "file:///etc/passwd", "~/.bashrc",
+)  # fmt: skip
+
+
+def test_no_path_leads_out(studio: Served, cookie: str) -> None:
+    page = ask(studio, "/", cookie=cookie).text
+    linked = {found.rpartition("/")[0] for found in re.findall(r'(?:href|src)="(/[^"?]+)', page)}
+    prefixes = {"", "/studio.", "/sheet", "/drop", *linked}
+    prefixes |= {f"/_nicegui/3.18.0/{kind}/x" for kind in ("resources", "esm", "libraries")}
+    assert len(prefixes) > 7
+    for prefix in sorted(prefixes):
+        for path in CLIMBING:
+            answer = ask(studio, f"{prefix}/{path}", cookie=cookie)
+            assert SECRET not in answer.text and "root:" not in answer.text, (prefix, path)
+
+
+def test_pages_say_what_they_may_do_and_are_not_kept(studio: Served, cookie: str) -> None:
+    answer = ask(studio, "/", cookie=cookie)
+    policy = answer.headers["content-security-policy"]
+    assert "frame-ancestors 'self'" in policy and "default-src 'self'" in policy
+    assert not re.search(r"https?:|\*", policy)  # nobody else is talked to
+    assert answer.headers["x-content-type-options"] == "nosniff"
+    assert answer.headers["referrer-policy"] == "no-referrer"
+    assert answer.headers["cache-control"] == "no-store"
+
+
+def test_the_address_for_the_browser_is_good_once() -> None:
+    async def app(scope, receive, send) -> None:
+        raise AssertionError("nobody was let in")
+
+    guard = Guard(app, 5)
+
+    def status(address: str) -> int:
+        sent: list[dict] = []
+
+        async def send(message) -> None:
+            sent.append(message)
+
+        scope: dict[str, Any] = {"type": "http", "method": "GET", "path": "/"}
+        scope |= {"headers": [(b"host", b"localhost:5")]}
+        scope |= {"query_string": address.partition("?")[2].encode()}
+        asyncio.run(guard(scope, lambda: None, send))
+        return sent[0]["status"]
+
+    assert [status(guard.once), status(guard.once)] == [303, 403]
+    assert [status(guard.address), status(guard.address)] == [303, 303]

@@ -1,0 +1,197 @@
+"""Commands as children: their progress, their one line, their end; none outlives the studio."""
+
+import asyncio
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from modeler.studio.running import INTERRUPTED, Outcome, Running
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="NOT CHECKED: process groups are POSIX")
+
+LONG = ("simulate", "demo-arm", "--duration", "3000", "--out")
+
+
+def run(folder: Path, *words: str) -> tuple[Outcome, list[tuple[float | None, str]]]:
+    """The end of a command, and all that was told before."""
+
+    async def waited() -> tuple[Outcome, list[tuple[float | None, str]]]:
+        running = Running(words, folder, "the work")
+        seen: list[tuple[float | None, str]] = []
+        outcome = await running.wait(lambda: seen.append((running.share, running.doing)))
+        assert await running.wait() == outcome
+        return outcome, seen
+
+    return asyncio.run(waited())
+
+
+def alive(mark: str) -> list[str]:
+    """Processes with that in their words."""
+    listed = subprocess.run(["ps", "-ewwo", "pid,args"], capture_output=True, text=True, check=True)
+    return [line for line in listed.stdout.splitlines() if mark in line]
+
+
+def gone(mark: str, seconds: float = 10.0) -> bool:
+    """Whether they end in time."""
+    end = time.monotonic() + seconds
+    while alive(mark):
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.05)
+    return True
+
+
+def test_results_progress_and_seconds(tmp_path: Path) -> None:
+    outcome, seen = run(tmp_path, "simulate", "two-link", "--duration", "4", "--out", "a.csv")
+    assert outcome.status == 0 and outcome.error == "" and (tmp_path / "a.csv").exists()
+    assert outcome.lines[0].startswith("two-link: 4000 samples")
+    assert {"loading", "simulating two-link", "done"} <= {doing for _, doing in seen}
+    shares = [share for share, _ in seen if share is not None]
+    assert shares == sorted(shares) and 0 < outcome.seconds < 60
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (("derive", "no-such-robot"), 1, '"no-such-robot" is neither'),
+        (("derive", "wrist", "--no-such-option"), 2, "unknown option --no-such-option"),
+        (("dance",), 2, "unknown command dance"),
+        (("derive", "a\0b"), 1, "the work: cannot be started (embedded null byte)"),
+    ],
+)
+def test_an_error_is_the_line_that_the_command_prints(tmp_path, words, status, told) -> None:
+    outcome, _ = run(tmp_path, *words)
+    assert outcome.status == status and outcome.error.startswith(told)
+    assert "\n" not in outcome.error and not outcome.error.startswith("modeler:")
+
+
+def test_notes_are_no_errors(tmp_path: Path) -> None:
+    outcome, _ = run(tmp_path, "robots", "--show", "wrist")
+    assert outcome.status == 0 and outcome.notes == ("--show may be left out now",)
+    assert any("wrist" in line for line in outcome.lines)
+
+
+def test_a_fault_of_the_program_says_how_to_report_it(tmp_path: Path, monkeypatch) -> None:
+    (tmp_path / "sitecustomize.py").write_text(
+        "import modeler.cli.lists as l\ndef fails(args): raise ZeroDivisionError('by zero')\n"
+        "l.run_robots = fails\n"
+    )
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
+    outcome, _ = run(tmp_path, "robots")
+    assert "(ZeroDivisionError: by zero); run `modeler robots --verbose`" in outcome.error
+
+
+def test_files_of_the_project_are_no_modules(tmp_path: Path) -> None:
+    for name in ("numpy", "json", "argparse", "modeler"):
+        (tmp_path / f"{name}.py").write_text("open('was-run', 'w')\n")
+    assert run(tmp_path, "derive", "two-link", "--no-terms")[0].status == 0
+    assert not (tmp_path / "was-run").exists()
+
+
+def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path) -> None:
+    async def cancelled() -> Outcome:
+        running = Running((*LONG, str(tmp_path / "cancelled.csv")), tmp_path, "simulate")
+        await begun(running)
+        running.cancel()
+        running.cancel()
+        return await running.wait()
+
+    begin = time.monotonic()
+    outcome = asyncio.run(cancelled())
+    assert outcome.status == INTERRUPTED and outcome.error == "simulate: cancelled"
+    assert outcome.cancelled and time.monotonic() - begin < 20
+    assert gone(str(tmp_path), 1.0) and not list(tmp_path.iterdir())
+
+
+async def begun(running: Running) -> None:
+    while "simulating" not in running.doing:
+        assert running.doing != "done"
+        await asyncio.sleep(0.02)
+    assert alive(running.words[-1])
+
+
+def test_cancel_before_it_is_started(tmp_path: Path) -> None:
+    async def cancelled() -> Outcome:
+        running = Running((*LONG, str(tmp_path / "early.csv")), tmp_path, "simulate")
+        running.cancel()
+        return await running.wait()
+
+    assert asyncio.run(cancelled()).status == INTERRUPTED
+    assert gone(str(tmp_path), 1.0) and not list(tmp_path.iterdir())
+
+
+def test_what_does_not_heed_an_interrupt_is_killed(tmp_path: Path, monkeypatch) -> None:
+    """With the processes that it started."""
+    (tmp_path / "sitecustomize.py").write_text(
+        "import sys\nif 'modeler.cli.followed' in ' '.join(sys.orig_argv):\n"
+        " import modeler.cli.lists as l\n"
+        " def stubborn(args):\n"
+        "  import signal, subprocess, time\n"
+        "  signal.signal(signal.SIGINT, signal.SIG_IGN)\n"
+        "  code = 'import signal, time; signal.signal(2, 1); time.sleep(60)'\n"
+        f"  subprocess.Popen([sys.executable, '-c', code, {str(tmp_path / 'below')!r}])\n"
+        "  print('deaf', flush=True)\n"
+        "  time.sleep(60)\n"
+        " l.run_robots = stubborn\n"
+    )
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
+    monkeypatch.setattr("modeler.studio.running._PATIENCE", 0.3)
+
+    async def cancelled() -> Outcome:
+        running = Running(("robots",), tmp_path, "robots")
+        while not running.lines:
+            await asyncio.sleep(0.02)
+        assert alive(str(tmp_path / "below"))
+        running.cancel()
+        return await running.wait()
+
+    assert asyncio.run(cancelled()).cancelled and gone(str(tmp_path / "below"), 2.0)
+
+
+def test_endless_lines_are_no_trouble(tmp_path: Path, monkeypatch) -> None:
+    (tmp_path / "sitecustomize.py").write_text(
+        "import modeler.cli.lists as l\n"
+        "def loud(args):\n"
+        " import sys\n"
+        " print('x' * 3_000_000); print('modeler: ' + 'y' * 300_000, file=sys.stderr)\n"
+        " print('\\udc80z' * 30_000); return []\n"
+        "l.run_robots = loud\n"
+    )
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
+    outcome, _ = run(tmp_path, "robots")
+    assert outcome.status == 0 and len(outcome.lines[0]) == 3_000_000
+
+
+SERVER = """
+import asyncio, sys
+from pathlib import Path
+from modeler.studio.running import Running
+async def main():
+    folder = Path(sys.argv[1])
+    running = Running(sys.argv[2:], folder, "simulate")
+    while "simulating" not in running.doing:
+        await asyncio.sleep(0.02)
+    print("running", flush=True)
+    await running.wait()
+asyncio.run(main())
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_a_command_does_not_outlive_the_studio(tmp_path: Path, number: int) -> None:
+    words = [sys.executable, "-c", SERVER, str(tmp_path), *LONG, str(tmp_path / "orphan.csv")]
+    server = subprocess.Popen(
+        words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True
+    )
+    assert server.stdout is not None and server.stdout.readline() == b"running\n"
+    assert len(alive(str(tmp_path))) > 1  # it, and the command
+    server.send_signal(number)
+    server.wait(20)
+    server.stdout.close()
+    assert gone(str(tmp_path)), alive(str(tmp_path))
+    assert not list(tmp_path.iterdir())
