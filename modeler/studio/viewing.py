@@ -178,7 +178,9 @@ def log_film(
     found = {"time": at}
     for name in (name for name in names if name in values):
         there = np.isfinite(values[name]) & np.isfinite(time)
-        found[name] = np.interp(at, time[there], values[name][there]) if there.any() else at * np.nan
+        found[name] = (
+            np.interp(at, time[there], values[name][there]) if there.any() else at * np.nan
+        )
     return found
 
 
