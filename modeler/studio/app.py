@@ -1,8 +1,11 @@
 """The server: one page, nine screens, and what stands around them."""
 
+import io
 import socket
+import zipfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from urllib.parse import quote
 
 import uvicorn
 from fastapi import FastAPI, Response
@@ -102,10 +105,38 @@ def _routes(app: FastAPI, hub: Hub) -> None:
         parts = [read_text(path) for path in sorted(own.glob(f"*.{kind}"))]
         return Response("\n".join(parts), media_type=types[kind])
 
+    @app.get("/download/{key}")
+    def download(key: str) -> Response:
+        content, name = hub.downloads.get(key, (b"", ""))
+        if not name:
+            return Response(status_code=404)
+        if isinstance(content, bytes):
+            return _attached(content, name)
+        if content.is_dir():
+            return _attached(_zipped(content, name), f"{name}.zip")
+        if not content.is_file():
+            return Response("the file is gone; make it again\n", 404)
+        return FileResponse(content, filename=name)
+
     @app.get("/sheet/{digest}.html")
     def sheet(digest: str) -> Response:
         html = hub.sheets.get(digest)
         return Response(status_code=404) if html is None else HTMLResponse(html)
+
+
+def _zipped(folder: Path, name: str) -> bytes:
+    """A folder as ZIP, in a folder of that name."""
+    held = io.BytesIO()
+    with zipfile.ZipFile(held, "w", zipfile.ZIP_DEFLATED) as archive:
+        for file in sorted(file for file in folder.rglob("*") if file.is_file()):
+            archive.write(file, f"{name}/{file.relative_to(folder).as_posix()}")
+    return held.getvalue()
+
+
+def _attached(content: bytes, name: str) -> Response:
+    """Bytes that the browser saves."""
+    headers = {"content-disposition": f"attachment; filename*=UTF-8''{quote(name)}"}
+    return Response(content, media_type="application/octet-stream", headers=headers)
 
 
 def _pages(hub: Hub, first: str) -> None:

@@ -8,6 +8,7 @@ from nicegui import ui
 from nicegui.element import Element
 
 from modeler.core.errors import ModelerError
+from modeler.studio import commands
 from modeler.studio.commands import Asked, typed
 from modeler.studio.project import Step
 from modeler.studio.studio import Studio
@@ -124,27 +125,51 @@ def folded(title: str, lines: Sequence[str]) -> None:
             told(lines)
 
 
+class Markup(str):
+    """A text that is HTML already."""
+
+
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]], faint: Sequence[bool] = ()) -> None:
-    """Plain texts in rows; every text after a tab is shown when the mouse is over the cell.
+    """Plain texts in rows; what stands in a text after a tab is shown when the mouse is over it.
 
     Args:
-        heads: of the columns.
+        heads: of the columns; all empty: no line of heads.
         rows: of texts.
         faint: by row, True for what is of less weight.
     """
 
     def cell(text: str) -> str:
+        if isinstance(text, Markup):
+            return f"<td>{text}</td>"
         shown, _, hint = text.partition("\t")
-        title = f' title="{html.escape(hint)}" class="studio-hint"' if hint else ""
-        return f"<td{title}>{html.escape(shown)}</td>"
+        title = f' title="{html.escape(hint)}" class=studio-hint tabindex=0' if hint else ""
+        return f"<td><span{title}>{html.escape(shown)}</span></td>"
 
-    lines = ["".join(f"<th scope=col>{html.escape(name)}</th>" for name in heads)]
-    marks = [""]
+    lines = ["".join(f"<th scope=col>{html.escape(name)}</th>" for name in heads)] * any(heads)
+    lines = [f"<tr>{line}</tr>" for line in lines]
     for k, row in enumerate(rows):
-        lines.append("".join(map(cell, row)))
-        marks.append(" class=studio-faint" if k < len(faint) and faint[k] else "")
-    body = "".join(f"<tr{mark}>{line}</tr>" for mark, line in zip(marks, lines, strict=True))
-    ui.html(f"<table class=studio-table>{body}</table>", sanitize=False)
+        mark = " class=studio-faint" if k < len(faint) and faint[k] else ""
+        lines.append(f"<tr{mark}>{''.join(map(cell, row))}</tr>")
+    ui.html(f"<table class=studio-table>{''.join(lines)}</table>", sanitize=False)
+
+
+def page_button(studio: Studio, step: Step) -> None:
+    """The page of a step, self-contained: written when it is asked for, shown in a tab."""
+    written = studio.project.about("page", step.number)
+    if written is None:
+        run_button(studio, "Report page", lambda: commands.again(studio.project, step), small=True)
+        return
+    with ui.row().classes("items-center no-wrap w-full"):
+        link = ui.link("Open the report page", "#", new_tab=True)
+        link.on("click.prevent", lambda: _opened(studio, written.model))
+        command_line(written.words)
+
+
+def _opened(studio: Studio, page: str) -> None:
+    try:
+        ui.navigate.to(studio.hub.sheet(studio.text(page)), new_tab=True)
+    except ModelerError as error:
+        studio.show_error(str(error))
 
 
 def go_button(studio: Studio, title: str, screen: str) -> None:

@@ -1,21 +1,23 @@
 """The screen "fit": values from the training stretches, and what they are worth, joint by joint."""
 
-import html
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
+import numpy as np
 from nicegui import ui
 
 from modeler.core.builtin import EFFECTS
 from modeler.core.errors import TWO_STEPS
 from modeler.core.estimators import ABOUT, APART, About
-from modeler.core.files import read_text
+from modeler.core.json import built
+from modeler.core.manifest import BaseSpec
 from modeler.core.table import percent
-from modeler.effects import CATALOGUE, effect_named
+from modeler.report import relation
 from modeler.studio import commands
 from modeler.studio.elements import (
     Light,
+    Markup,
     command_line,
     doubt_lines,
     folded,
@@ -90,16 +92,16 @@ def _advanced(studio: Studio, chosen: dict[str, str], renew: Any) -> None:
             ui.select(names, label="estimator", value=chosen.get("--method", ""),
                       on_change=lambda e: kept("--method", e.value)).classes("w-80")  # fmt: skip
             for name, label in _NUMBERS:
-                ui.input(label, placeholder="chosen from the logs", value=chosen.get(name, ""),
-                         on_change=lambda e, to=name: kept(to, e.value)).classes("w-48")  # fmt: skip
-            ui.select(["", "log", "position"], label="velocities from",
-                      value=chosen.get("--derivatives", ""),
-                      on_change=lambda e: kept("--derivatives", e.value)).classes("w-40")  # fmt: skip
+                field = ui.input(label, placeholder="chosen", value=chosen.get(name, ""))
+                field.on_value_change(lambda e, to=name: kept(to, e.value)).classes("w-56")
+            ways = ui.select(["", "log", "position"], label="velocities from")
+            ways.set_value(chosen.get("--derivatives", ""))
+            ways.on_value_change(lambda e: kept("--derivatives", e.value)).classes("w-40")
+            label = "effects of every joint, in place of those of the robot file"
             own = [effect for effect in chosen.get("--effects", "").split(",") if effect]
-            ui.select(list(EFFECTS), label="effects of every joint, over those of the robot file",
-                      multiple=True, value=own, clearable=True,
-                      on_change=lambda e: kept("--effects", ",".join(e.value or ())),
-                      ).classes("w-96").props("use-chips")  # fmt: skip
+            effects = ui.select(list(EFFECTS), label=label, multiple=True, value=own)
+            effects.on_value_change(lambda e: kept("--effects", ",".join(e.value or ())))
+            effects.classes("w-96").props("use-chips clearable")
         told.move(target_index=-1)
         with told:
             _estimator(next((a for a in every if a.id == chosen.get("--method")), every[0]))
@@ -127,9 +129,8 @@ def _stale(studio: Studio, step: Step, chosen: Mapping[str, str]) -> None:
     """Says where these values are not those of the robot and the stretches as they are now."""
     first = studio.project.path()[0]
     now = commands.fit(studio.project, ())
-    robot = read_text(studio.folder / studio.project.robot)
     copy = next((word for word in first.words if word.startswith("robots/")), "")
-    if copy and read_text(studio.folder / copy) != robot:
+    if copy and studio.text(copy) != studio.text(studio.project.robot):
         doubt_lines(["the robot was changed since these values were fitted; fit again"])
     logs = {word for word in now.words if "@" in word or word.startswith("logs/")}
     if logs != {word for word in first.words if "@" in word or word.startswith("logs/")}:
@@ -151,8 +152,9 @@ def _verdict(fit: Mapping[str, Any]) -> None:
                 with ui.card().classes(f"studio-card studio-joint studio-edge-{judged['light']}"):
                     ui.label(f"joint {name}").classes("studio-part")
                     light(judged["light"])
-                    ui.label(f"{percent(joint['relative_error'])} of its torque is left, "
-                             f"{joint['rms']:.3g} {joint['unit']} rms").classes("studio-soft")  # fmt: skip
+                    left = percent(joint["relative_error"])
+                    text = f"{left} of its torque is left, {joint['rms']:.3g} {joint['unit']} rms"
+                    ui.label(text).classes("studio-soft")
                     told(judged["reasons"])
         ui.label("Can such a machine be built?").classes("studio-part")
         possible = fit.get("possible")
@@ -169,50 +171,47 @@ def _verdict(fit: Mapping[str, Any]) -> None:
 
 def _values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
     """The parameters with their sigmas, drawn among those of the same unit."""
-    from modeler.report import relation_of_terms
-
     own = [*fit["gains"], *fit["parameters"], *fit["loads"]]
-    sums = {base["name"]: relation_of_terms(base["terms"]) for base in model["manifest"]["base"]}
+    every = [built(BaseSpec, raw) for raw in model["manifest"]["base"]]
+    sums = {base.name: relation(base) for base in every}
     tops: dict[str, float] = {}
     for p in own:
         tops[p["unit"]] = max(tops.get(p["unit"], 0.0), abs(p["value"]) + (p["sigma"] or 0.0))
     with part(f"{len(own)} values"):
-        ui.label("The bar is one sigma to either side, among values of the same unit; over a name "
-                 "stands what it is the sum of. Grey: the model does as well without.").classes(
-            "studio-soft")  # fmt: skip
-        rows = "".join(_row(p, sums.get(p["name"], ""), tops[p["unit"]]) for p in own)
-        heads = "".join(f"<th scope=col>{name}</th>"
-                        for name in ("parameter", "value", "sigma", "% sigma", "unit", ""))  # fmt: skip
-        ui.html(f"<table class=studio-table><tr>{heads}</tr>{rows}</table>", sanitize=False)
+        ui.label(
+            "The whisker is one sigma to either side, among values of the same unit; a name that "
+            "is underlined tells what it is the sum of. Grey: the model does as well without."
+        ).classes("studio-soft")
+        heads = ("parameter", "value", "sigma", "% sigma", "unit", "")
+        rows = [_row(p, sums.get(p["name"], ""), tops[p["unit"]]) for p in own]
+        table(heads, rows, [not p["essential"] for p in own])
 
 
-def _row(p: Mapping[str, Any], relation: str, top: float) -> str:
-    name, value, sigma = html.escape(p["name"]), p["value"], p["sigma"]
-    hint = ""
+def _row(p: Mapping[str, Any], relation: str, top: float) -> Sequence[str]:
+    name, value, sigma = p["name"], p["value"], p["sigma"]
+    shown = f"{name}\t{name} = {relation}" if relation else name
+    if sigma is None:
+        return (shown, "set aside", "", "", p["unit"], "")
     share = p["relative_sigma_percent"]
-    cells = (
-        ["set aside", "", "", p["unit"], ""]
-        if sigma is None
-        else [f"{value:.5g}", f"{sigma:.2g}", "-" if share is None else f"{share:.2g}",
-              html.escape(p["unit"]), _drawn(value, sigma, top)]
-    )  # fmt: skip
-    faint = "" if p["essential"] else " class=studio-faint"
-    mark = "" if p["essential"] else " (not essential)"
-    return f"<tr{faint}><td><span{hint}>{name}</span>{mark}</td>" + "".join(
-        f"<td>{cell}</td>" for cell in cells) + "</tr>"  # fmt: skip
+    percent = "-" if share is None else f"{share:.3g}" if share < 1e4 else ">10000"
+    mark = "" if p["essential"] else " not essential"
+    drawn = Markup(_drawn(value, sigma, top))
+    return (shown, f"{value:.5g}", f"{sigma:.2g}", percent + mark, p["unit"], drawn)
 
 
 def _drawn(value: float, sigma: float, top: float) -> str:
     """A dot with a whisker of one sigma on an axis from -top to top."""
+
     def at(x: float) -> float:
         return (0.5 + 0.48 * x / (top or 1.0)) * _WIDTH
 
     low, high = at(value - sigma), at(value + sigma)
+    said = f"{value:.3g} plus or minus {sigma:.2g}"
     return (
-        f'<svg width={_WIDTH} height=14 role=img aria-label="{value:.3g} plus or minus {sigma:.2g}">'
+        f'<svg width={_WIDTH} height=14 role=img aria-label="{said}">'
         f'<path d="M{at(0.0):.1f} 0V14" class=studio-axis />'
         f'<path d="M{low:.1f} 7H{high:.1f}M{low:.1f} 3V11M{high:.1f} 3V11" class=studio-whisker />'
-        f'<circle cx={at(value):.1f} cy=7 r=3 class=studio-dot /></svg>'
+        f"<circle cx={at(value):.1f} cy=7 r=3 class=studio-dot /></svg>"
     )
 
 
@@ -226,7 +225,7 @@ def _choices(fit: Mapping[str, Any]) -> None:
             ("position filter", f"{own['position_cutoff']:g} Hz", _by(own, "position_cutoff")),
             ("parallel filter", f"{own['parallel_cutoff']:g} Hz", _by(own, "parallel_cutoff")),
             ("samples, rows", f"{fit['samples']}, {fit['rows']}", "what the filters leave to know"),
-            ("condition number", f"{fit['condition_scaled']:.3g}" if fit["condition_scaled"] else "-",
+            ("condition number", f"{fit['condition_scaled'] or np.inf:.3g}",
              "of W with columns of length one"),
             *_noise(bands["noise"]),
         ]  # fmt: skip

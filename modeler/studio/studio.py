@@ -4,6 +4,7 @@ from __future__ import annotations  # a hub has studios, and each studio its hub
 
 import dataclasses
 import hashlib
+import secrets
 import time
 from collections import OrderedDict
 from collections.abc import Awaitable, Callable, Mapping
@@ -14,10 +15,11 @@ from typing import Any
 from nicegui import background_tasks, ui
 from nicegui.element import Element
 
-from modeler.core.errors import ModelerError
+from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import read_text, write_atomically
+from modeler.core.json import JsonError, parse_json
 from modeler.studio import commands
-from modeler.studio.project import FOLDERS, MAKING, Project, Step, Workspace
+from modeler.studio.project import FOLDERS, MAKING, ROBOT, Project, Step, Workspace
 from modeler.studio.running import Running
 from modeler.studio.viewer import Viewer
 
@@ -25,6 +27,7 @@ Screen = Callable[["Studio"], Awaitable[None]]
 """Draws a screen into the element that is open."""
 
 _MOST_SHEETS = 60
+_MOST_DOWNLOADS = 200
 
 
 class Hub:
@@ -36,6 +39,7 @@ class Hub:
         running: the command that runs; None: none.
         studios: of the windows, the first of which may change things.
         sheets: HTML of frames inside the page, by its digest.
+        downloads: what may be taken away, by a key that nobody guesses, with its name.
         allowed: folders whose files may be chosen where they lie.
         screens: by name.
     """
@@ -48,6 +52,7 @@ class Hub:
         self.running: Running | None = None
         self.studios: list[Studio] = []
         self.sheets: OrderedDict[str, str] = OrderedDict()
+        self.downloads: OrderedDict[str, tuple[Path | bytes, str]] = OrderedDict()
 
     @property
     def project(self) -> Project:
@@ -112,7 +117,7 @@ class Hub:
             (self.workspace.folder / name).mkdir(parents=True, exist_ok=True)
         copy = f"robots/{number}.toml"
         if copy in asked.words:
-            text = read_text(self.workspace.folder / self.project.robot)
+            text = read_text(self.workspace.folder / (self.project.robot or ROBOT))
             write_atomically(self.workspace.folder / copy, text)
 
     def sheet(self, html: str) -> str:
@@ -123,6 +128,19 @@ class Hub:
         while len(self.sheets) > _MOST_SHEETS:
             self.sheets.popitem(last=False)
         return f"/sheet/{digest}.html"
+
+    def download(self, content: Path | bytes, name: str) -> str:
+        """The address under which a file, a folder (as ZIP) or bytes are downloaded.
+
+        Args:
+            content: what it is; no address leads to any other file.
+            name: that the browser gives it.
+        """
+        key = secrets.token_urlsafe(16)
+        self.downloads[key] = content, name
+        while len(self.downloads) > _MOST_DOWNLOADS:
+            self.downloads.popitem(last=False)
+        return f"/download/{key}"
 
     def close(self) -> None:
         """Ends what runs."""
@@ -211,6 +229,43 @@ class Studio:
         """
         own = f"{id(self)} {kind}" if kind else ""
         return await self.hub.viewer.ask(question, *arguments, kind=own)
+
+    def text(self, file: str) -> str:
+        """Of a file of the project.
+
+        Raises:
+            DataError: it cannot be read; says what to do.
+        """
+        try:
+            return read_text(self.folder / file)
+        except (OSError, UnicodeDecodeError) as error:
+            why = getattr(error, "strerror", None) or "it is no text"
+            raise DataError(
+                f"{file}: cannot be read ({why}); put the file back, or take the step again"
+            ) from None
+
+    def result(self, step: Step) -> dict[str, Any]:
+        """What the JSON of a step says.
+
+        Raises:
+            DataError: the file is gone, or no JSON.
+        """
+        return self._parsed(step.result)
+
+    def model(self, step: Step) -> dict[str, Any]:
+        """What the model file of a step says.
+
+        Raises:
+            DataError: the file is gone, or no JSON.
+        """
+        return self._parsed(step.model)
+
+    def _parsed(self, file: str) -> dict[str, Any]:
+        try:
+            found: dict[str, Any] = parse_json(self.text(file))
+        except JsonError as error:
+            raise DataError(f"{file}: {error}; take the step again") from None
+        return found
 
     def show_error(self, line: str) -> None:
         """One line, in this window; "" takes the last one away."""
