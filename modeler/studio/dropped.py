@@ -43,10 +43,12 @@ def safe_name(name: str) -> str:
     """
     last = re.split(r"[/\\]", unicodedata.normalize("NFC", name))[-1]
     plain = re.sub(r"[^\w .+()=,@-]", "_", last).strip()
-    stem, ending = os.path.splitext(plain.lstrip(".-@ "))  # noqa: PTH122  of a name, not a path
+    stem, dot, ending = plain.rpartition(".")
+    stem, ending = (stem, f".{ending.strip()}") if dot else (ending, "")
+    stem = stem.lstrip(".-@ ")
     while len((stem + ending).encode()) > _LONGEST and stem:
         stem = stem[:-1]
-    return (stem.strip() or "log") + ending.strip()
+    return (stem.strip() or "log") + ending
 
 
 class _Drop:

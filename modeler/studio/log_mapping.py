@@ -138,7 +138,9 @@ def words_of(
         pattern = _pattern(own, joints)
         if pattern is not None:
             words.append(_word(f"{kind}<j>", pattern))
-            left = {name: one for name, one in left.items() if name not in {f"{kind}{j}" for j in own}}
+            left = {
+                name: one for name, one in left.items() if name not in {f"{kind}{j}" for j in own}
+            }
     singles = [_word(own, one) for own, one in left.items()]
     return tuple(sorted(singles, key=lambda word: not word.startswith("time=")) + words)
 
@@ -226,6 +228,8 @@ def as_mapped(
         return values
     unit = find_unit(one.unit)
     if unit is None:
-        raise DataError(f'{own}: got unit "{one.unit}"; expected one such as {units_of(own, joints)[0]}')
+        raise DataError(
+            f'{own}: got unit "{one.unit}"; expected one such as {units_of(own, joints)[0]}'
+        )
     known = si_unit(own, own, unit, joints)
     return (values + known.zero) * known.factor

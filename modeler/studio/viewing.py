@@ -247,7 +247,6 @@ def _log(place: str, words: Sequence[str], robot: str) -> _Log:
 
 
 def _read(place: str, words: Sequence[str], robot: str) -> _Log:
-    path = Path(log_maps.file_and_span(place)[0])
     mapping = map_from_words(words)
     if robot:
         stated = _robot(robot)
@@ -256,6 +255,11 @@ def _read(place: str, words: Sequence[str], robot: str) -> _Log:
     if mapping.auto:
         guessed = log_maps.look_at(place, None, LogMap(names=mapping.names)).suggested
         mapping = log_maps.suggested_map(guessed, mapping)
+    return _read_as(place, mapping, joints)
+
+
+def _read_as(place: str, mapping: LogMap, joints: tuple[JointSpec, ...]) -> _Log:
+    path = Path(log_maps.file_and_span(place)[0])
     source, blocks = _Source(path, mapping, joints), blocks_of(path)
     if blocks is not None and blocks.rows > LONG:
         return _coarse(source, blocks)
@@ -325,11 +329,19 @@ class _Judged:
     """A model on logs."""
 
     comparison: validation.Comparison
+    model: str
+    compiled: CompiledModel
     logs: tuple[str, ...]
 
     @property
     def prediction(self) -> Prediction:
         return self.comparison.prediction
+
+    def log(self, place: str) -> _Log:
+        """All columns of a log, by the names that the model has for them."""
+        mapping, joints = log_maps.log_map(self.compiled), self.compiled.spec.joints
+        key = (_state(str(log_maps.file_and_span(place)[0])), _state(self.model))
+        return _kept("log", key, lambda: _read_as(place, mapping, joints), 3)
 
 
 @dataclass(frozen=True)
@@ -352,22 +364,22 @@ class Verdict:
     end: float
 
 
-def verdict(model: str, logs: Sequence[str], words: Sequence[str] = ()) -> Verdict:
+def verdict(model: str, logs: Sequence[str]) -> Verdict:
     """What `modeler compare MODEL LOG...` says of every joint."""
-    judged = _judged(model, logs, words)
+    judged = _judged(model, logs)
     time = running_time(judged.prediction)[0]
     items = judged.comparison.joints
     return Verdict(
         tuple(item.joint.name for item in items),
         tuple(float(item.relative_error) for item in items),
         tuple(validation.joint_verdict(item) for item in items),
-        tuple(_channels(judged, words)), float(time.min()), float(time.max()),
+        tuple(_channels(judged)), float(time.min()), float(time.max()),
     )  # fmt: skip
 
 
 def torque_picture(
     models: Sequence[str], logs: Sequence[str], joint: str, start: float = -np.inf,
-    end: float = np.inf, words: Sequence[str] = (),
+    end: float = np.inf,
 ) -> Picture:  # fmt: skip
     """Measured and predicted torque of a joint between two times, and the residual below.
 
@@ -377,9 +389,8 @@ def torque_picture(
         joint: its name.
         start: on the axis of the picture, s; logs stand one after the other.
         end: the same.
-        words: of the mapping.
     """
-    first = _judged(models[0], logs, words).prediction
+    first = _judged(models[0], logs).prediction
     j = _number(first, joint)
     time, label, marks = running_time(first)
     rows = _between(time, start, end)
@@ -388,7 +399,7 @@ def torque_picture(
     below: list[Series] = []
     for k, model in enumerate(models):
         style = Style(_OF_MODELS[k % len(_OF_MODELS)], width=1.4, opacity=0.9)
-        p, name = _judged(model, logs, words).prediction, _short(model)
+        p, name = _judged(model, logs).prediction, _short(model)
         own = running_time(p)[0]  # rows of another model may be others
         kept, left = _between(own, start, end), validation.residual(p)[:, j]
         above.append(_curve(p, "predicted" if alone else name, own, p.predicted[:, j], kept, style))
@@ -428,56 +439,59 @@ def _curve(
 
 
 def residual_picture(
-    models: Sequence[str], logs: Sequence[str], joint: str, channel: str, words: Sequence[str] = ()
+    models: Sequence[str], logs: Sequence[str], joint: str, channel: str, by_log: bool = False
 ) -> Picture:
     """The residual of a joint over a channel: samples, means with two standard errors.
 
     Args:
-        models: files; the samples are those of the first.
+        models: files.
         logs: FILE or FILE@START:END.
         joint: its name.
         channel: an id of `Verdict.channels`.
-        words: of the mapping.
+        by_log: True: means of each log; else of each model.
     """
-    judged = [_judged(model, logs, words) for model in models]
+    parts: list[tuple[str, np.ndarray, np.ndarray]] = []
+    unit = label = ""
+    for model in models:
+        judged = _judged(model, logs)
+        p, j = judged.prediction, _number(judged.prediction, joint)
+        x, label = _channel(judged, j, channel)
+        e, rows = validation.residual(p)[:, j], p.used[:, j] & np.isfinite(x)
+        name = f"{_short(model)}: " if len(models) > 1 else ""
+        for run, log in enumerate(p.logs) if by_log else [(-1, "")]:
+            own = rows & (p.run == run) if by_log else rows
+            parts.append((name + log, x[own], e[own]))
+        unit = p.joints[j].effort_unit
     series: list[Series] = []
-    for k, (own, model) in enumerate(zip(judged, models, strict=True)):
-        p, j = own.prediction, _number(own.prediction, joint)
-        x, label = _channel(own, j, channel, words)
-        e = np.asarray(p.measured - p.predicted, dtype=float)[:, j]
-        rows = p.used[:, j] & np.isfinite(x)
-        if not rows.any():
-            raise DataError(f"joint {joint}: no row that counts has a value of {channel}")
-        x, e = x[rows], e[rows]
-        if not k:
-            kept = thin_points(x, e, POINTS)
-            series.append(Points("samples", x[kept], e[kept], _CLOUD))
-        told = "mean, 2 standard errors" if len(models) == 1 else f"{_short(model)}: mean"
+    for k, (name, x, e) in enumerate(parts):
         style = Style(_OF_MODELS[(k + 1) % len(_OF_MODELS)], width=1.6)
-        series.append(Means(told, *validation.binned_means(x, e), style))
-    unit = judged[0].prediction.joints[j].effort_unit
+        kept = thin_points(x, e, POINTS)
+        cloud = Style(style.color if len(parts) > 1 else GREY, width=2.6, opacity=0.35)
+        series.append(Points(f"{name} samples".strip(), x[kept], e[kept], cloud))
+        if x.size:
+            means = f"{name} mean, 2 standard errors".strip()
+            series.append(Means(means, *validation.binned_means(x, e), style))
+    if not any(x.size for _, x, _ in parts):
+        raise DataError(f"joint {joint}: no row that counts has a value of {channel}")
     panel = Panel("", label, f"residual [{unit}]", tuple(series), zero=True)
     return Picture(f"residual_{joint}_{channel}", f"Joint {joint}: residual over {label}", "",
                    ((panel,),), 360)  # fmt: skip
 
 
-_CLOUD = Style(GREY, width=2.6, opacity=0.45)
-
-
-def where_picture(model: str, logs: Sequence[str], words: Sequence[str] = ()) -> Picture:
+def where_picture(model: str, logs: Sequence[str]) -> Picture:
     """Joint by coordinate: the share of its residual's variance that follows that coordinate.
 
     The share is by binned means, 1 - sum (e - mean of its bin)^2 / sum (e - mean)^2, less what
     as many bins of noise would explain; so every column of a log has one.
     """
-    judged = _judged(model, logs, words)
-    p, channels = judged.prediction, _channels(judged, words)
+    judged = _judged(model, logs)
+    p, channels = judged.prediction, _channels(judged)
     names = tuple(item.joint.name for item in judged.comparison.joints)
     values = np.full((len(names), len(channels)), np.nan)
     for i, name in enumerate(names):
         j = _number(p, name)
         for k, (channel, _) in enumerate(channels):
-            x, _ = _channel(judged, j, channel, words)
+            x, _ = _channel(judged, j, channel)
             rows = p.used[:, j] & np.isfinite(x)
             e = np.asarray(p.measured - p.predicted, dtype=float)[rows, j]
             values[i, k] = 100.0 * explained(x[rows], e)
@@ -512,28 +526,36 @@ def explained(x: np.ndarray, e: np.ndarray, bins: int = 24) -> float:
     return max(0.0, 1.0 - left * (x.size - 1) / whole)
 
 
+def log_errors(model: str, logs: Sequence[str]) -> list[tuple[str, float, dict[str, float]]]:
+    """Relative error on each log, and by joint."""
+    found = _judged(model, logs).comparison.logs
+    return [(one.log, float(one.relative_error), dict(one.joints)) for one in found]
+
+
 def poses(
-    model: str, logs: Sequence[str], words: Sequence[str] = (), points: int = 20_000
+    model: str, logs: Sequence[str], points: int = 6000
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Time on the axis of the pictures and the position of every joint there, rad or m."""
-    p = _judged(model, logs, words).prediction
+    p = _judged(model, logs).prediction
     time = running_time(p)[0]
     rows = np.arange(0, time.size, -(-time.size // points))
     return time[rows], {info.name: p.q[rows, j] for j, info in enumerate(p.joints)}
 
 
-def _channels(judged: _Judged, words: Sequence[str]) -> list[tuple[str, str]]:
+def _channels(judged: _Judged) -> list[tuple[str, str]]:
     """Id and label: coordinates of the motion, then all other columns of the log."""
     coordinates = {c.id: c for j in range(len(judged.prediction.joints))
                    for c in validation.coordinates_of(judged.prediction, j)}  # fmt: skip
-    first = _log(judged.logs[0], words, "")
+    first = judged.log(judged.logs[0])
+    if first.source is not None:  # of a long log only windows are held
+        return [(name, c.label) for name, c in coordinates.items()]
     own = {f"{kind}{joint.name}" for joint in judged.prediction.joints
            for kind in ("q", "qd", "qdd", "tau")}  # fmt: skip
     others = [(name, name) for name in first.values if name not in {*own, "segment"}]
     return [(name, c.label) for name, c in coordinates.items()] + others
 
 
-def _channel(judged: _Judged, j: int, channel: str, words: Sequence[str]) -> tuple[np.ndarray, str]:
+def _channel(judged: _Judged, j: int, channel: str) -> tuple[np.ndarray, str]:
     """Values of a channel on all rows, NaN where the log has none, and its label."""
     p = judged.prediction
     coordinate = next((c for c in validation.coordinates_of(p, j) if c.id == channel), None)
@@ -544,7 +566,7 @@ def _channel(judged: _Judged, j: int, channel: str, words: Sequence[str]) -> tup
     found, label = np.full(p.time.size, np.nan), channel
     for run, place in enumerate(judged.logs):
         rows = p.run == run
-        log = _log(place, words, "")
+        log = judged.log(place)
         if channel in log.values and rows.any():
             found[rows] = np.interp(p.time[rows], log.time, log.values[channel])
             unit = log.units.get(channel, "")
@@ -556,15 +578,15 @@ def _number(prediction: Prediction, joint: str) -> int:
     return next(j for j, info in enumerate(prediction.joints) if info.name == joint)
 
 
-def _judged(model: str, logs: Sequence[str], words: Sequence[str]) -> _Judged:
-    key = (_state(model), tuple(map(_state, logs)), tuple(words))
-    return _kept("judged", key, lambda: _compared(model, logs, words))
+def _judged(model: str, logs: Sequence[str]) -> _Judged:
+    key = (_state(model), tuple(map(_state, logs)))
+    return _kept("judged", key, lambda: _compared(model, logs))
 
 
-def _compared(model: str, logs: Sequence[str], words: Sequence[str]) -> _Judged:
+def _compared(model: str, logs: Sequence[str]) -> _Judged:
     loaded, compiled = _model(model)
-    comparison, _ = checks.compared(loaded, list(logs), compiled, tuple(words))
-    return _Judged(comparison, tuple(logs))
+    comparison, _ = checks.compared(loaded, list(logs), compiled)
+    return _Judged(comparison, model, compiled, tuple(logs))
 
 
 def _model(place: str) -> tuple[IdentifiedModel, CompiledModel]:

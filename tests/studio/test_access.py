@@ -1,11 +1,13 @@
 """Who is let in: a real server, asked as foreign pages, other users and broken clients would."""
 
+import asyncio
 import re
 from collections.abc import Iterator
-from pathlib import Path
+from typing import Any
 
 import pytest
 
+from modeler.studio.access import Guard
 from tests.studio.requests import FORM, ask, form, let_in, port_of, websocket_status
 from tests.studio.window import Served, served
 
@@ -27,8 +29,9 @@ def cookie(studio: Served) -> str:
     return let_in(studio)
 
 
-EVERYWHERE = ("/", "/fit", "/studio.js", "/drop/logs", "/sheet/x.html", "/_nicegui/x", "/favicon.ico",
-              "/_nicegui_ws/socket.io/?EIO=4&transport=polling", "/no-such-place")  # fmt: skip
+EVERYWHERE = ("/", "/fit", "/studio.js", "/drop/logs", "/sheet/x.html", "/_nicegui/x",
+              "/favicon.ico", "/no-such-place",
+              "/_nicegui_ws/socket.io/?EIO=4&transport=polling")  # fmt: skip
 
 
 @pytest.mark.parametrize("path", EVERYWHERE)
@@ -90,8 +93,8 @@ def test_names_of_this_machine_are_known(studio: Served, cookie: str, host: str)
     "host",
     [
         "evil.example", "127.0.0.1.evil.example:{}", "localhost.evil.example", "evil.example:{}",
-        "127.0.0.1:{}@evil.example", "0.0.0.0:{}", "2130706433:{}", "", "127.0.0.1:{}, evil.example",
-        "localhost:", "127.0.0.1:{}\xa0",
+        "127.0.0.1:{}@evil.example", "0.0.0.0:{}", "2130706433:{}", "", "localhost:",
+        "127.0.0.1:{}, evil.example", "127.0.0.1:{}\xa0",
     ],
 )  # fmt: skip
 def test_foreign_names_are_refused_even_with_the_cookie(studio, cookie, host: str) -> None:
@@ -160,13 +163,9 @@ def test_pages_say_what_they_may_do_and_are_not_kept(studio: Served, cookie: str
     assert answer.headers["cache-control"] == "no-store"
 
 
-def test_the_address_for_the_browser_is_good_once(tmp_path: Path) -> None:
-    from modeler.studio.access import Guard
-
+def test_the_address_for_the_browser_is_good_once() -> None:
     async def app(scope, receive, send) -> None:
         raise AssertionError("nobody was let in")
-
-    import asyncio
 
     guard = Guard(app, 5)
 
@@ -176,8 +175,9 @@ def test_the_address_for_the_browser_is_good_once(tmp_path: Path) -> None:
         async def send(message) -> None:
             sent.append(message)
 
-        scope = {"type": "http", "method": "GET", "path": "/", "headers": [(b"host", b"localhost:5")],
-                 "query_string": address.partition("?")[2].encode()}  # fmt: skip
+        scope: dict[str, Any] = {"type": "http", "method": "GET", "path": "/"}
+        scope |= {"headers": [(b"host", b"localhost:5")]}
+        scope |= {"query_string": address.partition("?")[2].encode()}
         asyncio.run(guard(scope, lambda: None, send))
         return sent[0]["status"]
 

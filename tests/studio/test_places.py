@@ -1,0 +1,176 @@
+"""The picker, the lock of a folder, the disk that a project uses."""
+
+import errno
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from modeler.core.errors import DataError, ModelerError
+from modeler.studio.places import ROBOT_ENDINGS, Roots, disk_use, folder_lock, size_text, spare
+from modeler.studio.project import Project, Step
+
+
+@pytest.fixture
+def tree(tmp_path: Path) -> Path:
+    """A folder that may be read, and its neighbour that may not."""
+    for name in ("open/run", "open/.git", "shut"):
+        (tmp_path / name).mkdir(parents=True)
+    for name in ("open/b.CSV", "open/a.parquet", "open/arm.toml", "open/x.txt", "open/.h.csv",
+                 "open/run/c.mat", "shut/secret.csv"):  # fmt: skip
+        (tmp_path / name).write_text("12345")
+    (tmp_path / "open/inside.csv").symlink_to(tmp_path / "open/run/../b.CSV")
+    (tmp_path / "open/out.csv").symlink_to(tmp_path / "shut/secret.csv")
+    (tmp_path / "open/out").symlink_to(tmp_path / "shut")
+    (tmp_path / "open/ring.csv").symlink_to(tmp_path / "open/ring.csv")
+    os.mkfifo(tmp_path / "open/pipe.csv")
+    return tmp_path
+
+
+def test_the_picker_lists_what_may_be_chosen(tree: Path) -> None:
+    roots = Roots((tree / "open",))
+    entries = roots.listed(tree / "open")
+    assert [entry.name for entry in entries] == ["run", "a.parquet", "b.CSV", "inside.csv"]
+    assert [entry.size for entry in entries] == [None, 5, 5, 5] and entries[0].is_folder
+    assert [entry.name for entry in roots.listed(tree / "open", ROBOT_ENDINGS)] == [
+        "run",
+        "arm.toml",
+    ]
+    assert [entry.name for entry in roots.listed(f"{tree}/open/run")] == ["c.mat"]
+
+
+@pytest.mark.parametrize(
+    ("place", "told"),
+    [
+        ("shut", "outside the folders that this studio may read; start it with --allow"),
+        ("shut/secret.csv", "outside"), ("open/..", "outside"), ("open/out", "outside"),
+        ("open/out.csv", "outside"), ("open/../shut/secret.csv", "outside"),
+        ("open/none", "no such file"), ("open/ring.csv", "no such file"),
+        ("open\0", "no such file"), ("openx", "no such file"),
+    ],
+)  # fmt: skip
+def test_nothing_outside_is_chosen(tree: Path, place: str, told: str) -> None:
+    roots = Roots((tree / "open",))
+    with pytest.raises(DataError, match=told):
+        roots.inside(f"{tree}/{place}")
+    with pytest.raises(DataError, match=told):
+        roots.listed(f"{tree}/{place}")
+    assert Roots((tree / "shut", tree / "open")).inside(tree / "open/out") == tree / "shut"
+
+
+def test_a_neighbour_whose_name_begins_alike_is_outside(tree: Path) -> None:
+    (tree / "open2").mkdir()
+    with pytest.raises(DataError, match="outside"):
+        Roots((tree / "open",)).inside(tree / "open2")
+
+
+# The lock.
+
+HOLD = """
+import sys, time
+from pathlib import Path
+from modeler.studio.places import folder_lock
+with folder_lock(Path(sys.argv[1])) as own:
+    print(own, flush=True)
+    time.sleep(60)
+"""
+
+
+def test_one_has_the_folder_and_a_killed_one_does_not(tmp_path: Path) -> None:
+    folder = tmp_path / "new" / "project"
+    words = [sys.executable, "-c", HOLD, str(folder)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as holder:
+        assert holder.stdout is not None and holder.stdout.readline() == "True\n"
+        with folder_lock(folder) as own:
+            assert not own
+        left = [folder / f".dropping-{'ab' * 8}", folder / f".modeler-{'0' * 16}"]
+        mine = [folder / ".modeler-notes", folder / "project.toml"]
+        for path in left + mine:
+            path.write_text("x")
+        with folder_lock(folder) as own:
+            assert not own and left[0].exists()  # it may be in use
+        holder.kill()
+        holder.wait()
+        with folder_lock(folder) as own:
+            assert own and all(path.exists() for path in mine)
+            assert not any(path.exists() for path in left)
+            with folder_lock(folder) as second:
+                assert not second
+
+
+def test_a_place_that_cannot_be_a_folder_is_one_line(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    for place in ("file", "file/below"):
+        with (
+            pytest.raises(ModelerError, match="cannot be used as a project folder"),
+            folder_lock(tmp_path / place),
+        ):
+            pass
+
+
+def test_a_folder_that_may_not_be_written_is_read(tmp_path: Path, monkeypatch) -> None:
+    def refused(self: Path, mode: str):
+        raise PermissionError(errno.EACCES, "Permission denied")  # as anybody but root would get
+
+    monkeypatch.setattr(Path, "open", refused)
+    with folder_lock(tmp_path) as own:
+        assert not own
+
+
+# Disk.
+
+
+def test_disk_is_counted_by_what_it_is_for(tmp_path: Path) -> None:
+    for name, size in (("logs/a.csv", 7), ("logs/bag/b.db3", 5), ("models/1.json", 3), ("x", 2)):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_bytes(b"x" * size)
+    (tmp_path / "far").symlink_to("/usr")
+    used = disk_use(tmp_path)
+    assert (used["logs"], used["models"], used["results"]) == (12, 3, 0)
+    assert used["other"] == 2 and sum(used.values()) == 17
+    assert [size_text(n) for n in (999, 1500, 2.5e9, 3e12)] == ["999 B", "1.5 kB", "2.5 GB", "3 TB"]
+
+
+def step(number: int, parent: int, kind: str, **more: str) -> Step:
+    words = (kind, f"robots/{number}.toml")
+    return Step(number, parent, kind, words, result=f"results/{number}.json", **more)
+
+
+def test_tidying_takes_what_no_step_on_the_way_needs(tmp_path: Path) -> None:
+    """1 fit, 2 diagnose, 3 add, then back to 1: 4 add; 5 and 6 are about models; 7 never ended."""
+    made = {n: {"model": f"models/{n}.json"} for n in (1, 3, 4)}
+    steps = (
+        step(1, 0, "fit", **made[1]), step(2, 1, "diagnose"), step(3, 1, "add", **made[3]),
+        step(4, 1, "add", **made[4]), step(5, 3, "compare"), step(6, 4, "compare"),
+        step(8, 0, "simulate"),
+    )  # fmt: skip
+    project = Project(robot="robot.toml", current=4, steps=steps)
+    for folder in ("robots", "models", "results", "logs"):
+        (tmp_path / folder).mkdir()
+    for n in range(1, 9):
+        (tmp_path / f"results/{n}.json").write_text("xx")
+        (tmp_path / f"results/{n}.pictures.json").write_text("xxx")
+        (tmp_path / f"models/{n}.json").write_text("x")
+    mine = [tmp_path / name for name in ("models/mine.json", "results/3.txt", "logs/3.json")]
+    for path in mine:
+        path.write_text("mine")
+    found = spare(tmp_path, project)
+    assert [s.number for s in found.project.steps] == [1, 2, 4, 6, 8]
+    assert found.project.current == 4 and found.project.path() == project.path()
+    numbers = {int(Path(file).name.split(".")[0]) for file in found.files}
+    assert numbers == {3, 5, 7} and found.size == 3 * (2 + 3 + 1)
+    before = sum(disk_use(tmp_path).values())
+    found.remove(tmp_path)
+    assert before - sum(disk_use(tmp_path).values()) == found.size
+    assert all(path.exists() for path in mine)
+    again = spare(tmp_path, found.project)
+    assert again.files == () and again.project == found.project
+
+
+def test_what_another_step_names_stays(tmp_path: Path) -> None:
+    (tmp_path / "models").mkdir()
+    (tmp_path / "models/2.json").write_text("x")
+    steps = (step(1, 0, "fit", model="models/2.json"),)
+    assert spare(tmp_path, Project(current=1, steps=steps)).files == ()
