@@ -61,7 +61,7 @@ def fit(project: Project, options: Sequence[str] = ()) -> Asked:
     """
     model = f"models/{project.next_number}.json"
     words = ("fit", robot_copy(project), *project.words("train"), "--out", model)
-    return Asked("fit", (*words, *_mapped(project), *options), "fit", model, about=0)
+    return Asked("fit", (*words, *mapped(project), *options), "fit", model, about=0)
 
 
 def compare(project: Project, files: Sequence[str] = (), options: Sequence[str] = ()) -> Asked:
@@ -86,6 +86,21 @@ def add(project: Project, effect: str, joint: str | None) -> Asked:
     return Asked("add", (*words, *_held(project), "--out", model), f"add {name}", model)
 
 
+<<<<<<< HEAD
+def look(project: Project, file: str) -> Asked:
+    """What is in a log, and with a robot what contradicts it."""
+    robot = ("--robot", project.robot) if project.robot else ()
+    return Asked("log", ("log", file, *robot, *mapped(project)), f"look at {file}", about=0)
+
+
+def new_robot(joints: int) -> Asked:
+    """A robot to start from, with so many joints that turn."""
+    letters = "R" * max(1, joints)
+    return Asked("new", ("new", ROBOT, "--joints", letters), f"a robot of {len(letters)}", about=0)
+
+
+def demo(log: str, seed: int) -> Asked:
+=======
 def again(project: Project, step: Step) -> Asked:
     """The page of what a step found: the same command, which ends as it did."""
     number, own = project.next_number, out_of(step.words)
@@ -139,6 +154,7 @@ _COPY = re.compile(r"robots/\d+\.toml")
 
 
 def demo(project: Project, log: str, seed: int) -> Asked:
+>>>>>>> main
     """A measured run of the demonstration arm, whose machine has what its robot file lacks."""
     robot = robot_copy(project)
     words = ("simulate", robot, "--duration", "20", "--seed", str(seed), "--noise", "0.01")
@@ -146,7 +162,8 @@ def demo(project: Project, log: str, seed: int) -> Asked:
     return Asked("simulate", (*words, *hidden), f"measure {log}", about=0)
 
 
-def _mapped(project: Project) -> tuple[str, ...]:
+def mapped(project: Project) -> tuple[str, ...]:
+    """Whose column is which, as every command takes it."""
     return tuple(word for own in project.mapping for word in ("--map", own))
 
 
