@@ -9,7 +9,7 @@ import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from modeler.studio.project import Project, Step
+from modeler.studio.project import ROBOT, Project, Step
 
 DRAWING = ("log", "fit", "compare", "diagnose", "add", "fleet")
 """Commands whose pictures are kept as plain data."""

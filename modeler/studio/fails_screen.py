@@ -1,10 +1,189 @@
-"""The screen "fails"."""
+"""Where it fails: measured against predicted torque by joint, and what the residual follows."""
+
+import math
+from typing import Any
 
 from nicegui import ui
+from nicegui.elements.plotly import Plotly
 
+from modeler.core.errors import ModelerError
+from modeler.core.table import percent
+from modeler.studio import commands, figures
+from modeler.studio.elements import go_button, head, light, part, run_button
 from modeler.studio.studio import Studio
+from modeler.studio.viewing import Verdict
+
+_BAD, _DOUBTFUL = 0.1, 0.03  # relative error
+_TIME = "fails"  # that all pictures of the screen share
+_ROLES = {"test": "held out", "train": "training"}
 
 
 async def draw(studio: Studio) -> None:
     """Draws it."""
-    ui.label("fails")
+    head(
+        "Where it fails",
+        "Measured against predicted torque, and what the rest follows. Drag in a picture to zoom, "
+        "double click for all of it.",
+    )
+    project = studio.project
+    if not project.model:
+        ui.label("There is no model yet: fit one first.")
+        go_button(studio, "Fit", "fit")
+        return
+    roles = {role: name for role, name in _ROLES.items() if project.words(role)}
+    if not roles:
+        ui.label("No log has a training or held-out stretch: choose some first.")
+        go_button(studio, "Data", "data")
+        return
+    kept = studio.kept.setdefault("fails", {})
+    if kept.get("role") not in roles:
+        kept["role"] = next(iter(roles))
+    logs = project.words(kept["role"])
+    with ui.row().classes("items-center w-full"):
+
+        def chosen(event: Any) -> None:
+            kept["role"] = event.value
+            studio.redraw()
+
+        ui.toggle(roles, value=kept["role"], on_change=chosen).props("no-caps")
+        with ui.element("div").classes("col"):
+            run_button(studio, "Compare", lambda: commands.compare(project, logs), small=True)
+    with ui.row().classes("items-center") as waiting:
+        ui.spinner(size="sm")
+        ui.label("predicting ...")
+    try:
+        found: Verdict = await studio.view("verdict", project.model, logs)
+    finally:
+        waiting.delete()
+    await _Fails(studio, project.model, logs, found, kept).draw()
+
+
+def class_of(error: float) -> Any:
+    """The light of a relative error."""
+    return "bad" if not error < _BAD else "doubtful" if error >= _DOUBTFUL else "good"
+
+
+class _Fails:
+    """The screen of one model on logs; `kept` is what was chosen last in this window."""
+
+    def __init__(
+        self, studio: Studio, model: str, logs: list[str], found: Verdict, kept: dict[str, Any]
+    ) -> None:
+        self.studio, self.model, self.logs, self.found, self.kept = studio, model, logs, found, kept
+        if kept.get("joint") not in found.joints:
+            errors = [-1.0 if math.isnan(error) else error for error in found.errors]
+            kept["joint"] = found.joints[errors.index(max(errors))]
+        if kept.get("channel") not in dict(found.channels):
+            kept["channel"] = "velocity"
+        self.rows: dict[str, ui.element] = {}
+
+    async def draw(self) -> None:
+        """Verdict, torques, map, residual."""
+        with part("Verdict"):
+            self._verdict()
+        with part("Measured and predicted"):
+            every = ui.switch("all joints", value=self.kept.get("every", False))
+            every.on_value_change(self._all_switched)
+            self.torques = ui.column().classes("w-full gap-2")
+        with part("What the residual follows"), ui.row().classes("w-full fails-halves"):
+            with ui.column().classes("fails-half"):
+                where = await self.studio.view("where_picture", self.model, self.logs)
+                cells = figures.draw(where)
+                cells.on("plotly_click", self._cell)
+            with ui.column().classes("fails-half"):
+                choice = dict(self.found.channels)
+                self.channel = ui.select(choice, value=self.kept["channel"], label="residual over")
+                self.channel.classes("w-64").on_value_change(self._channel_chosen)
+                self.residual = ui.column().classes("w-full")
+        await self._joint_drawn()
+
+    def _verdict(self) -> None:
+        rows = zip(self.found.joints, self.found.errors, self.found.sentences, strict=True)
+        with ui.element("div").classes("fails-verdict").props("role=listbox aria-label=joints"):
+            for joint, error, sentence in rows:
+                row = ui.element("button").classes("fails-joint").props("type=button role=option")
+                row.on("click", lambda _, name=joint: self._pick(name))
+                self.rows[joint] = row
+                with row:
+                    light(class_of(error), f"Joint {joint}: {percent(error)}")
+                    ui.label(sentence).classes("fails-sentence")
+
+    async def _pick(self, joint: str, channel: str | None = None) -> None:
+        """Another joint, and perhaps another channel, is looked at."""
+        if joint not in self.found.joints:
+            return
+        self.kept["joint"] = joint
+        if channel is not None and channel != self.kept["channel"]:
+            self.kept["channel"] = channel
+            self.channel.set_value(channel)  # which draws the residual anew
+        await self._joint_drawn()
+
+    async def _cell(self, event: Any) -> None:
+        point = event.args["points"][0]
+        ids = {label: channel for channel, label in self.found.channels}
+        await self._pick(point["y"], ids.get(point["x"]))
+
+    async def _channel_chosen(self, event: Any) -> None:
+        self.kept["channel"] = event.value
+        await self._residual_drawn()
+
+    async def _all_switched(self, event: Any) -> None:
+        self.kept["every"] = event.value
+        await self._torques_drawn()
+
+    async def _joint_drawn(self) -> None:
+        for joint, row in self.rows.items():
+            here = joint == self.kept["joint"]
+            row.classes(add="fails-here" if here else "", remove="" if here else "fails-here")
+            row.props(f"aria-selected={'true' if here else 'false'}")
+        await self._torques_drawn()
+        await self._residual_drawn()
+
+    async def _torques_drawn(self) -> None:
+        joints = self.found.joints if self.kept.get("every") else (self.kept["joint"],)
+        pictures = [await self._torque(joint) for joint in joints]
+        self.torques.clear()
+        with self.torques:
+            for joint, picture in zip(joints, pictures, strict=True):
+                if picture is not None:
+                    plot = figures.draw(picture, _TIME)
+                    zooms(self.studio, plot, lambda *ends, name=joint: self._torque(name, *ends))
+
+    async def _torque(self, joint: str, *ends: float) -> Any:
+        return await self.studio.view(
+            "torque_picture", [self.model], self.logs, joint, *ends, kind=f"torque {joint}"
+        )
+
+    async def _residual_drawn(self) -> None:
+        picture = await self.studio.view(
+            "residual_picture", [self.model], self.logs, self.kept["joint"], self.kept["channel"],
+            kind="residual",
+        )  # fmt: skip
+        if picture is not None:
+            self.residual.clear()
+            with self.residual:
+                figures.draw(picture)
+
+
+def zooms(studio: Studio, plot: Plotly, window: Any) -> None:
+    """The picture is asked for anew, finer, when another stretch of time is looked at.
+
+    Args:
+        studio: the window.
+        plot: drawn by `figures.draw`, one of the pictures of a time.
+        window: from both ends, s, to the picture of what is between, or None.
+    """
+
+    async def changed(event: Any) -> None:
+        ends = figures.x_range(event.args)
+        if ends is None:
+            return
+        try:
+            picture = await window(*ends)
+        except ModelerError as error:
+            studio.show_error(str(error))
+            return
+        if picture is not None:
+            plot.update_figure(figures.figure(picture, plot.figure["layout"]["meta"]["time"]))
+
+    plot.on("plotly_relayout", changed)
