@@ -102,7 +102,7 @@ def _routes(app: FastAPI, hub: Hub) -> None:
         types = {"js": "text/javascript", "css": "text/css"}
         if kind not in types:
             return Response(status_code=404)
-        parts = [read_text(path) for path in sorted(own.glob(f"*.{kind}"))]
+        parts = [read_text(own / f"{name}.{kind}") for name in ("studio", "robot")]
         return Response("\n".join(parts), media_type=types[kind])
 
     @app.get("/download/{key}")
