@@ -95,12 +95,18 @@ class MappingTable:
                 menu.props("error hide-bottom-space").tooltip("this log has no such column")
             if one is not None:
                 self._unit(own, one)
-                sign = ui.button("+" if one.sign > 0 else "\u2212", on_click=lambda: self._turn(own))
+                sign = ui.button(
+                    "+" if one.sign > 0 else "\u2212", on_click=lambda: self._turn(own)
+                )
                 sign.props(f'dense flat aria-label="sign of {own}"').mark(f"sign-{own}")
             if guessed:
                 cell.tooltip("a guess by its range alone: check it")
         cell.on("dragover", js_handler="(event) => event.preventDefault()")
-        cell.on("drop", lambda: self._take(own, self._dragged), js_handler="(event) => { event.preventDefault(); emit(); }")
+        cell.on(
+            "drop",
+            lambda: self._take(own, self._dragged),
+            js_handler="(event) => { event.preventDefault(); emit(); }",
+        )
         cell.props(f'data-own="{own}"')
 
     def _unit(self, own: str, one: Choice) -> None:
@@ -126,7 +132,9 @@ class MappingTable:
             self.chosen.pop(own, None)
         else:
             old = self.chosen.get(own)
-            self.chosen[own] = Choice(column) if old is None else dataclasses.replace(old, column=column)
+            self.chosen[own] = (
+                Choice(column) if old is None else dataclasses.replace(old, column=column)
+            )
         self.changed(self.chosen)
 
     def _turn(self, own: str) -> None:

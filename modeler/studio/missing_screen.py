@@ -1,8 +1,10 @@
 """The screen "what is missing": effects ranked, tried as a ghost, added, or banned for good."""
 
 import contextlib
+import dataclasses
 from collections.abc import Mapping, Sequence
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from nicegui import ui
@@ -29,6 +31,7 @@ from modeler.studio.elements import (
     table,
     told,
 )
+from modeler.studio.fails_screen import zooms
 from modeler.studio.project import Project, Step
 from modeler.studio.studio import Studio
 
@@ -199,14 +202,22 @@ async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
     falls = studio.result(step)["waterfall"][-1]["joints"]
     most = max(falls, key=lambda name: falls[name]["before"] - falls[name]["after"])
     shown = joint if joint in falls else most
-    logs = [str(studio.folder / word) for word in project.words("test") or project.words("train")]
-    models = [str(studio.folder / model) for model in (project.model, step.model)]
+    logs = project.words("test") or project.words("train")
+    models = [project.model, step.model]
     told(f"joint {name}: {_fall(own['before'], own['after'])}" for name, own in falls.items())
-    picture = await studio.view("torque_picture", models, logs, shown, *_ALL, project.mapping)
-    figures.draw(picture)
+
+    async def window(*ends: float) -> Picture:
+        picture: Picture = await studio.view("torque_picture", models, logs, shown, *ends)
+        return picture
+
+    plot = figures.draw(_named(await window(), models, _title(effect)), "ghost")
+    zooms(studio, plot, window)
 
 
-_ALL = (float("-inf"), float("inf"))
+def _named(picture: Picture, models: Sequence[str], effect: str) -> Picture:
+    """With what its models are called."""
+    before, after = (f"model {Path(model).stem}" for model in models)
+    return dataclasses.replace(picture, caption=f"{before}: as it is; {after}: with {effect}")
 
 
 def _left(joints: Mapping[str, Mapping[str, float]]) -> None:
