@@ -9,7 +9,7 @@ from urllib.parse import quote
 
 import uvicorn
 from fastapi import FastAPI, Response
-from fastapi.responses import HTMLResponse
+from fastapi.responses import FileResponse, HTMLResponse
 from nicegui import Client, ui
 
 from modeler.core.errors import ModelerError

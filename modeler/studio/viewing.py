@@ -21,10 +21,20 @@ from modeler.core.style import BLACK, BLUE, GREEN, GREY, ORANGE, PINK, SKY, VERM
 from modeler.core.table import WORDS
 from modeler.core.thinning import thin_curves, thin_points
 from modeler.estimation import IdentifiedModel, load_model
-from modeler.logs import Columns, LogMap, LogTable, blocks_of, map_from_table, map_from_words
+from modeler.logs import (
+    Columns,
+    LogMap,
+    LogTable,
+    blocks_of,
+    inspect_log,
+    map_from_table,
+    map_from_words,
+    windows_of,
+)
 from modeler.observation import FINGER, LONG
 from modeler.robot import Robot, read_robot
 from modeler.runtime import CompiledModel
+from modeler.studio.log_mapping import LogGuess, guess_from
 from modeler.validation import Prediction, running_time
 
 POINTS = 1500
@@ -178,7 +188,9 @@ def log_film(
     found = {"time": at}
     for name in (name for name in names if name in values):
         there = np.isfinite(values[name]) & np.isfinite(time)
-        found[name] = np.interp(at, time[there], values[name][there]) if there.any() else at * np.nan
+        found[name] = (
+            np.interp(at, time[there], values[name][there]) if there.any() else at * np.nan
+        )
     return found
 
 
@@ -200,7 +212,7 @@ def log_guess(place: str, robot: str = "") -> LogGuess:
         seen = inspect_log(table, names, joints, (None, None))
         columns = [name for name, _ in table.found.columns]
         count = 1 if seen.positions is None else len(seen.positions.names)
-        found, ranged = guess_from(seen.suggested, seen.plain, joints or anybody(count), columns)
+        found, ranged = guess_from(seen.suggested, seen.plain, joints, columns)
         clock = next((part for part in seen.streams if part.clock), None)
         alike = [part.kind for part in seen.streams].count(clock.kind) > 1 if clock else False
         return LogGuess(found, ranged, clock.name if clock and alike else "", seen.doubts)
@@ -497,7 +509,7 @@ def where_picture(model: str, logs: Sequence[str]) -> Picture:
             values[i, k] = 100.0 * explained(x[rows], e)
     texts = tuple(tuple("" if np.isnan(v) else f"{v:.0f}" for v in row) for row in values)
     heat = Heat(
-        "explained share", tuple(label for _, label in channels), names, values, texts, 100.0
+        "explained share", tuple(channel for channel, _ in channels), names, values, texts, 100.0
     )
     return Picture(
         "where", "Residual: which joint follows what",
@@ -515,8 +527,10 @@ def explained(x: np.ndarray, e: np.ndarray, bins: int = 24) -> float:
     """
     if x.size < 4 * bins or np.ptp(x) == 0.0:
         return np.nan
-    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, bins + 1)))
-    which = np.searchsorted(edges[1:-1], x, side="right")
+    edges, which = np.unique(x, return_inverse=True)  # a bin for each value where they are few
+    if edges.size > bins:
+        edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, bins + 1)))
+        which = np.searchsorted(edges[1:-1], x, side="right")
     count = np.bincount(which)
     mean = np.bincount(which, e) / np.maximum(count, 1)
     whole = float(np.sum((e - e.mean()) ** 2))
