@@ -28,6 +28,7 @@ from .edit import (
     with_own_effect as with_own_effect,
     with_parameters as with_parameters,
     with_reference as with_reference,
+    written_limits as written_limits,
 )
 from .loops import read_home as read_home
 from .mdh_rows import roll_pitch_yaw as roll_pitch_yaw

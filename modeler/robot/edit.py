@@ -327,6 +327,15 @@ def with_limits(text: str, joint: str, cells: Sequence[str]) -> str:
     return _with_table(text, "limits", limits, "one joint a line")
 
 
+def written_limits(text: str) -> dict[str, tuple[str, ...]]:
+    """Lower, upper, speed, acceleration by joint, as a robot file has them."""
+    stated = _stated(text, "limits")
+    return {
+        joint: tuple(e if isinstance(e, str) else f"{e:.15g}" for e in cells)
+        for joint, cells in stated.items()
+    }
+
+
 def _stated(text: str, table: str) -> Mapping[str, Any]:
     """A table with its entries for every leg."""
     document = tomllib.loads(text)

@@ -74,6 +74,7 @@ class PastedTable:
         columns: names, in its letters.
         rows: cells by column.
         symbols: names in it that need a value.
+        headed: True if it had headings.
         notes: what was taken for what, one line each.
     """
 
@@ -82,6 +83,7 @@ class PastedTable:
     rows: tuple[tuple[str, ...], ...]
     symbols: tuple[str, ...]
     notes: tuple[str, ...]
+    headed: bool
 
 
 def pasted_table(text: str, convention: str = "") -> PastedTable:
@@ -129,7 +131,7 @@ def pasted_table(text: str, convention: str = "") -> PastedTable:
         notes.append(f"no headings: taken as {' '.join(columns)}")
     columns = [_own_letter(column, convention) for column in columns]
     _check(columns, body, convention)
-    return _table(columns, units, body, convention, notes)
+    return _table(columns, units, body, convention, notes, named)
 
 
 def _cells(text: str) -> list[list[str]]:
@@ -199,7 +201,7 @@ def _check(columns: Sequence[str], body: Sequence[Sequence[str]], convention: st
 
 def _table(
     columns: list[str], units: list[str], body: Sequence[Sequence[str]], convention: str,
-    notes: list[str],
+    notes: list[str], headed: bool,
 ) -> PastedTable:  # fmt: skip
     khalil = {letter: column for column, letter in CONVENTIONS[convention].items()}
     kinds = [khalil[column] for column in columns]
@@ -220,7 +222,7 @@ def _table(
     cells = [tuple(row.get(column) or _default(column, row) for column in used) for row in rows]
     symbols = _symbols(cells, [row["j"] for row in rows])
     letters = tuple(CONVENTIONS[convention][column] for column in used)
-    return PastedTable(convention, letters, tuple(cells), symbols, tuple(notes))
+    return PastedTable(convention, letters, tuple(cells), symbols, tuple(notes), headed)
 
 
 _GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")

@@ -30,7 +30,7 @@ from modeler.studio import (
 from modeler.studio.access import Guard
 from modeler.studio.commands import typed
 from modeler.studio.places import folder_lock
-from modeler.studio.project import Workspace
+from modeler.studio.project import Project, Workspace
 from modeler.studio.studio import Hub, Studio
 
 JOBS = {
@@ -102,7 +102,7 @@ def _routes(app: FastAPI, hub: Hub) -> None:
         types = {"js": "text/javascript", "css": "text/css"}
         if kind not in types:
             return Response(status_code=404)
-        parts = [read_text(path) for path in sorted(own.glob(f"*.{kind}"))]
+        parts = [read_text(own / f"{name}.{kind}") for name in ("studio", "robot")]
         return Response("\n".join(parts), media_type=types[kind])
 
     @app.get("/download/{key}")
@@ -159,7 +159,6 @@ async def _page(client: Client, hub: Hub, screen: str) -> None:
     _navigation(studio)
     _status(studio)
     studio.room = ui.element("main").classes("studio-room")
-    ui.on("popstate", lambda: None)
     await client.connected()
     studio.redraw()
 
@@ -181,14 +180,30 @@ def _navigation(studio: Studio) -> None:
             buttons[name] = button.props(f"flat no-caps align=left accesskey={number}")
 
         def marked() -> None:
+            done = _done(studio.project)
             for name, button in buttons.items():
-                button.classes(
-                    add="studio-here" if name == studio.screen else "",
-                    remove="" if name == studio.screen else "studio-here",
+                here = name == studio.screen
+                button.classes(add="studio-here", remove="" if here else "studio-here")
+                button.props(
+                    "aria-current=page" if here else "", remove="" if here else "aria-current"
+                )
+                button.props(
+                    "icon-right=check" if name in done else "",
+                    remove="" if name in done else "icon-right",
                 )
 
         studio.listeners.append(marked)
         marked()
+
+
+def _done(project: Project) -> set[str]:
+    """The jobs of which something is there."""
+    kinds = {"fails": "compare", "missing": "diagnose"}
+    found = {name for name, kind in kinds.items() if project.about(kind) is not None}
+    found |= {"robot"} if project.robot else set()
+    found |= {"data"} if project.words("train") else set()
+    found |= {"fit"} if project.current else set()
+    return found | ({"fall"} if len(project.path()) > 1 else set())
 
 
 def _status(studio: Studio) -> None:
@@ -205,6 +220,9 @@ def _status(studio: Studio) -> None:
             line = ui.label().classes("studio-command")
             ui.button(icon="content_copy", on_click=lambda: ui.clipboard.write(line.text)).props(
                 "dense flat round aria-label='copy the command'"
+            )
+            ui.button("All commands", on_click=lambda: _show_commands(studio)).props(
+                "dense flat no-caps"
             )
         with ui.row().classes("items-center w-full") as reading:
             ui.label("this window only reads: the project is open in another one")
@@ -229,6 +247,14 @@ def _status(studio: Studio) -> None:
 
         studio.listeners.append(told)
         told()
+
+
+def _show_commands(studio: Studio) -> None:
+    """What was done, as it would be typed in the folder of the project."""
+    lines = [f"{typed(step.words)}  # {step.seconds:.1f} s" for step in studio.project.steps]
+    with ui.dialog(value=True), ui.card().classes("studio-card studio-commands"):
+        ui.label(f"Commands, in {studio.folder}").classes("studio-part")
+        ui.code("\n".join(lines), language="bash")
 
 
 def _cancel(studio: Studio) -> None:

@@ -9,7 +9,7 @@ import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from modeler.studio.project import Project, Step
+from modeler.studio.project import ROBOT, Project, Step
 
 DRAWING = ("log", "fit", "compare", "diagnose", "add", "fleet")
 """Commands whose pictures are kept as plain data."""
@@ -61,7 +61,7 @@ def fit(project: Project, options: Sequence[str] = ()) -> Asked:
     """
     model = f"models/{project.next_number}.json"
     words = ("fit", robot_copy(project), *project.words("train"), "--out", model)
-    return Asked("fit", (*words, *_mapped(project), *options), "fit", model, about=0)
+    return Asked("fit", (*words, *mapped(project), *options), "fit", model, about=0)
 
 
 def compare(project: Project, files: Sequence[str] = (), options: Sequence[str] = ()) -> Asked:
@@ -84,6 +84,18 @@ def add(project: Project, effect: str, joint: str | None) -> Asked:
     words = ("add", project.model, effect, *project.words("train"), *place)
     name = effect if joint is None else f"{effect}@{joint}"
     return Asked("add", (*words, *_held(project), "--out", model), f"add {name}", model)
+
+
+def look(project: Project, file: str) -> Asked:
+    """What is in a log, and with a robot what contradicts it."""
+    robot = ("--robot", project.robot) if project.robot else ()
+    return Asked("log", ("log", file, *robot, *mapped(project)), f"look at {file}", about=0)
+
+
+def new_robot(joints: int) -> Asked:
+    """A robot to start from, with so many joints that turn."""
+    letters = "R" * max(1, joints)
+    return Asked("new", ("new", ROBOT, "--joints", letters), f"a robot of {len(letters)}", about=0)
 
 
 def again(project: Project, step: Step) -> Asked:
@@ -146,7 +158,8 @@ def demo(project: Project, log: str, seed: int) -> Asked:
     return Asked("simulate", (*words, *hidden), f"measure {log}", about=0)
 
 
-def _mapped(project: Project) -> tuple[str, ...]:
+def mapped(project: Project) -> tuple[str, ...]:
+    """Whose column is which, as every command takes it."""
     return tuple(word for own in project.mapping for word in ("--map", own))
 
 

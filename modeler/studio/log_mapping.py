@@ -27,8 +27,8 @@ UNITS: Mapping[str, tuple[str, ...]] = {
 """Units that menus offer, SI first; "" is what the drive has. Any other one can be typed."""
 
 KINDS: Mapping[str, str] = {
-    "q": "position", "qd": "speed", "tau": "torque", "current": "current", "qc": "commanded position",
-    "qdd": "acceleration", "duty": "duty", "voltage": "voltage", "temperature": "temperature",
+    "q": "position", "qd": "speed", "tau": "torque", "current": "current",
+    "qc": "commanded position", "qdd": "acceleration", "duty": "duty", "voltage": "voltage", "temperature": "temperature",
 }  # fmt: skip
 """What is known of joints, and what people call it; the first three always stand in the table."""
 
@@ -57,16 +57,25 @@ class LogGuess:
     """What a log is by its names and ranges.
 
     Attributes:
+        columns: of the file, those with numbers, and units that it states of them; "" for none.
         choices: our name -> column; without those that are called so in the file already.
         ranged: our names whose unit rests on a range alone.
+        joints: how many positions there are.
         topic: of a bag with several, "" else.
         doubts: of the log, as `modeler log` says them without a fit.
     """
 
+    columns: Mapping[str, str]
     choices: Mapping[str, Choice]
     ranged: tuple[str, ...]
+    joints: int
     topic: str
     doubts: tuple[str, ...]
+
+
+def anybody(count: int) -> tuple[JointSpec, ...]:
+    """Joints of a robot that nobody has described yet."""
+    return tuple(JointSpec(str(k + 1), "revolute", "rad", "N m", True, None) for k in range(count))
 
 
 def names_of(joints: Sequence[JointSpec], kinds: Iterable[str]) -> list[str]:
@@ -138,9 +147,8 @@ def words_of(
         pattern = _pattern(own, joints)
         if pattern is not None:
             words.append(_word(f"{kind}<j>", pattern))
-            left = {
-                name: one for name, one in left.items() if name not in {f"{kind}{j}" for j in own}
-            }
+            for joint in own:
+                del left[f"{kind}{joint}"]
     singles = [_word(own, one) for own, one in left.items()]
     return tuple(sorted(singles, key=lambda word: not word.startswith("time=")) + words)
 
@@ -228,8 +236,7 @@ def as_mapped(
         return values
     unit = find_unit(one.unit)
     if unit is None:
-        raise DataError(
-            f'{own}: got unit "{one.unit}"; expected one such as {units_of(own, joints)[0]}'
-        )
+        example = units_of(own, joints)[0]
+        raise DataError(f'{own}: got unit "{one.unit}"; expected one such as {example}')
     known = si_unit(own, own, unit, joints)
     return (values + known.zero) * known.factor

@@ -1,10 +1,293 @@
-"""The screen "missing"."""
+"""The screen "what is missing": effects ranked, tried as a ghost, added, or banned for good."""
+
+import contextlib
+import dataclasses
+from collections.abc import Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
 
 from nicegui import ui
 
+from modeler.core.errors import ModelerError
+from modeler.core.figure import Picture
+from modeler.core.picture_file import pictures_from_json
+from modeler.core.table import percent, printed
+from modeler.effects import CATALOGUE, effect_named
+from modeler.estimation import spread_text
+from modeler.studio import commands, figures
+from modeler.studio.elements import (
+    Light,
+    busy_with,
+    command_line,
+    doubt_lines,
+    folded,
+    go_button,
+    head,
+    light,
+    page_button,
+    part,
+    run_button,
+    table,
+    told,
+)
+from modeler.studio.fails_screen import zooms
+from modeler.studio.project import Project, Step
 from modeler.studio.studio import Studio
+
+Found = Mapping[str, Any]
+"""An effect, as the JSON of a diagnosis has it."""
+
+_STATUS: Mapping[str, tuple[Light, str]] = {
+    "fact": ("good", "fact: it is stated as missing"),
+    "named": ("good", "named: large enough and sure enough to go in"),
+    "perhaps": ("doubtful", "perhaps"),
+}
+_RANKS = ("fact", "named", "perhaps")
 
 
 async def draw(studio: Studio) -> None:
     """Draws it."""
-    ui.label("missing")
+    project = studio.project
+    head("What is missing", "Which physical effect the model lacks, on which joint, how large.")
+    if not project.model:
+        ui.label("There is no model yet: fit one first.")
+        go_button(studio, "To the fit", "fit")
+        return
+    step = project.about("diagnose")
+    with part("Look"):
+        run_button(studio, "Look", lambda: commands.diagnose(studio.project))
+        _bans(studio)
+    if step is not None:
+        if not commands.as_it_was(commands.diagnose(project), step):
+            doubt_lines(["stretches or bans were changed since this was found; look again"])
+        await _diagnosis(studio, step)
+    _by_hand(studio)
+
+
+async def _diagnosis(studio: Studio, step: Step) -> None:
+    """What was found, ranked, and what the data cannot tell."""
+    found = studio.result(step)
+    named = {(one["effect"], one["joint"]) for one in found["effects"]}
+    every = [*found["effects"], *found["refinements"]]
+    pictures: Mapping[str, Picture] = {}
+    with contextlib.suppress(ModelerError):  # a page of words is a page
+        pictures = {p.name: p for p in pictures_from_json(studio.folder / step.pictures)}
+    with part(f"Verdict: {found['verdict']}"):
+        told(found["sentences"] if not every else found["sentences"][:1])
+        doubt_lines(found["data"])
+        if every:
+            folded("In the words of the command", found["sentences"])
+        else:
+            _left(found["joints"])
+    for one in sorted(every, key=lambda one: _RANKS.index(one["status"])):
+        await _card(studio, one, pictures, refines=(one["effect"], one["joint"]) not in named)
+    with part("What else"):
+        if any(one["status"] != "perhaps" for one in every):
+            run_button(
+                studio, "Add all that is named",
+                lambda: commands.add(studio.project, "auto", None),
+                lambda step: studio.go("fall"), small=True,
+            )  # fmt: skip
+        _folded_table(
+            "Rivals that explain less", ("effect", "joint", "of the residual's variance"),
+            [(_title(r["effect"]), r["joint"] or "all", percent(r["gain"]))
+             for r in found["rivals"]],
+        )  # fmt: skip
+        _folded_table(
+            "What these logs cannot show", ("effect", "joint", "it looks like"),
+            [(_title(b["effect"]), b["joint"] or "all", _look_alikes(b["effect"]))
+             for b in found["blind_spots"]],
+        )  # fmt: skip
+        page_button(studio, step)
+
+
+async def _card(studio: Studio, one: Found, pictures: Mapping[str, Picture], refines: bool) -> None:
+    """One effect: what it is, how large, what it gains, why, and what to do with it."""
+    effect, joint = one["effect"], one["joint"]
+    which, status = _STATUS[one["status"]]
+    with part(f"{_title(effect)}: {f'joint {joint}' if joint else 'the whole robot'}"):
+        with ui.row().classes("items-center"):
+            light(which, f"{status}: {one['doubt']}" if one["doubt"] else status)
+            ui.label(f"id {effect}").classes("studio-soft")
+            if refines:
+                ui.label("refines a law of the model").classes("studio-soft")
+        with ui.row().classes("items-baseline"):
+            ui.label(_fall(one["error_before"], one["error_after"])).classes("studio-figure")
+            ui.label("expected error of its joints on motion that was not fitted")
+        for name, value in one["parameters"].items():
+            ui.label(f"{name} = {_value(one, name, value)}")
+        told([one["evidence"]])
+        doubt_lines([one["objection"]] if one["objection"] else [])
+        if one["ties"]:
+            others = [_title(t["effect"]) + (f", joint {t['joint']}" if t["joint"] else "")
+                      for t in one["ties"]]  # fmt: skip
+            doubt_lines([f"these data do not tell it from: {'; '.join(others)}"])
+            go_button(studio, "The motion that tells them apart", "motion")
+        _deeds(studio, effect, joint)
+        for kind in ("evidence", "torque"):
+            if picture := pictures.get(f"{kind}_{effect}_{joint or 'robot'}"):
+                figures.draw(picture)
+        await _ghost(studio, effect, joint)
+
+
+def _value(one: Found, name: str, value: float) -> str:
+    sigma, unit = one["sigmas"].get(name) or 0.0, one["units"].get(name, "")
+    interval = one["intervals"].get(name)
+    spread = spread_text(value, sigma, None if interval is None else (interval[0], interval[1]))
+    return f"{value:.4g}{spread} {'' if unit == '1' else unit}".replace("+-", "\u00b1")
+
+
+def _fall(before: float, after: float) -> str:
+    return " \u2192 ".join(printed(before, after))
+
+
+def _deeds(studio: Studio, effect: str, joint: str | None) -> None:
+    """Preview, add, ban."""
+    asked = partial(lambda: commands.add(studio.project, effect, joint))
+    ready = tried(studio.project, effect, joint)
+    if ready is None:
+        run_button(studio, "Preview", asked, current=False, small=True)
+        run_button(studio, "Add", asked, lambda step: studio.go("fall"), small=True)
+    else:
+        with ui.row().classes("items-center no-wrap w-full"):
+            button = ui.button("Add", on_click=lambda: _taken(studio, ready.number))
+            busy_with(studio, button.props("no-caps unelevated"))
+            command_line(ready.words)
+    with ui.row():
+        for ban in dict.fromkeys([f"{effect}@{joint}" if joint else effect, effect]):
+            where = "this joint" if "@" in ban else "this robot"
+            button = ui.button(f"Not on {where}", on_click=lambda _, ban=ban: _banned(studio, ban))
+            busy_with(studio, button.props("no-caps flat dense icon=block"))
+
+
+def tried(project: Project, effect: str, joint: str | None) -> Step | None:
+    """The step that has added an effect to the current model, as it would be added now."""
+    asked = commands.add(project, effect, joint)
+    own = [step for step in project.steps if step.parent == project.current]
+    return next((step for step in reversed(own) if commands.as_it_was(asked, step)), None)
+
+
+def _taken(studio: Studio, number: int) -> None:
+    if studio.change(current=number):
+        studio.go("fall")
+
+
+def _banned(studio: Studio, ban: str) -> None:
+    others = [own for own in studio.project.without if own.partition("@")[0] != ban]
+    studio.change(redraw=True, without=tuple(dict.fromkeys([*others, ban])))
+
+
+def _bans(studio: Studio) -> None:
+    """What this robot does not have, each to be taken back."""
+    if not studio.project.without:
+        return
+    with ui.row().classes("items-center"):
+        ui.label("not on this robot:").classes("studio-soft")
+        for ban in studio.project.without:
+            left = tuple(own for own in studio.project.without if own != ban)
+            button = ui.button(ban, on_click=lambda _, left=left: studio.change(True, without=left))
+            button.props(
+                f"no-caps outline dense icon=close aria-label='take back the ban of {ban}'"
+            )
+            busy_with(studio, button)
+
+
+async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
+    """Measured, predicted, and predicted with the effect, once it was tried."""
+    project = studio.project
+    step = tried(project, effect, joint)
+    if step is None:
+        return
+    falls = studio.result(step)["waterfall"][-1]["joints"]
+    most = max(falls, key=lambda name: falls[name]["before"] - falls[name]["after"])
+    shown = joint if joint in falls else most
+    logs = project.words("test") or project.words("train")
+    models = [project.model, step.model]
+    told(f"joint {name}: {_fall(own['before'], own['after'])}" for name, own in falls.items())
+
+    async def window(*ends: float) -> Picture:
+        picture: Picture = await studio.view("torque_picture", models, logs, shown, *ends)
+        return picture
+
+    plot = figures.draw(_named(await window(), models, _title(effect)), "ghost")
+    zooms(studio, plot, window)
+
+
+def _named(picture: Picture, models: Sequence[str], effect: str) -> Picture:
+    """With what its models are called."""
+    before, after = (f"model {Path(model).stem}" for model in models)
+    return dataclasses.replace(picture, caption=f"{before}: as it is; {after}: with {effect}")
+
+
+def _left(joints: Mapping[str, Mapping[str, float]]) -> None:
+    """Where nothing is missing: what is left of each joint's torque."""
+    rows = [
+        (name, percent(own["error_before"]), percent(own["explained"]), percent(own["systematic"]),
+         percent(own["noise"]))
+        for name, own in joints.items()
+    ]  # fmt: skip
+    table(("joint", "error", "explained", "of physics", "noise (of the variance)"), rows)
+
+
+def _by_hand(studio: Studio) -> None:
+    """Any effect of the catalogue, found by its id or in plain words."""
+    project = studio.project
+    with part("Any effect of the catalogue"):
+        names = {effect.id: f"{effect.title} ({effect.id})" for effect in CATALOGUE}
+        chosen = studio.kept.setdefault("by hand", {"effect": "viscous", "joint": ""})
+        joints = [j["name"] for j in studio.model(_made(project))["manifest"]["joints"]]
+        about = ui.label(_about(chosen["effect"])).classes("studio-soft")
+        with ui.row().classes("items-end"):
+            effect = ui.select(names, label="effect", value=chosen["effect"], with_input=True)
+            joint = ui.select({"": "where it explains most", **{j: f"joint {j}" for j in joints}},
+                              label="joint", value=chosen["joint"])  # fmt: skip
+            ban = ui.button("Not on this robot", on_click=lambda: _banned(studio, word()))
+            busy_with(studio, ban.props("no-caps flat icon=block"))
+        effect.classes("w-96")
+        joint.classes("w-56")
+
+        def asked() -> commands.Asked:
+            return commands.add(studio.project, chosen["effect"], chosen["joint"] or None)
+
+        def word() -> str:
+            own, place = chosen["effect"], chosen["joint"]
+            return f"{own}@{place}" if place else own
+
+        renew = run_button(studio, "Add it", asked, lambda step: studio.go("fall"), small=True)
+
+        def changed(name: str, value: str | None) -> None:
+            chosen[name] = value or ("viscous" if name == "effect" else "")
+            about.text = _about(chosen["effect"])
+            renew()
+
+        effect.on_value_change(lambda e: changed("effect", e.value))
+        joint.on_value_change(lambda e: changed("joint", e.value))
+
+
+def _made(project: Project) -> Step:
+    """The step of the current model."""
+    step = project.step(project.current)
+    assert step is not None
+    return step
+
+
+def _about(name: str) -> str:
+    effect = effect_named(name)
+    return "" if effect is None else f"{effect.equation}; {effect.signature}"
+
+
+def _title(name: str) -> str:
+    effect = effect_named(name)
+    return name if effect is None else effect.title
+
+
+def _look_alikes(name: str) -> str:
+    effect = effect_named(name)
+    return "" if effect is None else effect.look_alikes
+
+
+def _folded_table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    if rows:
+        with ui.expansion(f"{title} ({len(rows)})").classes("w-full studio-folded"):
+            table(heads, rows)

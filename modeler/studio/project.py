@@ -39,7 +39,7 @@ class Stretch:
 
     def word(self, file: str) -> str:
         """It, as a command takes it."""
-        ends = [f"{side:.6g}" if math.isfinite(side) else "" for side in (self.start, self.end)]
+        ends = [f"{side:.10g}" if math.isfinite(side) else "" for side in (self.start, self.end)]
         return f"{file}@{':'.join(ends)}" if any(ends) else file
 
     def without(self, gaps: Sequence["Stretch"]) -> "list[Stretch]":

@@ -13,7 +13,15 @@ from modeler.core.errors import ModelerError
 from modeler.core.files import read_file
 from modeler.core.json import parse_json
 from modeler.report import page_content, relations_html, robot_html, show
-from modeler.robot import Limits, Robot, TableText, cell_of, read_robot, robot_from_text, table_text
+from modeler.robot import (
+    Robot,
+    TableText,
+    cell_of,
+    read_robot,
+    robot_from_text,
+    table_text,
+    written_limits,
+)
 
 BASIC_EFFECTS = ("rotor_inertia", "viscous", "coulomb", "offset")
 """Columns of the grid of effects."""
@@ -28,14 +36,14 @@ class JointFacts:
         actuated: True if it has a motor.
         unit: of its position.
         effects: ids that it has.
-        limits: lower, upper, speed, acceleration; None: those of every joint of its kind.
+        limits: lower, upper, speed, acceleration, as they are written; empty where none are.
     """
 
     name: str
     actuated: bool
     unit: str
     effects: tuple[str, ...]
-    limits: tuple[float, float, float, float] | None
+    limits: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -77,7 +85,7 @@ def robot_look(text: str, where: str = "robot.toml") -> RobotLook:
     rows = [joint.name for joint in robot.joints]
     return RobotLook(
         "", None, table, _names(table, rows), robot.name, robot.readings, _joints(robot),
-        tuple(joint.name for joint in (*robot.moving,) if joint.actuated), content,
+        tuple(joint.name for joint in robot.moving if joint.actuated), content,
     )  # fmt: skip
 
 
@@ -119,18 +127,13 @@ def _names(table: TableText | None, rows: list[str]) -> tuple[tuple[str, ...], .
 
 
 def _joints(robot: Robot) -> tuple[JointFacts, ...]:
+    limits = written_limits(robot.text)
     shown = [joint for joint in robot.moving if joint.name not in robot.platform]
     return tuple(
         JointFacts(
             joint.name, joint.actuated, joint.unit,
             tuple(effect for effect in BASIC_EFFECTS if robot.has_effect(effect, joint.name)),
-            _limits(robot.limits.get(joint.name)),
+            limits.get(joint.name, ("", "", "", "")),
         )
         for joint in shown
     )  # fmt: skip
-
-
-def _limits(limits: Limits | None) -> tuple[float, float, float, float] | None:
-    if limits is None:
-        return None
-    return limits.lower, limits.upper, limits.speed, limits.acceleration

@@ -34,7 +34,7 @@ from modeler.logs import (
 from modeler.observation import FINGER, LONG
 from modeler.robot import Robot, read_robot
 from modeler.runtime import CompiledModel
-from modeler.studio.log_mapping import LogGuess, guess_from
+from modeler.studio.log_mapping import LogGuess, anybody, guess_from
 from modeler.validation import Prediction, running_time
 
 POINTS = 1500
@@ -210,12 +210,17 @@ def log_guess(place: str, robot: str = "") -> LogGuess:
         part = None if blocks is None or blocks.rows <= LONG else windows_of(blocks, 8, 4096)
         table = LogTable(path, names, joints, True, part)
         seen = inspect_log(table, names, joints, (None, None))
-        columns = [name for name, _ in table.found.columns]
+        columns = {
+            name: table.found.units.get(name, "")
+            for name, column in table.found.columns
+            if column.numeric
+        }
         count = 1 if seen.positions is None else len(seen.positions.names)
-        found, ranged = guess_from(seen.suggested, seen.plain, joints, columns)
+        found, ranged = guess_from(seen.suggested, seen.plain, joints or anybody(count), columns)
         clock = next((part for part in seen.streams if part.clock), None)
         alike = [part.kind for part in seen.streams].count(clock.kind) > 1 if clock else False
-        return LogGuess(found, ranged, clock.name if clock and alike else "", seen.doubts)
+        topic = clock.name if clock and alike else ""
+        return LogGuess(columns, found, ranged, count, topic, seen.doubts)
 
     return _kept("guess", (_state(place), robot and _state(robot)), look, 60)
 
@@ -319,6 +324,11 @@ def _units(
 
 def _robot(place: str) -> Robot:
     return _kept("robot", _state(place), lambda: read_robot(place))
+
+
+def robot_logging(place: str) -> tuple[tuple[JointSpec, ...], dict[str, Any]]:
+    """Joints of a robot file, and its [log]."""
+    return robot_joints(place), dict(_robot(place).log_words)
 
 
 def robot_joints(place: str) -> tuple[JointSpec, ...]:

@@ -32,7 +32,25 @@ const HEEDED = {
   },
 };
 
+// A frame that is drawn anew shows the robot as it was looked at last.
+const EYE = "modeler eye";
+
+function recall() {
+  const kept = framed ? JSON.parse(sessionStorage.getItem(EYE) ?? "{}") : {};
+  if (kept.name !== robot.name) return;
+  page.view.rotation = kept.rotation;
+  page.pose(kept.q);
+  fit();
+  Object.assign(page.view, { scale: kept.scale, centre: kept.centre });
+  if (!page.view.holds(page.poses())) fit();
+  redraw();
+}
+
 if (framed) {
+  window.addEventListener("pagehide", () => {
+    const { rotation, scale, centre } = page.view;
+    sessionStorage.setItem(EYE, JSON.stringify({ name: robot.name, rotation, scale, centre, q: standing().q }));
+  });
   window.addEventListener("message", (event) => {
     if (event.source !== window.parent || event.origin !== location.origin) return;
     HEEDED[event.data?.modeler]?.(event.data);

@@ -386,6 +386,11 @@ pointers();
 buttons();
 page.view.fit(page.poses(), boxes());
 begin();
-new ResizeObserver(fit).observe(element("stage"));
+let opened = false;
+new ResizeObserver(() => {
+  fit();
+  if (!opened) recall();
+  opened = true;
+}).observe(element("stage"));
 matchMedia(DARK).addEventListener("change", redraw);
 tell("ready", standing());

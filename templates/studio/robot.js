@@ -40,13 +40,13 @@ document.addEventListener("focusin", lightRows);
 
 // A table of cells. Told by events of its element: "cell" {row, column, text}, "block" {row,
 // column, text} of what was pasted, "row" {row, what}, "step" "undo" or "redo".
-function showCells(id, { columns, rows, wrong, line, reading, all }) {
+function showCells(id, { columns, rows, wrong, line, reading, all, names, fixed }) {
   const host = document.getElementById(id);
   if (!host) return;
-  const shape = JSON.stringify([columns, rows.length, reading]);
+  const shape = JSON.stringify([columns, rows.length, reading, fixed]);
   if (host.shape !== shape) {
     host.shape = shape;
-    host.replaceChildren(cellTable(host, columns, rows, reading));
+    host.replaceChildren(cellTable(host, columns, rows, reading, fixed));
   }
   rows.forEach((cells, row) => cells.forEach((text, column) => {
     const input = cellAt(host, row, column);
@@ -54,6 +54,7 @@ function showCells(id, { columns, rows, wrong, line, reading, all }) {
     if (input.value !== text) input.value = text;
     input.size = Math.max(4, text.length + 1);
   }));
+  host.querySelectorAll("tbody tr").forEach((line, row) => { line.dataset.rows = (names[row] ?? []).join(" "); });
   host.querySelectorAll(".wrong").forEach((place) => place.classList.remove("wrong"));
   host.querySelectorAll("[aria-invalid]").forEach((input) => { input.removeAttribute("aria-invalid"); input.title = ""; });
   if (!wrong) return;
@@ -69,7 +70,7 @@ function showCells(id, { columns, rows, wrong, line, reading, all }) {
 
 const cellAt = (host, row, column) => host.querySelector(`input[data-row="${row}"][data-column="${column}"]`);
 
-function cellTable(host, columns, rows, reading) {
+function cellTable(host, columns, rows, reading, fixed) {
   const node = (tag, fields = {}, ...children) => {
     const made = Object.assign(document.createElement(tag), fields);
     made.append(...children);
@@ -78,7 +79,7 @@ function cellTable(host, columns, rows, reading) {
   const tell = (what, detail) => host.dispatchEvent(new CustomEvent(what, { detail }));
   const button = (row, what, sign, title) => node("button", { type: "button", textContent: sign, title, ariaLabel: title, tabIndex: -1, onclick: () => tell("row", { row, what }) });
   const cell = (row, column, name) => {
-    const input = node("input", { type: "text", spellcheck: false, autocomplete: "off", readOnly: reading, ariaLabel: `row ${row + 1}, column ${name}` });
+    const input = node("input", { type: "text", spellcheck: false, autocomplete: "off", readOnly: reading || column < fixed, ariaLabel: `row ${row + 1}, column ${name}` });
     Object.assign(input.dataset, { row, column });
     let later = 0;
     input.addEventListener("input", () => {
@@ -112,8 +113,7 @@ function cellTable(host, columns, rows, reading) {
   const head = node("tr", {}, ...columns.map((name) => node("th", { textContent: name, scope: "col" })), node("th"));
   const lines = rows.map((cells, row) => {
     const line = node("tr", {}, ...cells.map((_, column) => cell(row, column, columns[column] ?? "")));
-    line.dataset.rows = cells[columns.indexOf("j")] ?? "";
-    line.append(node("td", {}, ...(reading ? [] : [button(row, "add", "+", "a row below (Ctrl+Enter)"), button(row, "remove", "\u2212", "remove this row (Ctrl+Delete)")])));
+    line.append(node("td", {}, ...(reading || fixed ? [] : [button(row, "add", "+", "a row below (Ctrl+Enter)"), button(row, "remove", "\u2212", "remove this row (Ctrl+Delete)")])));
     return line;
   });
   return node("table", { className: "studio-cells" }, node("thead", {}, head), node("tbody", {}, ...lines));

@@ -1,0 +1,62 @@
+"""The robot in 3-D inside a screen: the page of `modeler show` in a frame, and what it is told."""
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from nicegui import ui
+
+from modeler.core.files import read_text
+from modeler.studio.studio import Studio
+
+
+class RobotFrame:
+    """The page of a robot in a frame.
+
+    Attributes:
+        frame: the element.
+    """
+
+    def __init__(self, studio: Studio, html: str, height: str) -> None:
+        address = studio.hub.sheet(html)
+        self.frame = ui.element("iframe").classes("studio-robot").style(f"height: {height}")
+        self.frame.props(f'src="{address}#bare" title="the robot in 3-D"')
+
+    @property
+    def id(self) -> str:
+        """Of the element, for scripts: `toRobot(id, message)`."""
+        return self.frame.html_id
+
+    def posture(self, q: Mapping[str, float]) -> None:
+        """Moves joints; the loops follow."""
+        self._tell(modeler="posture", q=dict(q))
+
+    def light(self, rows: Sequence[str]) -> None:
+        """Shows links and joints clearly, the others faintly; none: all alike."""
+        self._tell(modeler="light", rows=list(rows))
+
+    def replace(self, content: Mapping[str, Any]) -> None:
+        """Another robot, seen from where the last one is."""
+        self._tell(modeler="robot", content=content)
+
+    def on_joint(self, handler: Callable[[str], Any]) -> None:
+        """Calls it with the name of a joint or link that is clicked."""
+        self.frame.on("joint", lambda event: handler(str(event.args["detail"])), args=["detail"])
+
+    def _tell(self, **message: Any) -> None:
+        words = json.dumps(message, separators=(",", ":"))
+        self.frame.client.run_javascript(f"toRobot({json.dumps(self.id)}, {words})")
+
+
+async def robot_frame(studio: Studio, height: str = "420px") -> RobotFrame:
+    """The robot of the project, here.
+
+    Args:
+        studio: the window.
+        height: of the frame, as CSS has it.
+
+    Raises:
+        ModelerError: the project has no robot that can be drawn; the line.
+    """
+    text = read_text(studio.folder / studio.project.robot)
+    return RobotFrame(studio, await studio.view("robot_page", text), height)
