@@ -125,10 +125,10 @@ async def _card(studio: Studio, one: Found, pictures: Mapping[str, Picture], ref
             doubt_lines([f"these data do not tell it from: {'; '.join(others)}"])
             go_button(studio, "The motion that tells them apart", "motion")
         _deeds(studio, effect, joint)
+        await _ghost(studio, effect, joint)
         for kind in ("evidence", "torque"):
             if picture := pictures.get(f"{kind}_{effect}_{joint or 'robot'}"):
                 figures.draw(picture)
-        await _ghost(studio, effect, joint)
 
 
 def _value(one: Found, name: str, value: float) -> str:
@@ -217,7 +217,8 @@ async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
 def _named(picture: Picture, models: Sequence[str], effect: str) -> Picture:
     """With what its models are called."""
     before, after = (f"model {Path(model).stem}" for model in models)
-    return dataclasses.replace(picture, caption=f"{before}: as it is; {after}: with {effect}")
+    title, caption = f"Preview. {picture.title}", f"{before}: as it is; {after}: with {effect}"
+    return dataclasses.replace(picture, title=title, caption=caption)
 
 
 def _left(joints: Mapping[str, Mapping[str, float]]) -> None:
