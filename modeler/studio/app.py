@@ -10,7 +10,7 @@ from urllib.parse import quote
 import uvicorn
 from fastapi import FastAPI, Response
 from fastapi.responses import FileResponse, HTMLResponse
-from nicegui import Client, ui
+from nicegui import Client, app as nicegui_app, ui
 
 from modeler.core.errors import ModelerError
 from modeler.core.files import read_text, resource_dir
@@ -30,7 +30,7 @@ from modeler.studio import (
 from modeler.studio.access import Guard
 from modeler.studio.commands import typed
 from modeler.studio.places import folder_lock
-from modeler.studio.project import Workspace
+from modeler.studio.project import Project, Workspace
 from modeler.studio.studio import Hub, Studio
 
 JOBS = {
@@ -81,10 +81,11 @@ def serve(
         hub = Hub(workspace, (folder, *allow), {"start": start_screen.draw, **screens})
         inner = FastAPI(openapi_url=None)
         _routes(inner, hub)
-        _pages(hub, "missing" if demo else "")
+        _pages(hub, demo)
         ui.run_with(inner, title="modeler studio", dark=None, show_welcome_message=False)
         guard = Guard(inner, door.getsockname()[1])
         config = uvicorn.Config(guard, log_level="warning", lifespan="on")
+        nicegui_app.on_startup(lambda: hub.viewer.ask("forget"))  # it is there when the first page asks
         told(guard.address, guard.once)
         try:
             uvicorn.Server(config).run(sockets=[door])
@@ -102,7 +103,7 @@ def _routes(app: FastAPI, hub: Hub) -> None:
         types = {"js": "text/javascript", "css": "text/css"}
         if kind not in types:
             return Response(status_code=404)
-        parts = [read_text(path) for path in sorted(own.glob(f"*.{kind}"))]
+        parts = [read_text(own / f"{name}.{kind}") for name in ("studio", "robot")]
         return Response("\n".join(parts), media_type=types[kind])
 
     @app.get("/download/{key}")
@@ -139,17 +140,19 @@ def _attached(content: bytes, name: str) -> Response:
     return Response(content, media_type="application/octet-stream", headers=headers)
 
 
-def _pages(hub: Hub, first: str) -> None:
+def _pages(hub: Hub, demo: bool) -> None:
     @ui.page("/")
     async def start(client: Client) -> None:
-        await _page(client, hub, first or ("robot" if hub.project.robot else "start"))
+        studio = await _page(client, hub, "robot" if hub.project.robot else "start")
+        if demo and not hub.project.robot and hub.running is None and not studio.read_only:
+            await start_screen.begin(studio)
 
     @ui.page("/{screen}")
     async def job(client: Client, screen: str) -> None:
         await _page(client, hub, screen if screen in hub.screens else "start")
 
 
-async def _page(client: Client, hub: Hub, screen: str) -> None:
+async def _page(client: Client, hub: Hub, screen: str) -> Studio:
     ui.add_head_html('<link rel="stylesheet" href="/studio.css"><script src="/studio.js"></script>')
     studio = Studio(hub, screen)
     hub.studios.append(studio)
@@ -159,9 +162,9 @@ async def _page(client: Client, hub: Hub, screen: str) -> None:
     _navigation(studio)
     _status(studio)
     studio.room = ui.element("main").classes("studio-room")
-    ui.on("popstate", lambda: None)
     await client.connected()
     studio.redraw()
+    return studio
 
 
 def _left(hub: Hub, studio: Studio) -> None:
@@ -181,14 +184,30 @@ def _navigation(studio: Studio) -> None:
             buttons[name] = button.props(f"flat no-caps align=left accesskey={number}")
 
         def marked() -> None:
+            done = _done(studio.project)
             for name, button in buttons.items():
-                button.classes(
-                    add="studio-here" if name == studio.screen else "",
-                    remove="" if name == studio.screen else "studio-here",
-                )
+                here = "studio-here", "aria-current=page"
+                if name == studio.screen:
+                    button.classes(here[0]).props(here[1])
+                else:
+                    button.classes(remove=here[0]).props(remove=here[1])
+                if name in done:
+                    button.props("icon-right=check")
+                else:
+                    button.props(remove="icon-right=check")
 
         studio.listeners.append(marked)
         marked()
+
+
+def _done(project: Project) -> set[str]:
+    """The jobs of which something is there."""
+    kinds = {"fails": "compare", "missing": "diagnose"}
+    found = {name for name, kind in kinds.items() if project.about(kind) is not None}
+    found |= {"robot"} if project.robot else set()
+    found |= {"data"} if project.words("train") else set()
+    found |= {"fit"} if project.current else set()
+    return found | ({"fall"} if len(project.path()) > 1 else set())
 
 
 def _status(studio: Studio) -> None:
@@ -205,6 +224,9 @@ def _status(studio: Studio) -> None:
             line = ui.label().classes("studio-command")
             ui.button(icon="content_copy", on_click=lambda: ui.clipboard.write(line.text)).props(
                 "dense flat round aria-label='copy the command'"
+            )
+            ui.button("All commands", on_click=lambda: _show_commands(studio)).props(
+                "dense flat no-caps"
             )
         with ui.row().classes("items-center w-full") as reading:
             ui.label("this window only reads: the project is open in another one")
@@ -229,6 +251,14 @@ def _status(studio: Studio) -> None:
 
         studio.listeners.append(told)
         told()
+
+
+def _show_commands(studio: Studio) -> None:
+    """What was done, as it would be typed in the folder of the project."""
+    lines = [f"{typed(step.words)}  # {step.seconds:.1f} s" for step in studio.project.steps]
+    with ui.dialog(value=True), ui.card().classes("studio-card studio-commands"):
+        ui.label(f"Commands, in {studio.folder}").classes("studio-part")
+        ui.code("\n".join(lines), language="bash")
 
 
 def _cancel(studio: Studio) -> None:

@@ -1,9 +1,8 @@
 """The screen "data": logs come in, are mapped, cut into stretches, looked at, and played."""
 
 import asyncio
-import dataclasses
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -19,7 +18,7 @@ from modeler.logs import map_from_words
 from modeler.studio import commands, timeline
 from modeler.studio.chooser import Chooser
 from modeler.studio.dropped import drop_zone
-from modeler.studio.elements import doubt_lines, folded, head, part, table
+from modeler.studio.elements import head, part
 from modeler.studio.log_desk import Desk
 from modeler.studio.log_mapping import Choice, LogGuess, anybody, choices, said, words_of
 from modeler.studio.places import size_text
@@ -150,7 +149,9 @@ class DataScreen:
         except ModelerError as error:
             self.logs[file] = Known(error=str(error))
         except OSError as error:
-            line = f"{file}: cannot be read ({error.strerror}); put it back, or take it off the list"
+            line = (
+                f"{file}: cannot be read ({error.strerror}); put it back, or take it off the list"
+            )
             self.logs[file] = Known(error=line)
         guess = self.logs[file].guess
         if not robot and guess is not None:
@@ -158,7 +159,9 @@ class DataScreen:
 
     def _clock(self, guess: LogGuess) -> tuple[str, ...]:
         """Words that say what the time is, whatever the other columns are."""
-        kept = [word for word in self.studio.project.mapping if word.startswith(("topic=", "rate="))]
+        kept = [
+            word for word in self.studio.project.mapping if word.startswith(("topic=", "rate="))
+        ]
         time = self.chosen(guess).get("time", Choice("time"))
         own = words_of({"time": time}, {"time": Choice("time")}, self.joints)
         return (*kept, *own) if time.column in guess.columns else tuple(kept)
@@ -166,7 +169,9 @@ class DataScreen:
     def chosen(self, guess: LogGuess) -> dict[str, Choice]:
         """What the columns of a log are taken as."""
         words = self.studio.project.mapping
-        found = choices(said(words, self.stated, self.studio.project.robot), self.joints, guess.columns)
+        found = choices(
+            said(words, self.stated, self.studio.project.robot), self.joints, guess.columns
+        )
         if AUTO in words:
             stated = map_from_words(words).entries(self.joints)
             found |= {own: one for own, one in guess.choices.items() if own not in stated}
@@ -235,7 +240,9 @@ class DataScreen:
         log, known, place = self.log(file), self.logs[file], self._rows[file]
         place.clear()
         with place:
-            name = ui.button(file, on_click=lambda: self.open(file)).props("flat dense no-caps align=left")
+            name = ui.button(file, on_click=lambda: self.open(file)).props(
+                "flat dense no-caps align=left"
+            )
             name.classes("data-name")
             if known.error:
                 ui.label(known.error).classes("studio-error data-told").props("role=alert")
@@ -251,8 +258,11 @@ class DataScreen:
                 count = len(self.result(file).get("doubts", ()))
                 if self.checked(file) is not None:
                     ui.label(f"{count} doubts" if count else "no doubts").classes("studio-soft")
-            off = ui.button(icon="close", on_click=lambda: self._remove(file)).props("flat dense round")
-            off.props(f'aria-label="take {file} off the list"').tooltip("takes it off the list; the file stays")
+            off = ui.button(icon="close", on_click=lambda: self._remove(file)).props(
+                "flat dense round"
+            )
+            off.tooltip("takes it off the list; the file stays")
+            off._props["aria-label"] = f"take {file} off the list"
 
     def log(self, file: str) -> ProjectLog:
         """As the project has it."""
@@ -299,7 +309,9 @@ class DataScreen:
                 hub.running.cancel()
 
         while self.live and hub.running is None and not studio.read_only:
-            wanted = [commands.look(studio.project, file) for file in self.logs if self._unseen(file)]
+            wanted = [
+                commands.look(studio.project, file) for file in self.logs if self._unseen(file)
+            ]
             left = [asked for asked in wanted if asked.words not in failed]
             if not left:
                 return

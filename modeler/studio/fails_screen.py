@@ -120,8 +120,7 @@ class _Fails:
 
     async def _cell(self, event: Any) -> None:
         point = event.args["points"][0]
-        ids = {label: channel for channel, label in self.found.channels}
-        await self._pick(point["y"], ids.get(point["x"]))
+        await self._pick(point["y"], point["x"])
 
     async def _channel_chosen(self, event: Any) -> None:
         self.kept["channel"] = event.value

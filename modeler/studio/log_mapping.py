@@ -28,7 +28,8 @@ UNITS: Mapping[str, tuple[str, ...]] = {
 
 KINDS: Mapping[str, str] = {
     "q": "position", "qd": "speed", "tau": "torque", "current": "current",
-    "qc": "commanded position", "qdd": "acceleration", "duty": "duty", "voltage": "voltage", "temperature": "temperature",
+    "qc": "commanded position", "qdd": "acceleration", "duty": "duty", "voltage": "voltage",
+    "temperature": "temperature",
 }  # fmt: skip
 """What is known of joints, and what people call it; the first three always stand in the table."""
 
@@ -75,9 +76,7 @@ class LogGuess:
 
 def anybody(count: int) -> tuple[JointSpec, ...]:
     """Joints of a robot that nobody has described yet."""
-    return tuple(
-        JointSpec(str(k + 1), "revolute", "rad", "N m", True, None) for k in range(count)
-    )
+    return tuple(JointSpec(str(k + 1), "revolute", "rad", "N m", True, None) for k in range(count))
 
 
 def names_of(joints: Sequence[JointSpec], kinds: Iterable[str]) -> list[str]:

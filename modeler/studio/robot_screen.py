@@ -233,8 +233,8 @@ class _Desk:
         """Looks at the text: a new picture and a robot file, or what is wrong and where."""
         text = self.kept.text
         try:
-            look: RobotLook = await self.studio.view("robot_look", text)
-            if text != self.kept.text:
+            look: RobotLook | None = await self.studio.view("robot_look", text, kind="robot")
+            if look is None or text != self.kept.text:
                 return  # a newer one is looked at
             if not self.studio.read_only:
                 keep(self.studio.folder, text, not look.error)

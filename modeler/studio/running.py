@@ -134,9 +134,11 @@ class Running:
         except (OSError, ValueError) as error:  # ValueError: a NUL in a word
             return self._ended(1, f"{self.title}: cannot be started ({error}); check {self.folder}")
         except asyncio.CancelledError:  # the studio ends
-            self.kill()
+            self._signal(signal.SIGINT)
             if self._process is not None:
-                await self._process.wait()
+                with contextlib.suppress(TimeoutError):
+                    await asyncio.wait_for(self._process.wait(), _PATIENCE)
+                self.kill()
             raise
         if status and self._cancelled:
             return self._ended(INTERRUPTED, f"{self.title}: cancelled")

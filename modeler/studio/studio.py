@@ -2,6 +2,7 @@
 
 from __future__ import annotations  # a hub has studios, and each studio its hub
 
+import asyncio
 import dataclasses
 import hashlib
 import secrets
@@ -162,6 +163,7 @@ class Studio:
         self.hub, self.screen = hub, screen
         self.kept: dict[str, Any] = {}
         self.room: Element | None = None
+        self._drawing: asyncio.Task[None] | None = None
         self.listeners: list[Callable[[], None]] = []
 
     @property
@@ -283,8 +285,11 @@ class Studio:
 
     def redraw(self) -> None:
         """The screen is drawn anew."""
+        if self._drawing is not None:
+            self._drawing.cancel()  # what it would still draw is no longer wanted
         if self.room is not None:
-            background_tasks.create(self._drawn(self.room), name=f"draw {self.screen}")
+            drawn = self._drawn(self.room)
+            self._drawing = background_tasks.create(drawn, name=f"draw {self.screen}")
         self.told()
 
     async def _drawn(self, room: Element) -> None:

@@ -188,7 +188,9 @@ def log_film(
     found = {"time": at}
     for name in (name for name in names if name in values):
         there = np.isfinite(values[name]) & np.isfinite(time)
-        found[name] = np.interp(at, time[there], values[name][there]) if there.any() else at * np.nan
+        found[name] = (
+            np.interp(at, time[there], values[name][there]) if there.any() else at * np.nan
+        )
     return found
 
 
@@ -517,7 +519,7 @@ def where_picture(model: str, logs: Sequence[str]) -> Picture:
             values[i, k] = 100.0 * explained(x[rows], e)
     texts = tuple(tuple("" if np.isnan(v) else f"{v:.0f}" for v in row) for row in values)
     heat = Heat(
-        "explained share", tuple(label for _, label in channels), names, values, texts, 100.0
+        "explained share", tuple(channel for channel, _ in channels), names, values, texts, 100.0
     )
     return Picture(
         "where", "Residual: which joint follows what",
@@ -535,8 +537,10 @@ def explained(x: np.ndarray, e: np.ndarray, bins: int = 24) -> float:
     """
     if x.size < 4 * bins or np.ptp(x) == 0.0:
         return np.nan
-    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, bins + 1)))
-    which = np.searchsorted(edges[1:-1], x, side="right")
+    edges, which = np.unique(x, return_inverse=True)  # a bin for each value where they are few
+    if edges.size > bins:
+        edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, bins + 1)))
+        which = np.searchsorted(edges[1:-1], x, side="right")
     count = np.bincount(which)
     mean = np.bincount(which, e) / np.maximum(count, 1)
     whole = float(np.sum((e - e.mean()) ** 2))

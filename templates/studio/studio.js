@@ -98,3 +98,6 @@
     soon();
   });
 })();
+
+// Back and forward of the browser.
+window.addEventListener("popstate", () => location.reload());
