@@ -233,11 +233,10 @@ def _left(joints: Mapping[str, Mapping[str, float]]) -> None:
 
 def _by_hand(studio: Studio) -> None:
     """Any effect of the catalogue, found by its id or in plain words."""
-    project = studio.project
     with part("Any effect of the catalogue"):
         names = {effect.id: f"{effect.title} ({effect.id})" for effect in CATALOGUE}
         chosen = studio.kept.setdefault("by hand", {"effect": "viscous", "joint": ""})
-        joints = [j["name"] for j in studio.model(_made(project))["manifest"]["joints"]]
+        joints = [j["name"] for j in studio.model(studio.made)["manifest"]["joints"]]
         about = ui.label(_about(chosen["effect"])).classes("studio-soft")
         with ui.row().classes("items-end"):
             effect = ui.select(names, label="effect", value=chosen["effect"], with_input=True)
@@ -264,13 +263,6 @@ def _by_hand(studio: Studio) -> None:
 
         effect.on_value_change(lambda e: changed("effect", e.value))
         joint.on_value_change(lambda e: changed("joint", e.value))
-
-
-def _made(project: Project) -> Step:
-    """The step of the current model."""
-    step = project.step(project.current)
-    assert step is not None
-    return step
 
 
 def _about(name: str) -> str:
