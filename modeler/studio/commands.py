@@ -144,7 +144,12 @@ def as_it_was(asked: Asked, step: Step | None) -> bool:
 
 def _plain(words: Sequence[str]) -> list[str]:
     own = out_of(words)
-    return [word for word in words if word != own and not _COPY.fullmatch(word)]
+    return [word for word in words if word != own and not is_copy(word)]
+
+
+def is_copy(word: str) -> bool:
+    """Whether it is the robot as it was when a step began."""
+    return _COPY.fullmatch(word) is not None
 
 
 _COPY = re.compile(r"robots/\d+\.toml")
