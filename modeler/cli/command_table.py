@@ -656,7 +656,7 @@ _STUDIO = Command(
     "studio", "studio:run_studio",
     "all of this in the browser: see where the model fails, add what is missing",
     "Opens the workbench in the browser, for this machine alone, until Ctrl-C: describe a robot, "
-    "drop logs, fit, see where the model fails, add what is missing. FOLDER keeps all that is done.",
+    "drop logs, fit, see where the model fails, add what is missing. FOLDER keeps all of it.",
     "modeler studio arm",
     (
         value("folder", "FOLDER", places.Word, "of the project, made if it is not there (default: "
