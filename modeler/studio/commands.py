@@ -67,14 +67,15 @@ def fit(project: Project, options: Sequence[str] = ()) -> Asked:
 def compare(project: Project, files: Sequence[str] = (), options: Sequence[str] = ()) -> Asked:
     """Measured against predicted: on the held-out stretches, or where there are none on all."""
     logs = files or project.words("test") or project.words("train")
-    return Asked("compare", ("compare", project.model, *logs, *options), "compare")
+    words = ("compare", project.model, *logs, *_guessing(project), *options)
+    return Asked("compare", words, "compare")
 
 
 def diagnose(project: Project) -> Asked:
     """What the current model lacks."""
     words = ("diagnose", project.model, *project.words("train"), *_held(project))
     bans = [word for effect in project.without for word in ("--without", effect)]
-    return Asked("diagnose", (*words, *bans), "look for what is missing")
+    return Asked("diagnose", (*words, *_guessing(project), *bans), "look for what is missing")
 
 
 def add(project: Project, effect: str, joint: str | None) -> Asked:
@@ -83,7 +84,8 @@ def add(project: Project, effect: str, joint: str | None) -> Asked:
     place = ("--joint", joint) if joint is not None else ()
     words = ("add", project.model, effect, *project.words("train"), *place)
     name = effect if joint is None else f"{effect}@{joint}"
-    return Asked("add", (*words, *_held(project), "--out", model), f"add {name}", model)
+    words = (*words, *_held(project), *_guessing(project), "--out", model)
+    return Asked("add", words, f"add {name}", model)
 
 
 def look(project: Project, file: str) -> Asked:
@@ -144,7 +146,12 @@ def as_it_was(asked: Asked, step: Step | None) -> bool:
 
 def _plain(words: Sequence[str]) -> list[str]:
     own = out_of(words)
-    return [word for word in words if word != own and not _COPY.fullmatch(word)]
+    return [word for word in words if word != own and not is_copy(word)]
+
+
+def is_copy(word: str) -> bool:
+    """Whether it is the robot as it was when a step began."""
+    return _COPY.fullmatch(word) is not None
 
 
 _COPY = re.compile(r"robots/\d+\.toml")
@@ -161,6 +168,11 @@ def demo(project: Project, log: str, seed: int) -> Asked:
 def mapped(project: Project) -> tuple[str, ...]:
     """Whose column is which, as every command takes it."""
     return tuple(word for own in project.mapping for word in ("--map", own))
+
+
+def _guessing(project: Project) -> tuple[str, ...]:
+    """The same where logs are called differently: a model keeps what is so in the first one."""
+    return mapped(project) if "auto" in project.mapping else ()
 
 
 def _held(project: Project) -> tuple[str, ...]:

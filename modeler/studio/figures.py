@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -35,7 +35,7 @@ def figure(picture: Picture, time: str = "") -> dict[str, Any]:
     """
     rows, columns = len(picture.panels), len(picture.panels[0])
     top = (
-        _TOP + _TITLE * any(panel.title for panel in picture.panels[0]) + _LEGEND * _keyed(picture)
+        _TOP + _TITLE * any(panel.title for panel in picture.panels[0])
     )
     layout: dict[str, Any] = {
         "height": picture.height,
@@ -92,16 +92,16 @@ def draw(picture: Picture, time: str = "") -> "ui.plotly":
     return plot
 
 
-def x_range(change: dict[str, Any]) -> tuple[float, float] | None:
-    """What a `plotly_relayout` says of x: both ends, infinite where all is shown; or nothing."""
+def x_range(change: dict[str, Any]) -> tuple[float, float] | Literal[False] | None:
+    """What a `plotly_relayout` says of x: both ends, None where all is shown; False: nothing."""
     for key, value in change.items():
         if key.startswith("xaxis") and key.endswith("autorange") and value:
-            return -math.inf, math.inf
+            return None
         if key.startswith("xaxis") and key.endswith(".range"):
             return float(value[0]), float(value[1])
         if key.startswith("xaxis") and key.endswith(".range[0]"):
             return float(value), float(change[key[:-2] + "1]"])
-    return None
+    return False
 
 
 def _keyed(picture: Picture) -> bool:

@@ -125,10 +125,10 @@ async def _card(studio: Studio, one: Found, pictures: Mapping[str, Picture], ref
             doubt_lines([f"these data do not tell it from: {'; '.join(others)}"])
             go_button(studio, "The motion that tells them apart", "motion")
         _deeds(studio, effect, joint)
+        await _ghost(studio, effect, joint)
         for kind in ("evidence", "torque"):
             if picture := pictures.get(f"{kind}_{effect}_{joint or 'robot'}"):
                 figures.draw(picture)
-        await _ghost(studio, effect, joint)
 
 
 def _value(one: Found, name: str, value: float) -> str:
@@ -217,7 +217,8 @@ async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
 def _named(picture: Picture, models: Sequence[str], effect: str) -> Picture:
     """With what its models are called."""
     before, after = (f"model {Path(model).stem}" for model in models)
-    return dataclasses.replace(picture, caption=f"{before}: as it is; {after}: with {effect}")
+    title, caption = f"Preview. {picture.title}", f"{before}: as it is; {after}: with {effect}"
+    return dataclasses.replace(picture, title=title, caption=caption)
 
 
 def _left(joints: Mapping[str, Mapping[str, float]]) -> None:
@@ -232,11 +233,10 @@ def _left(joints: Mapping[str, Mapping[str, float]]) -> None:
 
 def _by_hand(studio: Studio) -> None:
     """Any effect of the catalogue, found by its id or in plain words."""
-    project = studio.project
     with part("Any effect of the catalogue"):
         names = {effect.id: f"{effect.title} ({effect.id})" for effect in CATALOGUE}
         chosen = studio.kept.setdefault("by hand", {"effect": "viscous", "joint": ""})
-        joints = [j["name"] for j in studio.model(_made(project))["manifest"]["joints"]]
+        joints = [j["name"] for j in studio.model(studio.made)["manifest"]["joints"]]
         about = ui.label(_about(chosen["effect"])).classes("studio-soft")
         with ui.row().classes("items-end"):
             effect = ui.select(names, label="effect", value=chosen["effect"], with_input=True)
@@ -263,13 +263,6 @@ def _by_hand(studio: Studio) -> None:
 
         effect.on_value_change(lambda e: changed("effect", e.value))
         joint.on_value_change(lambda e: changed("joint", e.value))
-
-
-def _made(project: Project) -> Step:
-    """The step of the current model."""
-    step = project.step(project.current)
-    assert step is not None
-    return step
 
 
 def _about(name: str) -> str:

@@ -254,6 +254,18 @@ class Studio:
         """
         return self._parsed(step.result)
 
+    @property
+    def made(self) -> Step:
+        """The step that made the current model.
+
+        Raises:
+            DataError: there is none.
+        """
+        step = self.project.step(self.project.current)
+        if step is None or step.kind not in MAKING:
+            raise DataError("there is no model yet; fit one first")
+        return step
+
     def model(self, step: Step) -> dict[str, Any]:
         """What the model file of a step says.
 

@@ -376,6 +376,7 @@ class Verdict:
         sentences: of each, as `modeler compare` says it; of one that is not judged, why.
         channels: of each: id and label of what its residual can be drawn over.
         start, end: of the time axis of the pictures, s.
+        kinds: of each, what is left: "pattern", "noise" or "other".
     """
 
     joints: tuple[str, ...]
@@ -384,6 +385,7 @@ class Verdict:
     channels: tuple[tuple[str, str], ...]
     start: float
     end: float
+    kinds: tuple[str, ...]
 
 
 def verdict(model: str, logs: Sequence[str]) -> Verdict:
@@ -396,6 +398,7 @@ def verdict(model: str, logs: Sequence[str]) -> Verdict:
         tuple(float(item.relative_error) for item in items),
         tuple(validation.joint_verdict(item) for item in items),
         tuple(_channels(judged)), float(time.min()), float(time.max()),
+        tuple(map(validation.kind_of_residual, items)),
     )  # fmt: skip
 
 
