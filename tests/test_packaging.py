@@ -114,14 +114,14 @@ NEVER_INSTALLED = ("cupy-cuda12x",)
 
 def test_what_dependencies_need_is_pinned(settings: dict, pins: dict[str, str]) -> None:
     """Every package that installing brings has its line, and every line brings a package."""
-    waiting = [canonicalize_name(requirement.name) for requirement in requirements(settings)]
-    waiting.append(canonicalize_name("editables"))  # what hatchling asks for to install -e
-    needed: set[str] = set()
+    waiting = [_wanted(requirement) for requirement in requirements(settings)]
+    waiting.append((canonicalize_name("editables"), frozenset()))  # what hatchling asks for
+    met: set[tuple[str, frozenset[str]]] = set()
     while waiting:
-        name = waiting.pop()
-        if name in needed:
+        name, extras = waiting.pop()
+        if (name, extras) in met:
             continue
-        needed.add(name)
+        met.add((name, extras))
         if name in NEVER_INSTALLED:
             continue
         try:
@@ -129,9 +129,14 @@ def test_what_dependencies_need_is_pinned(settings: dict, pins: dict[str, str]) 
         except metadata.PackageNotFoundError:
             pytest.skip(f"NOT CHECKED: {name} is not installed, so what it needs is not known")
         for requirement in map(Requirement, lines):
-            if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
-                waiting.append(canonicalize_name(requirement.name))
-    assert needed == pins.keys()
+            marker = requirement.marker
+            if marker is None or any(marker.evaluate({"extra": each}) for each in ("", *extras)):
+                waiting.append(_wanted(requirement))
+    assert {name for name, _ in met} == pins.keys()
+
+
+def _wanted(requirement: Requirement) -> tuple[str, frozenset[str]]:
+    return canonicalize_name(requirement.name), frozenset(requirement.extras)
 
 
 # Written in pieces, so that this file does not name what it looks for.

@@ -586,8 +586,7 @@ _CATALOGUE = Command(
     "modeler effects coulomb",
     (
         value("effect", "EFFECT", places.Word, "one effect, in full", nargs="?"),
-        value("--robot", "ROBOT", places.RobotFile,
-              "with the effects that this robot file defines"),
+        value("--robot", "ROBOT", places.RobotFile, "with the effects that this file defines"),
     ),
     "write the catalogue for machines",
 )  # fmt: skip
@@ -612,8 +611,7 @@ _REPRODUCE = Command(
     "modeler reproduce guegan-2003 --section methods",
     (
         value("paper", "PAPER", places.Word, f"one of {', '.join(paper_names())}"),
-        choice("--section", ("print", "methods"),
-               "what is printed, or the methods; both by default"),
+        choice("--section", ("print", "methods"), "what is printed, or methods; default: both"),
     ),
     "write the lines for machines",
 )  # fmt: skip
@@ -637,18 +635,15 @@ _DEMO = Command(
 _STUDIO = Command(
     "studio", "studio:run_studio",
     "all of this in the browser: see where the model fails, add what is missing",
-    "Opens the workbench in the browser: describe a robot, drop logs, fit, see where the model "
-    "fails, learn which effect is missing, add it and watch the error fall. Serves this machine "
-    "alone, until Ctrl-C; FOLDER keeps all that is done.",
+    "Opens the workbench in the browser, for this machine alone, until Ctrl-C: describe a robot, "
+    "drop logs, fit, see where the model fails, add what is missing. FOLDER keeps all of it.",
     "modeler studio arm",
     (
-        value("folder", "FOLDER", places.Word,
-              "project folder, made if it is not there (default: the current one)", nargs="?",
-              default="."),
+        value("folder", "FOLDER", places.Word, "of the project, made if it is not there (default: "
+              "the current one)", nargs="?", default="."),
         flag("--demo", "begin with the built-in arm that has a hidden effect"),
-        repeated("--allow", "DIR", places.Word,
-                 "folder whose logs and robot files may be chosen where they lie, besides FOLDER "
-                 "and the current one; may be repeated"),
+        repeated("--allow", "DIR", places.Word, "folder whose files may be chosen where they lie, "
+                 "besides FOLDER and the current one; may be repeated"),
         value("--port", "N", int, "at which it answers (default: one that is free)", default=0),
         flag("--no-open", "print the address, open no browser"),
     ),

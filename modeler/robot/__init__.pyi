@@ -68,6 +68,7 @@ from .start import (
 from .table_text import (
     TableText as TableText,
     cell_of as cell_of,
+    convention_of as convention_of,
     table_text as table_text,
     with_cell as with_cell,
     with_row as with_row,

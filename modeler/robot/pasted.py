@@ -19,7 +19,7 @@ from modeler.core.expression import FUNCTIONS
 from modeler.core.toml_cells import listed
 from modeler.robot.conventions import ANGLES, CONVENTIONS, STEPS
 from modeler.robot.robot_text import columns_and_rows
-from modeler.robot.table_text import quoted_cell, with_columns
+from modeler.robot.table_text import names_in, quoted_cell, with_columns
 
 _FULL_TURN = 6.3  # rad: a larger angle is in degrees
 _LONGEST = 20.0  # m: a larger length is in mm
@@ -321,8 +321,9 @@ def pasted_robot(table: PastedTable, name: str) -> str:
         name: of the robot.
     """
     stated = f'convention = "{table.convention}"\n' if table.convention != "khalil" else ""
+    names = names_in(table.convention)
     cells = [
-        [quoted_cell(cell, column) for cell, column in zip(row, table.columns, strict=True)]
+        [quoted_cell(cell, column in names) for cell, column in zip(row, table.columns, strict=True)]
         for row in table.rows
     ]
     lines = columns_and_rows(table.columns, cells)

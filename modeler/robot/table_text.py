@@ -11,8 +11,6 @@ from modeler.robot.loops import MARK
 from modeler.robot.robot_text import aligned
 
 _Entry = TypeVar("_Entry")
-_NAMES = ("j", "a", "parent")
-"""Columns of names, which stand in quotes."""
 _HEAD = re.compile(r"^[ \t]*\[[ \t]*mdh[ \t]*\]", re.MULTILINE)
 _KEY = re.compile(r"^[ \t]*(columns|rows)[ \t]*=[ \t]*(?=\[)", re.MULTILINE)
 _NEXT = re.compile(r"^[ \t]*\[[ \t]*[\w.\"'-]+[ \t]*\][ \t]*(?:#.*)?$", re.MULTILINE)
@@ -73,8 +71,8 @@ def with_cell(text: str, row: int, column: int, cell: str) -> str:
     columns, rows = _table(text)
     array = columns if row < 0 else _at(rows.arrays, row, "row")
     start, end = _at(array.cells, column, "column")
-    name = "j" if row < 0 else _bare(text[slice(*_at(columns.cells, column, "column"))])
-    new = quoted_cell(cell, name)
+    name = "" if row < 0 else _bare(text[slice(*_at(columns.cells, column, "column"))])
+    new = quoted_cell(cell, row < 0 or name in _names(text))
     behind = re.match(r",?[ ]*", text[end:])
     comma, room = (behind[0][:1] if behind else ""), len(behind[0]) - 1 if behind else 0
     if comma == ",":
@@ -93,7 +91,9 @@ def with_row(text: str, after: int, cells: Sequence[str]) -> str:
     """
     columns, rows = _table(text)
     names = [_bare(text[slice(*span)]) for span in columns.cells]
-    line = "[" + ", ".join(map(quoted_cell, cells, names)) + "],"
+    kept = _names(text)
+    line = ", ".join(quoted_cell(c, n in kept) for c, n in zip(cells, names, strict=False))
+    line = f"[{line}],"
     if after < 0:
         return _sure(text, text[: rows.start + 1] + f"\n          {line}" + text[rows.start + 1 :])
     place = _at(rows.arrays, after, "row").end
@@ -138,10 +138,12 @@ def with_columns(text: str, columns: Sequence[str], rows: Sequence[Sequence[str]
     Raises:
         RobotError: there is no table.
     """
+    if convention:
+        text = _with_convention(text, convention)
     columns_, rows_ = _table(text)
-    head, *lines = aligned(
-        [[f'"{c}"' for c in columns], *(list(map(quoted_cell, row, columns)) for row in rows)]
-    )
+    kept = _names(text)
+    quoted = [[quoted_cell(c, n in kept) for c, n in zip(row, columns, strict=True)] for row in rows]
+    head, *lines = aligned([[f'"{c}"' for c in columns], *quoted])
     body = "".join(f"          [{line}],\n" for line in lines)
     parts = sorted(
         [(columns_.start, columns_.end, f"[{head}]"), (rows_.start, rows_.end, f"[\n{body}]")],
@@ -149,9 +151,7 @@ def with_columns(text: str, columns: Sequence[str], rows: Sequence[Sequence[str]
     )
     for start, end, new in parts:
         text = text[:start] + new + text[end:]
-    if not convention:
-        return _sure("", text)
-    return _sure("", _with_convention(text, convention))
+    return _sure("", text)
 
 
 def _with_convention(text: str, convention: str) -> str:
@@ -197,6 +197,22 @@ def cell_of(error: str, text: str) -> tuple[int, str] | None:
 def _column(error: str) -> str:
     found = re.search(r", column (\w+)", error)
     return found[1] if found else ""
+
+
+def convention_of(text: str) -> str:
+    """Whose table it is, as the text has it."""
+    begin, end = _section(text)
+    stated = re.search(r"(?m)^[ \t]*convention[ \t]*=[ \t]*[\"'](\w+)", text[begin:end])
+    return stated[1] if stated else "khalil"
+
+
+def names_in(convention: str) -> tuple[str, ...]:
+    """Columns of names, which stand in quotes."""
+    return ("j", "a") if convention == "khalil" else ("j", "parent")
+
+
+def _names(text: str) -> tuple[str, ...]:
+    return names_in(convention_of(text))
 
 
 def _section(text: str) -> tuple[int, int]:
@@ -273,10 +289,10 @@ def _bare(cell: str) -> str:
         return cell[1:-1]
 
 
-def quoted_cell(cell: str, column: str) -> str:
-    """As TOML has it: numbers bare, all else as text; "" is 0."""
+def quoted_cell(cell: str, name: bool) -> str:
+    """As TOML has it: numbers that are no names bare, all else as text; "" is 0."""
     plain = " ".join(cell.split()) or "0"
-    if column not in _NAMES and re.fullmatch(r"[+-]?(0|[1-9]\d*)(\.\d+)?", plain):
+    if not name and re.fullmatch(r"[+-]?(0|[1-9]\d*)(\.\d+)?", plain):
         return plain
     escaped = plain.replace("\\", "\\\\").replace('"', '\\"')
     return f'"{escaped}"'

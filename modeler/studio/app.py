@@ -10,7 +10,7 @@ from urllib.parse import quote
 import uvicorn
 from fastapi import FastAPI, Response
 from fastapi.responses import FileResponse, HTMLResponse
-from nicegui import Client, ui
+from nicegui import Client, app as nicegui_app, ui
 
 from modeler.core.errors import ModelerError
 from modeler.core.files import read_text, resource_dir
@@ -81,10 +81,13 @@ def serve(
         hub = Hub(workspace, (folder, *allow), {"start": start_screen.draw, **screens})
         inner = FastAPI(openapi_url=None)
         _routes(inner, hub)
-        _pages(hub, "missing" if demo else "")
+        _pages(hub, demo)
         ui.run_with(inner, title="modeler studio", dark=None, show_welcome_message=False)
         guard = Guard(inner, door.getsockname()[1])
         config = uvicorn.Config(guard, log_level="warning", lifespan="on")
+        nicegui_app.on_startup(
+            lambda: hub.viewer.ask("forget")
+        )  # it is there when the first page asks
         told(guard.address, guard.once)
         try:
             uvicorn.Server(config).run(sockets=[door])
@@ -102,7 +105,7 @@ def _routes(app: FastAPI, hub: Hub) -> None:
         types = {"js": "text/javascript", "css": "text/css"}
         if kind not in types:
             return Response(status_code=404)
-        parts = [read_text(path) for path in sorted(own.glob(f"*.{kind}"))]
+        parts = [read_text(own / f"{name}.{kind}") for name in ("studio", "robot")]
         return Response("\n".join(parts), media_type=types[kind])
 
     @app.get("/download/{key}")
@@ -139,17 +142,19 @@ def _attached(content: bytes, name: str) -> Response:
     return Response(content, media_type="application/octet-stream", headers=headers)
 
 
-def _pages(hub: Hub, first: str) -> None:
+def _pages(hub: Hub, demo: bool) -> None:
     @ui.page("/")
     async def start(client: Client) -> None:
-        await _page(client, hub, first or ("robot" if hub.project.robot else "start"))
+        studio = await _page(client, hub, "robot" if hub.project.robot else "start")
+        if demo and not hub.project.robot and hub.running is None and not studio.read_only:
+            await start_screen.begin(studio)
 
     @ui.page("/{screen}")
     async def job(client: Client, screen: str) -> None:
         await _page(client, hub, screen if screen in hub.screens else "start")
 
 
-async def _page(client: Client, hub: Hub, screen: str) -> None:
+async def _page(client: Client, hub: Hub, screen: str) -> Studio:
     ui.add_head_html('<link rel="stylesheet" href="/studio.css"><script src="/studio.js"></script>')
     studio = Studio(hub, screen)
     hub.studios.append(studio)
@@ -161,6 +166,7 @@ async def _page(client: Client, hub: Hub, screen: str) -> None:
     studio.room = ui.element("main").classes("studio-room")
     await client.connected()
     studio.redraw()
+    return studio
 
 
 def _left(hub: Hub, studio: Studio) -> None:
@@ -182,15 +188,15 @@ def _navigation(studio: Studio) -> None:
         def marked() -> None:
             done = _done(studio.project)
             for name, button in buttons.items():
-                here = name == studio.screen
-                button.classes(add="studio-here", remove="" if here else "studio-here")
-                button.props(
-                    "aria-current=page" if here else "", remove="" if here else "aria-current"
-                )
-                button.props(
-                    "icon-right=check" if name in done else "",
-                    remove="" if name in done else "icon-right",
-                )
+                here = "studio-here", "aria-current=page"
+                if name == studio.screen:
+                    button.classes(here[0]).props(here[1])
+                else:
+                    button.classes(remove=here[0]).props(remove=here[1])
+                if name in done:
+                    button.props("icon-right=check")
+                else:
+                    button.props(remove="icon-right=check")
 
         studio.listeners.append(marked)
         marked()

@@ -9,7 +9,7 @@ import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from modeler.studio.project import Project, Step
+from modeler.studio.project import ROBOT, Project, Step
 
 DRAWING = ("log", "fit", "compare", "diagnose", "add", "fleet")
 """Commands whose pictures are kept as plain data."""
@@ -86,7 +86,6 @@ def add(project: Project, effect: str, joint: str | None) -> Asked:
     return Asked("add", (*words, *_held(project), "--out", model), f"add {name}", model)
 
 
-<<<<<<< HEAD
 def look(project: Project, file: str) -> Asked:
     """What is in a log, and with a robot what contradicts it."""
     robot = ("--robot", project.robot) if project.robot else ()
@@ -99,8 +98,6 @@ def new_robot(joints: int) -> Asked:
     return Asked("new", ("new", ROBOT, "--joints", letters), f"a robot of {len(letters)}", about=0)
 
 
-def demo(log: str, seed: int) -> Asked:
-=======
 def again(project: Project, step: Step) -> Asked:
     """The page of what a step found: the same command, which ends as it did."""
     number, own = project.next_number, out_of(step.words)
@@ -147,14 +144,18 @@ def as_it_was(asked: Asked, step: Step | None) -> bool:
 
 def _plain(words: Sequence[str]) -> list[str]:
     own = out_of(words)
-    return [word for word in words if word != own and not _COPY.fullmatch(word)]
+    return [word for word in words if word != own and not is_copy(word)]
+
+
+def is_copy(word: str) -> bool:
+    """Whether it is the robot as it was when a step began."""
+    return _COPY.fullmatch(word) is not None
 
 
 _COPY = re.compile(r"robots/\d+\.toml")
 
 
 def demo(project: Project, log: str, seed: int) -> Asked:
->>>>>>> main
     """A measured run of the demonstration arm, whose machine has what its robot file lacks."""
     robot = robot_copy(project)
     words = ("simulate", robot, "--duration", "20", "--seed", str(seed), "--noise", "0.01")

@@ -1,7 +1,7 @@
 """Where it fails: measured against predicted torque by joint, and what the residual follows."""
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
 from nicegui.elements.plotly import Plotly
@@ -10,11 +10,16 @@ from modeler.core.errors import ModelerError
 from modeler.core.table import percent
 from modeler.studio import commands, figures
 from modeler.studio.elements import go_button, head, light, part, run_button
+from modeler.studio.robot_frame import RobotFrame, robot_frame
 from modeler.studio.studio import Studio
-from modeler.studio.viewing import Verdict
+from modeler.studio.timeline import Timeline
+
+if TYPE_CHECKING:
+    from modeler.studio.viewing import Verdict
 
 _BAD, _DOUBTFUL = 0.1, 0.03  # relative error
 _TIME = "fails"  # that all pictures of the screen share
+_SPEEDS = {0.1: "0.1x", 0.5: "0.5x", 1.0: "1x", 2.0: "2x", 5.0: "5x"}
 _ROLES = {"test": "held out", "train": "training"}
 
 
@@ -67,7 +72,7 @@ class _Fails:
     """The screen of one model on logs; `kept` is what was chosen last in this window."""
 
     def __init__(
-        self, studio: Studio, model: str, logs: list[str], found: Verdict, kept: dict[str, Any]
+        self, studio: Studio, model: str, logs: list[str], found: "Verdict", kept: dict[str, Any]
     ) -> None:
         self.studio, self.model, self.logs, self.found, self.kept = studio, model, logs, found, kept
         if kept.get("joint") not in found.joints:
@@ -76,12 +81,16 @@ class _Fails:
         if kept.get("channel") not in dict(found.channels):
             kept["channel"] = "velocity"
         self.rows: dict[str, ui.element] = {}
+        self.robot: RobotFrame | None = None
 
     async def draw(self) -> None:
         """Verdict, torques, map, residual."""
-        with part("Verdict"):
-            self._verdict()
+        with ui.row().classes("w-full fails-top"):
+            with part("Verdict").classes("fails-said"):
+                self._verdict()
+            self.robot = await self._robot()
         with part("Measured and predicted"):
+            await self._clock()
             every = ui.switch("all joints", value=self.kept.get("every", False))
             every.on_value_change(self._all_switched)
             self.torques = ui.column().classes("w-full gap-2")
@@ -96,6 +105,31 @@ class _Fails:
                 self.channel.classes("w-64").on_value_change(self._channel_chosen)
                 self.residual = ui.column().classes("w-full")
         await self._joint_drawn()
+
+    async def _robot(self) -> RobotFrame | None:
+        """In 3-D, its joints to be clicked; None where it cannot be drawn."""
+        try:
+            with ui.card().classes("studio-card fails-robot"):
+                found = await robot_frame(self.studio, "340px")
+        except ModelerError as error:
+            self.studio.show_error(str(error))
+            return None
+        found.on_joint(self._pick)
+        return found
+
+    async def _clock(self) -> None:
+        """The time that all pictures share, played on a line; the robot goes along."""
+        time, positions = await self.studio.view("poses", self.model, self.logs)
+        frame = "" if self.robot is None else self.robot.id
+        with ui.row().classes("w-full items-center no-wrap"):
+            play = ui.button(icon="play_arrow").props('dense round unelevated aria-label="play"')
+            speed = ui.select(_SPEEDS, value=1.0).props('dense borderless aria-label="speed"')
+            with ui.element("div").classes("col"):
+                line = Timeline(_TIME, (self.found.start, self.found.end), frame=frame)
+
+        line.on("playing", lambda event: play.set_icon("pause" if event.args else "play_arrow"))
+        play.on_click(lambda: line.play(speed.value))
+        line.show(time, positions)
 
     def _verdict(self) -> None:
         rows = zip(self.found.joints, self.found.errors, self.found.sentences, strict=True)
@@ -120,8 +154,7 @@ class _Fails:
 
     async def _cell(self, event: Any) -> None:
         point = event.args["points"][0]
-        ids = {label: channel for channel, label in self.found.channels}
-        await self._pick(point["y"], ids.get(point["x"]))
+        await self._pick(point["y"], point["x"])
 
     async def _channel_chosen(self, event: Any) -> None:
         self.kept["channel"] = event.value
@@ -136,6 +169,8 @@ class _Fails:
             here = joint == self.kept["joint"]
             row.classes(add="fails-here" if here else "", remove="" if here else "fails-here")
             row.props(f"aria-selected={'true' if here else 'false'}")
+        if self.robot is not None:
+            self.robot.light([self.kept["joint"]])
         await self._torques_drawn()
         await self._residual_drawn()
 
@@ -176,10 +211,10 @@ def zooms(studio: Studio, plot: Plotly, window: Any) -> None:
 
     async def changed(event: Any) -> None:
         ends = figures.x_range(event.args)
-        if ends is None:
+        if ends is False:
             return
         try:
-            picture = await window(*ends)
+            picture = await window(*(ends or ()))
         except ModelerError as error:
             studio.show_error(str(error))
             return

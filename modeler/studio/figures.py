@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from nicegui import ui
 
 _WIDTH = 1150  # pixels that gaps between panels are thought for
-_LEFT, _RIGHT, _TOP, _BOTTOM, _LEGEND = 64, 16, 44, 48, 26
+_LEFT, _RIGHT, _TOP, _TITLE, _BOTTOM, _LEGEND = 64, 16, 12, 26, 48, 26
 _BETWEEN, _BESIDE, _SHARED = 84, 84, 42
 _MANY = 5000  # dots from which on they are drawn by the graphics processor
 _DIGITS = 6  # of the range of an axis: finer than a pixel at any zoom of thinned points
@@ -34,9 +34,12 @@ def figure(picture: Picture, time: str = "") -> dict[str, Any]:
             cursor and one zoom.
     """
     rows, columns = len(picture.panels), len(picture.panels[0])
+    top = (
+        _TOP + _TITLE * any(panel.title for panel in picture.panels[0])
+    )
     layout: dict[str, Any] = {
-        "height": picture.height + _LEGEND,
-        "margin": {"l": _LEFT, "r": _RIGHT, "t": _TOP + _LEGEND, "b": _BOTTOM + _names(picture)},
+        "height": picture.height,
+        "margin": {"l": _LEFT, "r": _RIGHT, "t": top, "b": _BOTTOM + _names(picture)},
         "paper_bgcolor": _NONE, "plot_bgcolor": _NONE, "hovermode": "closest",
         "barmode": "overlay", "uirevision": picture.name, "meta": {"time": time},
         "font": {"family": "system-ui, sans-serif", "size": 12, "color": "#333333"},
@@ -65,7 +68,7 @@ def figure(picture: Picture, time: str = "") -> dict[str, Any]:
             data += _traces(panel, n, known)
             layout["shapes"] += _shapes(panel, n)
             layout["annotations"] += _notes(panel, n)
-    layout["showlegend"] = any(trace.get("showlegend") for trace in data)
+    layout["showlegend"] = _keyed(picture)
     return {"data": data, "layout": layout, "config": _CONFIG}
 
 
@@ -89,16 +92,22 @@ def draw(picture: Picture, time: str = "") -> "ui.plotly":
     return plot
 
 
-def x_range(change: dict[str, Any]) -> tuple[float, float] | None:
-    """What a `plotly_relayout` says of x: both ends, infinite where all is shown; or nothing."""
+def x_range(change: dict[str, Any]) -> tuple[float, float] | Literal[False] | None:
+    """What a `plotly_relayout` says of x: both ends, None where all is shown; False: nothing."""
     for key, value in change.items():
         if key.startswith("xaxis") and key.endswith("autorange") and value:
-            return -math.inf, math.inf
+            return None
         if key.startswith("xaxis") and key.endswith(".range"):
             return float(value[0]), float(value[1])
         if key.startswith("xaxis") and key.endswith(".range[0]"):
             return float(value), float(change[key[:-2] + "1]"])
-    return None
+    return False
+
+
+def _keyed(picture: Picture) -> bool:
+    """Whether it needs a legend."""
+    panels = (panel for row in picture.panels for panel in row)
+    return any(panel.spans or len(panel.series) > 1 for panel in panels)
 
 
 def _number(place: int) -> str:
@@ -230,7 +239,7 @@ def _axes(
     if any(isinstance(s, Bars | Heat) for s in panel.series):
         x["type"] = "category"
     if any(isinstance(s, Heat) for s in panel.series):
-        x |= {"showgrid": False}
+        x |= {"showgrid": False, "automargin": True, "tickangle": -35}
         y |= {"type": "category", "autorange": "reversed", "showgrid": False, "automargin": True}
     for axis, ends in ((x, panel.x_range), (y, panel.y_range)):
         if ends is not None:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from nicegui import ui
-from nicegui.element import Element
 
 from modeler.core.errors import ModelerError
 from modeler.core.figure import Curve, Panel, Picture
@@ -18,6 +17,7 @@ from modeler.studio.elements import command_line, doubt_lines, folded, part, tab
 from modeler.studio.log_mapping import Choice, as_mapped, kind_of, words_of
 from modeler.studio.mapping_table import MappingTable
 from modeler.studio.project import ProjectLog, Stretch
+from modeler.studio.robot_frame import robot_frame
 from modeler.studio.timeline import Role, Timeline
 
 if TYPE_CHECKING:
@@ -34,8 +34,8 @@ _WHY: Mapping[str, str] = {
     "repeated": "A recorder faster than the robot writes rows twice. They are dropped; the rate of "
     "the rows that are left is the robot's.",
     "missing": "Rows without a value are bridged where they are few, and not used for the fit.",
-    "limit": "A torque at the limit of its drive is not what the motion asks for; such rows are not "
-    "used. Drive slower or with less load.",
+    "limit": "A torque at the limit of its drive is not what the motion asks for; such rows are "
+    "not used. Drive slower or with less load.",
     "spike": "No machine does that, so the values are left out as they stand; check the wiring.",
     "frozen": "A torque that repeats an old value while its joint moves, for longer than it ever "
     "stays the same, is not measured; those values are left out.",
@@ -75,9 +75,11 @@ class Desk:
         """Pictures first; what takes longer comes after them."""
         with part(self.file), ui.row().classes("w-full no-wrap items-start data-desk"):
             with ui.column().classes("data-pictures gap-2"):
-                self._plot = ui.plotly(figures.figure(self._picture({}), self.file)).classes("w-full")
+                self._plot = ui.plotly(figures.figure(self._picture({}), self.file)).classes(
+                    "w-full"
+                )
                 self._plot.on("plotly_relayout", self._zoomed)
-                self._line = Timeline(self.file, self.known.ends, frame="data-robot")
+                self._line = Timeline(self.file, self.known.ends)
                 self._line.on_brush(self._brushed)
                 self._line.on("mark", lambda event: self._doubt(self.marks()[int(event.args)]))
                 self._line.on("role", lambda event: self._paint(event.args))
@@ -144,9 +146,21 @@ class Desk:
         motion = " or ".join(dict.fromkeys(joint.unit for joint in joints)) or "rad"
         effort = " or ".join(dict.fromkeys(joint.effort_unit for joint in joints)) or "N m"
         units = {"q": motion, "qd": f"{motion} per s", "tau": effort, "current": "A or drive units"}
-        drawn = {kind: curves for kind, curves in rows.items() if curves or (not raw and kind != "current")}
+        drawn = {
+            kind: curves
+            for kind, curves in rows.items()
+            if curves or (not raw and kind != "current")
+        }
         panels = tuple(
-            (Panel("", "time [s]", f"{_PANELS[kind]} [{units[kind]}]", tuple(curves), x_range=self.window),)
+            (
+                Panel(
+                    "",
+                    "time [s]",
+                    f"{_PANELS[kind]} [{units[kind]}]",
+                    tuple(curves),
+                    x_range=self.window,
+                ),
+            )
             for kind, curves in drawn.items()
         ) or ((Panel("", "time [s]", "nothing mapped", ()),),)
         return Picture(f"{self.file} {self._turn}", "", "", panels, 130 + 150 * len(panels), True)
@@ -170,8 +184,13 @@ class Desk:
                 self._offer()
             return
         with self._robot:
-            await self.screen.robot_frame(self._robot, "data-robot")
-        named = {own: one for own, one in self._named().items() if kind_of(own, self.screen.joints)[0] == "q"}
+            if not self._line.frame:
+                self._line.frame = (await robot_frame(self.studio)).id
+        named = {
+            own: one
+            for own, one in self._named().items()
+            if kind_of(own, self.screen.joints)[0] == "q"
+        }
         try:
             film = await self.studio.view(
                 "log_film", self.screen.path(self.file), [one.column for one in named.values()],
@@ -188,7 +207,9 @@ class Desk:
         film, named = self._postures
         joints = self.screen.joints
         q = {
-            joint.name: as_mapped(film[one.column], self.known.units.get(one.column, ""), one, own, joints)
+            joint.name: as_mapped(
+                film[one.column], self.known.units.get(one.column, ""), one, own, joints
+            )
             for own, one in named.items()
             if (joint := kind_of(own, joints)[1]) is not None and one.column in film
         }
@@ -218,7 +239,9 @@ class Desk:
             self._speed = ui.select(_SPEEDS, value=1.0).props('dense borderless aria-label="speed"')
             self._line.on("playing", lambda event: self._plays(bool(event.args)))
             self._ends = tuple(
-                ui.number(label, format="%.4f", on_change=self._typed).props("dense").classes("data-end")
+                ui.number(label, format="%.4f", on_change=self._typed)
+                .props("dense")
+                .classes("data-end")
                 for label in ("from s", "to s")
             )
             self._roles = ui.row().classes("gap-1")
@@ -226,7 +249,9 @@ class Desk:
                 for role, name in timeline.ROLES.items():
                     button = ui.button(name, on_click=lambda _, role=role: self._paint(role))
                     button.props("dense outline no-caps").mark(f"role-{role}")
-                ui.button("let in again", on_click=lambda: self._paint("in")).props("dense flat no-caps")
+                ui.button("let in again", on_click=lambda: self._paint("in")).props(
+                    "dense flat no-caps"
+                )
                 ui.button("zoom to it", on_click=self._zoom).props("dense flat no-caps")
         with ui.row().classes("items-center gap-2"):
             ends = self.known.ends
@@ -282,7 +307,9 @@ class Desk:
         self._line.play(float(self._speed.value))
 
     def _plays(self, on: bool) -> None:
-        self._play.props(f"icon={'pause' if on else 'play_arrow'} aria-label={'pause' if on else 'play'}")
+        self._play.props(
+            f"icon={'pause' if on else 'play_arrow'} aria-label={'pause' if on else 'play'}"
+        )
 
     # The columns.
 
@@ -307,16 +334,23 @@ class Desk:
 
     def _absent(self) -> None:
         """What the mapping of all logs does not find in this one."""
-        lacking = {own: one.column for own, one in self.chosen.items() if one.column not in self.guess.columns}
+        lacking = {
+            own: one.column
+            for own, one in self.chosen.items()
+            if one.column not in self.guess.columns
+        }
         if not lacking or "auto" in self.studio.project.mapping:
             return
         first, column = next(iter(lacking.items()))
         with ui.row().classes("items-center gap-2"):
             doubt_lines([
-                f"this log has no column {column} for {first}: the mapping is that of all logs; take "
-                "it off the list, or let each log be taken by its own guess"
+                f"this log has no column {column} for {first}: the mapping is that of all logs; "
+                "take it off the list, or let each log be taken by its own guess"
             ])  # fmt: skip
-            button = ui.button("each by its own guess", on_click=lambda: self.studio.change(redraw=True, mapping=("auto",)))
+            button = ui.button(
+                "each by its own guess",
+                on_click=lambda: self.studio.change(redraw=True, mapping=("auto",)),
+            )
             button.props("dense outline no-caps")
 
     def _say(self) -> None:
@@ -326,7 +360,11 @@ class Desk:
     async def _mapped(self, chosen: Mapping[str, Choice]) -> None:
         """Other columns, units or signs: words of `--map`, and the pictures at once."""
         screen, project = self.screen, self.studio.project
-        kept = tuple(word for word in project.mapping if word == "auto" or word.startswith(("topic=", "rate=", "names=")))
+        kept = tuple(
+            word
+            for word in project.mapping
+            if word == "auto" or word.startswith(("topic=", "rate=", "names="))
+        )
         under = screen.under(self.guess)
         if "auto" in kept:
             under |= self.guess.choices
@@ -379,43 +417,65 @@ class Desk:
                 ui.label("It is looked at.").classes("studio-soft")
                 doubt_lines(self.guess.doubts)
                 return
-            doubts = list(result["doubts"])
-            timed = {mark["line"] for mark in self.marks()}
-            doubt_lines(doubts)
-            if not doubts:
+            marks = self.marks()
+            for line in result["doubts"]:
+                own = [mark for mark in marks if line.endswith(mark["line"])]
+                self._doubt_row(line, own)
+            told = [
+                mark
+                for mark in marks
+                if not any(d.endswith(mark["line"]) for d in result["doubts"])
+            ]
+            for mark in told[:_MOST]:
+                self._doubt_row(f"{mark['start']:.4f} s: {mark['line']}", [mark])
+            if not (result["doubts"] or told):
                 ui.label("no doubts").classes("studio-soft")
-            for mark in self.marks()[:_MOST]:
-                self._mark_row(mark)
-            table(("channel", "unit", "from", "to", "resolution", "missing"), map(_cells, result["channels"]))
-            folded("notes", [line for line in result["notes"] if line not in timed])
+            table(
+                ("channel", "unit", "from", "to", "resolution", "missing"),
+                map(_cells, result["channels"]),
+            )
+            folded("notes", result["notes"])
 
-    def _mark_row(self, mark: Mapping[str, Any]) -> None:
-        with ui.row().classes("items-center no-wrap gap-2"):
-            ui.button("why", on_click=lambda: self._doubt(mark)).props("dense flat no-caps")
-            if mark["end"] > mark["start"] or mark["kind"] in ("spike", "zero", "lost"):
-                ui.button("leave out", on_click=lambda: self._leave(mark)).props("dense outline no-caps")
-            ui.label(f"{mark['start']:.4f} s  {mark['line']}")
+    def _doubt_row(self, line: str, marks: Sequence[Mapping[str, Any]]) -> None:
+        """A doubt, and what can be done where it has a place."""
+        with ui.row().classes("items-center no-wrap gap-2 w-full"):
+            with ui.element("div").classes("data-doubt"):
+                doubt_lines([line])
+            if marks:
+                ui.button("why", on_click=lambda: self._doubt(marks[0])).props("dense flat no-caps")
+                leave = ui.button("leave out", on_click=lambda: self._leave(marks))
+                leave.props("dense outline no-caps").classes("no-wrap")
 
-    def _leave(self, mark: Mapping[str, Any]) -> None:
-        stretch = Stretch(round(mark["start"] - _ROOM, 4), round(mark["end"] + _ROOM, 4))
-        self._become(lambda log: timeline.painted(log, stretch, "out"))
+    def _leave(self, marks: Sequence[Mapping[str, Any]]) -> None:
+        log = self.log
+        for mark in marks:
+            start, end = (
+                round(mark[side] + room, 4) for side, room in (("start", -_ROOM), ("end", _ROOM))
+            )
+            log = timeline.painted(log, Stretch(start, end), "out")
+        self._become(lambda _: log)
 
     def _doubt(self, mark: Mapping[str, Any]) -> None:
         """Why, and what can be done."""
         with ui.dialog() as dialog, ui.card().classes("studio-card"):
-            ui.label(f"{mark['channel']}, {mark['start']:.4f} to {mark['end']:.4f} s").classes("studio-part")
+            ui.label(f"{mark['channel']}, {mark['start']:.4f} to {mark['end']:.4f} s").classes(
+                "studio-part"
+            )
             ui.label(str(mark["line"]))
             ui.label(_WHY.get(mark["kind"], "")).classes("studio-soft")
             with ui.row():
-                leave = ui.button("Leave out", on_click=lambda: (self._leave(mark), dialog.close()))
+                leave = ui.button("Leave out", on_click=lambda: self._leave([mark]))
+                leave.on_click(dialog.close)
                 leave.props("no-caps unelevated")
                 near = (mark["start"] - 25 * _ROOM, mark["end"] + 25 * _ROOM)
-                ui.button("Look at it", on_click=lambda: (dialog.close(), self._look(near))[1]).props("no-caps flat")
+                ui.button(
+                    "Look at it", on_click=lambda: (dialog.close(), self._look(near))[1]
+                ).props("no-caps flat")
                 ui.button("Close", on_click=dialog.close).props("no-caps flat")
         dialog.open()
 
 
-_MOST = 30  # doubts with a place that are listed; the line has all
+_MOST = 30  # marks that are listed; the line has all
 
 
 def _cells(channel: Mapping[str, Any]) -> Sequence[str]:

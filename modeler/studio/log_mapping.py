@@ -28,7 +28,8 @@ UNITS: Mapping[str, tuple[str, ...]] = {
 
 KINDS: Mapping[str, str] = {
     "q": "position", "qd": "speed", "tau": "torque", "current": "current",
-    "qc": "commanded position", "qdd": "acceleration", "duty": "duty", "voltage": "voltage", "temperature": "temperature",
+    "qc": "commanded position", "qdd": "acceleration", "duty": "duty", "voltage": "voltage",
+    "temperature": "temperature",
 }  # fmt: skip
 """What is known of joints, and what people call it; the first three always stand in the table."""
 
@@ -75,9 +76,7 @@ class LogGuess:
 
 def anybody(count: int) -> tuple[JointSpec, ...]:
     """Joints of a robot that nobody has described yet."""
-    return tuple(
-        JointSpec(str(k + 1), "revolute", "rad", "N m", True, None) for k in range(count)
-    )
+    return tuple(JointSpec(str(k + 1), "revolute", "rad", "N m", True, None) for k in range(count))
 
 
 def names_of(joints: Sequence[JointSpec], kinds: Iterable[str]) -> list[str]:
@@ -149,14 +148,8 @@ def words_of(
         pattern = _pattern(own, joints)
         if pattern is not None:
             words.append(_word(f"{kind}<j>", pattern))
-<<<<<<< HEAD
             for joint in own:
                 del left[f"{kind}{joint}"]
-=======
-            left = {
-                name: one for name, one in left.items() if name not in {f"{kind}{j}" for j in own}
-            }
->>>>>>> main
     singles = [_word(own, one) for own, one in left.items()]
     return tuple(sorted(singles, key=lambda word: not word.startswith("time=")) + words)
 
@@ -244,13 +237,7 @@ def as_mapped(
         return values
     unit = find_unit(one.unit)
     if unit is None:
-<<<<<<< HEAD
         example = units_of(own, joints)[0]
         raise DataError(f'{own}: got unit "{one.unit}"; expected one such as {example}')
-=======
-        raise DataError(
-            f'{own}: got unit "{one.unit}"; expected one such as {units_of(own, joints)[0]}'
-        )
->>>>>>> main
     known = si_unit(own, own, unit, joints)
     return (values + known.zero) * known.factor

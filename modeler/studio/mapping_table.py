@@ -10,7 +10,6 @@ from modeler.core.manifest import JointSpec
 from modeler.studio.log_mapping import KINDS, Choice, kind_of, units_of
 
 _MOST = 400  # columns that a menu lists; others are typed
-_SHOWN = ("q", "qd", "tau")
 _AS_STATED = "as the file says"
 
 
@@ -33,29 +32,34 @@ class MappingTable:
         self.ranged, self.changed = ranged, changed
         self._dragged = ""
         there = {kind_of(own, joints)[0] for own in chosen}
-        self.kinds = [k for k in KINDS if k in there or (k in _SHOWN and "current" not in there)]
-        with ui.element("div").classes("mapping-scroll"):
-            self._table()
+        self._wide = ui.checkbox("all quantities").props("dense")
+        effort = ("tau", "current", "duty")
+        driven = [kind for kind in effort if kind in there][:1] or ["tau"]
+        shown = [kind for kind in KINDS if kind in ("q", "qd", *driven)]
+        self._place = ui.element("div").classes("mapping-scroll")
+        self._wide.on_value_change(lambda: self._table([*KINDS] if self._wide.value else shown))
+        self._table(shown)
         self._chips()
 
-    def _table(self) -> None:
-        with ui.element("table").classes("studio-table mapping"):
+    def _table(self, kinds: Sequence[str]) -> None:
+        self._place.clear()
+        with self._place, ui.element("table").classes("studio-table mapping"):
             with ui.element("tr"):
                 self._th("")
-                for kind in self.kinds:
+                for kind in kinds:
                     self._th(KINDS[kind])
             with ui.element("tr"):
                 self._th("time")
                 with ui.element("td"):
                     self._cell("time")
                 if self.joints:
-                    for kind in self.kinds[1:]:
+                    for kind in kinds[1:]:
                         with ui.element("td"):
                             self._unit_of_all(kind)
             for joint in self.joints:
                 with ui.element("tr"):
                     self._th(f"joint {joint.name}")
-                    for kind in self.kinds:
+                    for kind in kinds:
                         with ui.element("td"):
                             self._cell(f"{kind}{joint.name}")
 
@@ -89,18 +93,27 @@ class MappingTable:
             menu = ui.select(
                 names, value=one and one.column, with_input=True, clearable=own != "time",
                 on_change=lambda event: self._take(own, event.value),
-            ).props(f'dense options-dense aria-label="column of {own}"').classes("mapping-column")  # fmt: skip
+            )  # fmt: skip
+            menu.props(f'dense options-dense aria-label="column of {own}"').classes(
+                "mapping-column"
+            )
             menu.mark(f"column-{own}")
             if one is not None and one.column not in self.columns:
-                menu.props("error hide-bottom-space").tooltip("this log has no such column")
+                menu.props("error").tooltip("this log has no such column")
             if one is not None:
                 self._unit(own, one)
-                sign = ui.button("+" if one.sign > 0 else "\u2212", on_click=lambda: self._turn(own))
+                sign = ui.button(
+                    "+" if one.sign > 0 else "\u2212", on_click=lambda: self._turn(own)
+                )
                 sign.props(f'dense flat aria-label="sign of {own}"').mark(f"sign-{own}")
             if guessed:
                 cell.tooltip("a guess by its range alone: check it")
         cell.on("dragover", js_handler="(event) => event.preventDefault()")
-        cell.on("drop", lambda: self._take(own, self._dragged), js_handler="(event) => { event.preventDefault(); emit(); }")
+        cell.on(
+            "drop",
+            lambda: self._take(own, self._dragged),
+            js_handler="(event) => { event.preventDefault(); emit(); }",
+        )
         cell.props(f'data-own="{own}"')
 
     def _unit(self, own: str, one: Choice) -> None:
@@ -126,7 +139,9 @@ class MappingTable:
             self.chosen.pop(own, None)
         else:
             old = self.chosen.get(own)
-            self.chosen[own] = Choice(column) if old is None else dataclasses.replace(old, column=column)
+            self.chosen[own] = (
+                Choice(column) if old is None else dataclasses.replace(old, column=column)
+            )
         self.changed(self.chosen)
 
     def _turn(self, own: str) -> None:

@@ -1,8 +1,10 @@
 """The screen "what is missing": effects ranked, tried as a ghost, added, or banned for good."""
 
 import contextlib
+import dataclasses
 from collections.abc import Mapping, Sequence
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from nicegui import ui
@@ -29,6 +31,7 @@ from modeler.studio.elements import (
     table,
     told,
 )
+from modeler.studio.fails_screen import zooms
 from modeler.studio.project import Project, Step
 from modeler.studio.studio import Studio
 
@@ -122,10 +125,10 @@ async def _card(studio: Studio, one: Found, pictures: Mapping[str, Picture], ref
             doubt_lines([f"these data do not tell it from: {'; '.join(others)}"])
             go_button(studio, "The motion that tells them apart", "motion")
         _deeds(studio, effect, joint)
+        await _ghost(studio, effect, joint)
         for kind in ("evidence", "torque"):
             if picture := pictures.get(f"{kind}_{effect}_{joint or 'robot'}"):
                 figures.draw(picture)
-        await _ghost(studio, effect, joint)
 
 
 def _value(one: Found, name: str, value: float) -> str:
@@ -199,14 +202,23 @@ async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
     falls = studio.result(step)["waterfall"][-1]["joints"]
     most = max(falls, key=lambda name: falls[name]["before"] - falls[name]["after"])
     shown = joint if joint in falls else most
-    logs = [str(studio.folder / word) for word in project.words("test") or project.words("train")]
-    models = [str(studio.folder / model) for model in (project.model, step.model)]
+    logs = project.words("test") or project.words("train")
+    models = [project.model, step.model]
     told(f"joint {name}: {_fall(own['before'], own['after'])}" for name, own in falls.items())
-    picture = await studio.view("torque_picture", models, logs, shown, *_ALL, project.mapping)
-    figures.draw(picture)
+
+    async def window(*ends: float) -> Picture:
+        picture: Picture = await studio.view("torque_picture", models, logs, shown, *ends)
+        return picture
+
+    plot = figures.draw(_named(await window(), models, _title(effect)), "ghost")
+    zooms(studio, plot, window)
 
 
-_ALL = (float("-inf"), float("inf"))
+def _named(picture: Picture, models: Sequence[str], effect: str) -> Picture:
+    """With what its models are called."""
+    before, after = (f"model {Path(model).stem}" for model in models)
+    title, caption = f"Preview. {picture.title}", f"{before}: as it is; {after}: with {effect}"
+    return dataclasses.replace(picture, title=title, caption=caption)
 
 
 def _left(joints: Mapping[str, Mapping[str, float]]) -> None:
@@ -221,11 +233,10 @@ def _left(joints: Mapping[str, Mapping[str, float]]) -> None:
 
 def _by_hand(studio: Studio) -> None:
     """Any effect of the catalogue, found by its id or in plain words."""
-    project = studio.project
     with part("Any effect of the catalogue"):
         names = {effect.id: f"{effect.title} ({effect.id})" for effect in CATALOGUE}
         chosen = studio.kept.setdefault("by hand", {"effect": "viscous", "joint": ""})
-        joints = [j["name"] for j in studio.model(_made(project))["manifest"]["joints"]]
+        joints = [j["name"] for j in studio.model(studio.made)["manifest"]["joints"]]
         about = ui.label(_about(chosen["effect"])).classes("studio-soft")
         with ui.row().classes("items-end"):
             effect = ui.select(names, label="effect", value=chosen["effect"], with_input=True)
@@ -252,13 +263,6 @@ def _by_hand(studio: Studio) -> None:
 
         effect.on_value_change(lambda e: changed("effect", e.value))
         joint.on_value_change(lambda e: changed("joint", e.value))
-
-
-def _made(project: Project) -> Step:
-    """The step of the current model."""
-    step = project.step(project.current)
-    assert step is not None
-    return step
 
 
 def _about(name: str) -> str:

@@ -2,7 +2,6 @@
 
 import asyncio
 import json
-import re
 from typing import Any
 
 from nicegui import ui
@@ -11,6 +10,7 @@ from modeler.core.errors import ModelerError
 from modeler.core.files import read_text
 from modeler.robot import (
     TableText,
+    convention_of,
     pasted_cells,
     pasted_table,
     table_text,
@@ -23,7 +23,7 @@ from modeler.robot import (
 )
 from modeler.studio import robot_start
 from modeler.studio.commands import Asked, robot_copy
-from modeler.studio.elements import head, part, run_button
+from modeler.studio.elements import head, run_button
 from modeler.studio.project import ROBOT, Step
 from modeler.studio.robot_frame import RobotFrame
 from modeler.studio.robot_text import RobotText, keep, opened_text
@@ -82,43 +82,51 @@ class _Desk:
                 self._tabs()
             with ui.column().classes("studio-beside") as self.beside:
                 pass
-        await self._derived()
+        with self.base:
+            await self._derived()
         for button in self.changing:
             button.set_enabled(not studio.read_only)
         await self.check()
 
     def _tabs(self) -> None:
-        names = ("Table", "Effects", "Limits", "Text")
+        names = ("Table", "Effects", "Limits", "Base parameters", "Text")
+        kept = self.studio.kept
         with ui.tabs().props("no-caps dense align=left") as tabs:
             for name in names:
                 ui.tab(name)
-        panels = ui.tab_panels(tabs, value="Table", animated=False, keep_alive=True)
-        with panels.classes("w-full studio-plain"):
-            with ui.tab_panel("Table").classes("p-0"):
-                self.cells = ui.element("div").classes("studio-scroll")
-                self._heard(self.cells, cell=self._cell, block=self._block, row=self._row)
-                self.cells.on("step", lambda event: self.step(event.args["detail"] == "undo"),
-                              args=["detail"])  # fmt: skip
-                ui.label(
-                    "Arrows and Enter move, Ctrl+Enter adds a row; a block from a spreadsheet may "
-                    'be pasted. Angles in rad or "90 deg", lengths in m or "40 mm".'
-                ).classes("studio-soft studio-small")
-            with ui.tab_panel("Effects").classes("p-0"):
-                self.effects = ui.element("div").classes("studio-scroll")
-            with ui.tab_panel("Limits").classes("p-0"):
-                self.ranges = ui.element("div").classes("studio-scroll")
-                self._heard(self.ranges, cell=self._limit)
-                self.ranges.on("block", lambda event: self._limit_block(event.args["detail"]),
-                               args=["detail"])  # fmt: skip
-                ui.label(
-                    "Of simulated and exciting motions, and of the sliders: rad or m, rad/s or "
-                    "m/s, and so on. An empty row has the limits that every joint has."
-                ).classes("studio-soft studio-small")
-            with ui.tab_panel("Text").classes("p-0"):
-                self.editor = ui.codemirror(
-                    self.kept.text, language="TOML", on_change=self._typed
-                ).classes("studio-text w-full")
-                self.editor.set_enabled(not self.studio.read_only)
+        tabs.value = kept.get("robot tab", names[0])
+        tabs.on_value_change(lambda event: kept.update({"robot tab": event.value}))
+
+        def panel(name: str) -> ui.column:
+            """Hidden, not taken away: scripts fill what is in it."""
+            return ui.column().classes("w-full").bind_visibility_from(tabs, "value", value=name)
+
+        with panel("Table"):
+            self.cells = ui.element("div").classes("studio-scroll")
+            self._heard(self.cells, cell=self._cell, block=self._block, row=self._row)
+            self.cells.on(
+                "step", lambda event: self.step(event.args["detail"] == "undo"), args=["detail"]
+            )
+            _told(
+                "Arrows and Enter move, Ctrl+Enter adds a row; a block from a spreadsheet may "
+                'be pasted. Angles in rad or "90 deg", lengths in m or "40 mm".'
+            )
+        with panel("Effects"):
+            self.effects = ui.element("div").classes("studio-scroll")
+        with panel("Limits"):
+            self.ranges = ui.element("div").classes("studio-scroll")
+            self._heard(self.ranges, cell=self._limit, block=self._limit_block)
+            _told(
+                "Of simulated and exciting motions, and of the sliders: rad or m, rad/s or "
+                "m/s, and so on. An empty row has the limits that every joint has."
+            )
+        with panel("Base parameters") as self.base:
+            pass
+        with panel("Text"):
+            self.editor = ui.codemirror(
+                self.kept.text, language="TOML", on_change=self._typed
+            ).classes("studio-text w-full")
+            self.editor.set_enabled(not self.studio.read_only)
 
     def _heard(self, element: ui.element, **handlers: Any) -> None:
         """Edits that a script tells; one that fails tells its line."""
@@ -211,12 +219,11 @@ class _Desk:
             await self.change(with_limits(self.kept.text, joint, cells))
             del self.limits[joint]
         else:
-            self._tell(f"[limits], joint {joint}: write all four, or none", keep_wrong=True)
+            self._tell(f"[limits], joint {joint}: write all four, or none")
 
-    async def _limit_block(self, block: dict[str, Any]) -> None:
-        rows = pasted_cells(str(block["text"]))
-        for k, cells in enumerate(rows, int(block["row"])):
-            for i, cell in enumerate(cells, int(block["column"])):
+    async def _limit_block(self, row: int, column: int, text: str) -> None:
+        for k, cells in enumerate(pasted_cells(text), row):
+            for i, cell in enumerate(cells, column):
                 if self.look is not None and k < len(self.look.joints) and i < len(_LIMITS):
                     await self._limit(k, i, cell)
 
@@ -233,8 +240,8 @@ class _Desk:
         """Looks at the text: a new picture and a robot file, or what is wrong and where."""
         text = self.kept.text
         try:
-            look: RobotLook = await self.studio.view("robot_look", text)
-            if text != self.kept.text:
+            look: RobotLook | None = await self.studio.view("robot_look", text, kind="robot")
+            if look is None or text != self.kept.text:
                 return  # a newer one is looked at
             if not self.studio.read_only:
                 keep(self.studio.folder, text, not look.error)
@@ -322,7 +329,7 @@ class _Desk:
         call = f"showCells({json.dumps(element.html_id)}, {words})"
         element.client.run_javascript(call)
 
-    def _tell(self, line: str, keep_wrong: bool = False) -> None:
+    def _tell(self, line: str) -> None:
         self.error.text = line
         self.error.set_visibility(bool(line))
 
@@ -331,7 +338,7 @@ class _Desk:
     async def _derived(self) -> None:
         """The button, and what the last derivation found."""
         studio = self.studio
-        with part("Base parameters: what motions of this robot can tell"):
+        with ui.column().classes("w-full"):
             run_button(studio, "Derive", lambda: derive(studio))
             self.stale = ui.label("of an earlier table: derive again").classes("studio-doubtful")
             self.stale.set_visibility(False)
@@ -347,9 +354,7 @@ class _Desk:
                 ui.label(str(error)).classes("studio-error")
                 return
             ui.label(_counted(told))
-            ui.label(
-                "Point at one, or go there by Tab: its links light up, and every term is told."
-            ).classes("studio-soft studio-small")
+            _told("Point at one, or go there by Tab: its links light up, and every term is told.")
             ui.html(html, sanitize=False).classes("w-full")
 
     def _stale(self) -> None:
@@ -363,6 +368,11 @@ def derive(studio: Studio) -> Asked:
     """The derivation of the robot as it is."""
     words = ("derive", robot_copy(studio.project), "--no-terms")
     return Asked("derive", words, "derive", about=0)
+
+
+def _told(text: str) -> None:
+    """What one may do here."""
+    ui.label(text).classes("studio-soft studio-small")
 
 
 def _last(studio: Studio) -> Step | None:
@@ -388,6 +398,6 @@ def _new_row(table: TableText, text: str, after: int | None = None) -> list[str]
     name = next(str(k) for k in range(1, len(rows) + 2) if str(k) not in taken)
     above = taken[len(rows) - 1 if after is None else after] if taken else "0"
     known = {"j": name, "parent": above, "mu": "1", "theta": f"q{name}"}
-    if not re.search(r"(?m)^\s*convention\s*=\s*.(craig|classical)", text):
+    if convention_of(text) == "khalil":
         known["a"] = above
     return [known.get(column, "0") for column in columns]

@@ -43,7 +43,7 @@ def start(studio: Studio, before: str, taken: Taken) -> None:
 
 def _pasted(studio: Studio, before: str, taken: Taken) -> None:
     area = ui.textarea(placeholder=_EXAMPLE).props("outlined dense rows=5 aria-label='table'")
-    area.classes("w-full studio-command")
+    area.classes("w-full")
     ui.label(
         "From a spreadsheet or a paper, with headings or without; degrees and mm by their headings."
     ).classes("studio-soft")

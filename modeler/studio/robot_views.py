@@ -137,4 +137,3 @@ def _joints(robot: Robot) -> tuple[JointFacts, ...]:
         )
         for joint in shown
     )  # fmt: skip
-

@@ -26,7 +26,7 @@ async def draw(studio: Studio) -> None:
         _door(
             "Try the demo", "play_circle",
             "An arm with three joints, two measured runs, and an effect that its model lacks.",
-            lambda: _begin(studio),
+            lambda: begin(studio),
         )  # fmt: skip
         _door(
             "Start from a table", "precision_manufacturing",
@@ -47,13 +47,15 @@ def _door(title: str, icon: str, text: str, act: Callable[[], object]) -> None:
         ui.label(text).classes("studio-soft")
 
 
-async def _begin(studio: Studio) -> None:
+async def begin(studio: Studio) -> None:
+    """The demonstration; what is wrong is told in the window."""
     try:
         await begin_demo(studio.hub)
     except ModelerError as error:
         studio.show_error(str(error))
     else:
-        studio.go("data")
+        if studio.screen == "start":  # nobody has gone elsewhere meanwhile
+            studio.go("data")
 
 
 async def begin_demo(hub: Hub) -> None:

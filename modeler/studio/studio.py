@@ -2,6 +2,7 @@
 
 from __future__ import annotations  # a hub has studios, and each studio its hub
 
+import asyncio
 import dataclasses
 import hashlib
 import secrets
@@ -162,6 +163,7 @@ class Studio:
         self.hub, self.screen = hub, screen
         self.kept: dict[str, Any] = {}
         self.room: Element | None = None
+        self._drawing: asyncio.Task[None] | None = None
         self.listeners: list[Callable[[], None]] = []
 
     @property
@@ -252,6 +254,18 @@ class Studio:
         """
         return self._parsed(step.result)
 
+    @property
+    def made(self) -> Step:
+        """The step that made the current model.
+
+        Raises:
+            DataError: there is none.
+        """
+        step = self.project.step(self.project.current)
+        if step is None or step.kind not in MAKING:
+            raise DataError("there is no model yet; fit one first")
+        return step
+
     def model(self, step: Step) -> dict[str, Any]:
         """What the model file of a step says.
 
@@ -283,8 +297,11 @@ class Studio:
 
     def redraw(self) -> None:
         """The screen is drawn anew."""
+        if self._drawing is not None:
+            self._drawing.cancel()  # what it would still draw is no longer wanted
         if self.room is not None:
-            background_tasks.create(self._drawn(self.room), name=f"draw {self.screen}")
+            drawn = self._drawn(self.room)
+            self._drawing = background_tasks.create(drawn, name=f"draw {self.screen}")
         self.told()
 
     async def _drawn(self, room: Element) -> None:

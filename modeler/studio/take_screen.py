@@ -1,10 +1,174 @@
-"""The screen "take"."""
+"""The screen "take away": C, files, pages, the steps as script and notebook; the disk they use."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
 
 from nicegui import ui
 
+from modeler.core.errors import ModelerError
+from modeler.studio import commands, recipe
+from modeler.studio.elements import (
+    busy_with,
+    command_line,
+    go_button,
+    head,
+    page_button,
+    part,
+    run_button,
+    table,
+)
+from modeler.studio.places import disk_use, size_text, spare
+from modeler.studio.project import Step
 from modeler.studio.studio import Studio
+
+_FORMATS = {"urdf": "URDF", "mjcf": "MJCF (MuJoCo)", "sdf": "SDF (Gazebo)"}
+_LIKE = (".urdf", ".xml", ".mjcf", ".sdf")
 
 
 async def draw(studio: Studio) -> None:
     """Draws it."""
-    ui.label("take")
+    project = studio.project
+    head("Take away", "Everything leaves as files; the script and the notebook do it all again.")
+    step = project.step(project.current)
+    if step is None:
+        ui.label("There is no model yet: fit one first.")
+        go_button(studio, "To the fit", "fit")
+    else:
+        _controller(studio)
+        _simulators(studio)
+        _files(studio, step)
+        _again(studio)
+    _disk(studio)
+
+
+def _download(studio: Studio, title: str, name: str, content: Callable[[], Path | bytes]) -> None:
+    """A button that downloads what is made when it is pressed."""
+
+    def pressed() -> None:
+        try:
+            ui.download.from_url(studio.hub.download(content(), name), name)
+        except ModelerError as error:
+            studio.show_error(str(error))
+
+    ui.button(title, on_click=pressed).props("no-caps outline icon=download")
+
+
+def _called(studio: Studio) -> str:
+    """The robot's name, as a file may be called."""
+    name = str(studio.model(studio.made)["robot"])
+    return re.sub(r"[^\w.-]", "_", name)
+
+
+def _controller(studio: Studio) -> None:
+    """The C folder."""
+    with part("C for the controller"):
+        chosen = studio.kept.setdefault("take", {"precision": "double", "to": "urdf", "like": ""})
+        precision = ui.toggle(["double", "single"], value=chosen["precision"]).props("no-caps")
+        renew = run_button(
+            studio, "Write C",
+            lambda: commands.generate(studio.project, chosen["precision"]), small=True,
+        )  # fmt: skip
+
+        def changed(value: str) -> None:
+            chosen["precision"] = value
+            renew()
+
+        precision.on_value_change(lambda e: changed(e.value))
+        _written(studio, "generate", lambda step: f"{_called(studio)}_c")
+
+
+def _written(studio: Studio, kind: str, name: Callable[[Step], str]) -> None:
+    """What the last command of that kind wrote of this model, to be downloaded."""
+    step = studio.project.about(kind)
+    if step is not None:
+        place = studio.folder / step.model
+        with ui.row().classes("items-center no-wrap w-full"):
+            title = f"Download {name(step)}{'.zip' if place.is_dir() else ''}"
+            _download(studio, title, name(step), lambda: place)
+            command_line(step.words)
+
+
+def _simulators(studio: Studio) -> None:
+    """URDF, MJCF, SDF."""
+    with part("For simulators and planners"):
+        chosen = studio.kept["take"]
+        files = sorted(file.name for file in studio.folder.iterdir() if file.suffix in _LIKE)
+        with ui.row().classes("items-end"):
+            to = ui.select(_FORMATS, label="format", value=chosen["to"]).classes("w-48")
+            kinds = {"": "a file of its own", **{name: name for name in files}}
+            like = ui.select(kinds, label="into the bytes of", value=chosen["like"])
+            like.classes("w-64")
+        renew = run_button(
+            studio, "Export",
+            lambda: commands.export(studio.project, chosen["to"], chosen["like"]), small=True,
+        )  # fmt: skip
+
+        def changed(name: str, value: str) -> None:
+            chosen[name] = value
+            renew()
+
+        to.on_value_change(lambda e: changed("to", e.value))
+        like.on_value_change(lambda e: changed("like", e.value))
+        _written(studio, "export", lambda step: _called(studio) + Path(step.model).suffix)
+
+
+def _files(studio: Studio, step: Step) -> None:
+    """Model, robot, page."""
+    with part("Files of this model"):
+        ui.label(
+            "The model is one file that holds all that other commands need. The robot file has the "
+            "effects that were added; values stand in it where the estimator ends in them."
+        ).classes("studio-soft")
+        with ui.row():
+            _download(studio, "Model", f"{_called(studio)}.model.json",
+                      lambda: studio.folder / step.model)  # fmt: skip
+            _download(studio, "Robot file", f"{_called(studio)}.toml",
+                      lambda: str(studio.model(step)["robot_text"]).encode())  # fmt: skip
+        page_button(studio, step)
+
+
+def _again(studio: Studio) -> None:
+    """The steps as a script and as a notebook."""
+
+    def own() -> recipe.Recipe:
+        names = [word for step in studio.project.steps for word in step.words]
+        copies = {name for name in names if commands.is_copy(name)}
+        robots = {name: studio.text(name) for name in copies if (studio.folder / name).is_file()}
+        return recipe.recipe(studio.project, studio.folder, robots)
+
+    with part("All of it again"):
+        ui.label(
+            "Both make the same values in an empty folder, and name the same effects. The logs are "
+            "read where they lie."
+        ).classes("studio-soft")
+        with ui.row():
+            _download(studio, "Shell script", "steps.sh", lambda: recipe.script(own()).encode())
+            _download(studio, "Notebook", "steps.ipynb", lambda: recipe.notebook(own()).encode())
+        for step in own().steps:
+            command_line(step.words)
+
+
+def _disk(studio: Studio) -> None:
+    """What the project uses, and what of it nobody needs."""
+    with part("Disk"):
+        used = disk_use(studio.folder)
+        rows = [(kind, size_text(size)) for kind, size in used.items() if size]
+        table(("of", "uses"), [*rows, ("all", size_text(sum(used.values())))])
+        left = spare(studio.folder, studio.project)
+        if not left.files:
+            return
+        gone = len(studio.project.steps) - len(left.project.steps)
+
+        def tidied() -> None:
+            if studio.change(steps=left.project.steps):
+                left.remove(studio.folder)
+                studio.redraw()
+
+        with ui.row().classes("items-center"):
+            button = ui.button(f"Tidy: {size_text(left.size)}", on_click=tidied)
+            busy_with(studio, button.props("no-caps outline icon=delete_sweep"))
+            ui.label(
+                f"takes away {len(left.files)} files of {gone} steps that were set aside; logs, "
+                "pages and the way to the current model stay"
+            ).classes("studio-soft")

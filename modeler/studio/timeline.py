@@ -122,24 +122,31 @@ def _words(part: Stretch) -> str:
     return f"{part.start:.6g} to {part.end:.6g} s"
 
 
-class Timeline(Element, component=resource_dir("templates") / "studio" / "timeline.js"):
+class Timeline(Element, component=resource_dir("templates") / "studio" / "parts" / "timeline.js"):
     """The time of a log: stretches by colour and pattern, marks, a brush, a cursor that plays.
 
     Args:
         name: of its time, which pictures share.
         ends: of the log, s.
         active: True: it is brushed and played; False: it is only looked at.
-        frame: id of the frame of a robot that follows the cursor.
     """
 
-    def __init__(
-        self, name: str, ends: tuple[float, float], active: bool = True, frame: str = ""
-    ) -> None:
+    def __init__(self, name: str, ends: tuple[float, float], active: bool = True) -> None:
         super().__init__()
         self._props |= {
-            "name": name, "start": ends[0], "end": ends[1], "active": active, "frame": frame,
+            "name": name, "start": ends[0], "end": ends[1], "active": active, "frame": "",
             "label": f"time of {name}, s", "spans": [], "marks": [], "brush": None,
         }  # fmt: skip
+
+    @property
+    def frame(self) -> str:
+        """Id of the frame of a robot that follows the cursor; "": none."""
+        return str(self._props["frame"])
+
+    @frame.setter
+    def frame(self, name: str) -> None:
+        self._props["frame"] = name
+        self.update()
 
     def renew(
         self, log: ProjectLog, marks: Sequence[Mapping[str, Any]] = (), brush: Stretch | None = None

@@ -376,6 +376,7 @@ class Verdict:
         sentences: of each, as `modeler compare` says it; of one that is not judged, why.
         channels: of each: id and label of what its residual can be drawn over.
         start, end: of the time axis of the pictures, s.
+        kinds: of each, what is left: "pattern", "noise" or "other".
     """
 
     joints: tuple[str, ...]
@@ -384,6 +385,7 @@ class Verdict:
     channels: tuple[tuple[str, str], ...]
     start: float
     end: float
+    kinds: tuple[str, ...]
 
 
 def verdict(model: str, logs: Sequence[str]) -> Verdict:
@@ -396,6 +398,7 @@ def verdict(model: str, logs: Sequence[str]) -> Verdict:
         tuple(float(item.relative_error) for item in items),
         tuple(validation.joint_verdict(item) for item in items),
         tuple(_channels(judged)), float(time.min()), float(time.max()),
+        tuple(map(validation.kind_of_residual, items)),
     )  # fmt: skip
 
 
@@ -519,7 +522,7 @@ def where_picture(model: str, logs: Sequence[str]) -> Picture:
             values[i, k] = 100.0 * explained(x[rows], e)
     texts = tuple(tuple("" if np.isnan(v) else f"{v:.0f}" for v in row) for row in values)
     heat = Heat(
-        "explained share", tuple(label for _, label in channels), names, values, texts, 100.0
+        "explained share", tuple(channel for channel, _ in channels), names, values, texts, 100.0
     )
     return Picture(
         "where", "Residual: which joint follows what",
@@ -537,8 +540,10 @@ def explained(x: np.ndarray, e: np.ndarray, bins: int = 24) -> float:
     """
     if x.size < 4 * bins or np.ptp(x) == 0.0:
         return np.nan
-    edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, bins + 1)))
-    which = np.searchsorted(edges[1:-1], x, side="right")
+    edges, which = np.unique(x, return_inverse=True)  # a bin for each value where they are few
+    if edges.size > bins:
+        edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, bins + 1)))
+        which = np.searchsorted(edges[1:-1], x, side="right")
     count = np.bincount(which)
     mean = np.bincount(which, e) / np.maximum(count, 1)
     whole = float(np.sum((e - e.mean()) ** 2))

@@ -121,9 +121,8 @@ export default {
       return Object.fromEntries(between.filter(([, value]) => Number.isFinite(value)));
     },
     pose() {
-      const inside = this.frame && document.getElementById(this.frame)?.contentWindow;
-      const q = inside && this.posture();
-      if (q) inside.postMessage({ modeler: "posture", q }, location.origin);
+      const q = this.frame && this.posture();
+      if (q) window.toRobot(this.frame, { modeler: "posture", q });
     },
     toggle(speed) {
       this.play(!this.playing, speed);
