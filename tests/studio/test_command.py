@@ -39,7 +39,12 @@ def test_json_alone_on_stdout_over_a_pipe(tmp_path: Path) -> None:
         text=True,
     ) as process:
         assert process.stdout is not None and process.stderr is not None
-        raw = json.loads("".join(iter(process.stdout.readline, "}\n")) + "}")
+        lines = []
+        for line in process.stdout:
+            lines.append(line)
+            if line == "}\n":
+                break
+        raw = json.loads("".join(lines))
         assert ask(Served(tmp_path, raw["address"], process)).status == 403  # it answers
         process.send_signal(signal.SIGINT)
         assert process.wait(20) == 130
