@@ -54,7 +54,8 @@ async def begin(studio: Studio) -> None:
     except ModelerError as error:
         studio.show_error(str(error))
     else:
-        studio.go("data")
+        if studio.screen == "start":  # nobody has gone elsewhere meanwhile
+            studio.go("data")
 
 
 async def begin_demo(hub: Hub) -> None:

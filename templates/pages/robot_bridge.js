@@ -2,7 +2,8 @@
 // Told: ready and drawn {q, frames, gaps}, joint {name}, pointed {name}.
 // Heeded: posture {q}, light {rows}, robot {content}.
 
-document.documentElement.classList.toggle("bare", location.hash === "#bare");
+document.documentElement.classList.toggle("bare", location.hash.startsWith("#bare"));
+document.documentElement.classList.toggle("alone", location.hash === "#bare-alone"); // nothing but the picture
 
 const framed = window.parent !== window && location.origin !== "null";
 
@@ -21,7 +22,10 @@ function standing() {
 }
 
 const HEEDED = {
-  posture: ({ q }) => { page.pose(q); },
+  posture: ({ q }) => {
+    page.pose(q);
+    page.view.back(page.poses());
+  },
   light: ({ rows }) => {
     page.view.lit = new Set(robot.rows.flatMap((row, i) => (rows.includes(row.name) ? [i] : [])));
     redraw();
@@ -42,7 +46,7 @@ function recall() {
   page.pose(kept.q);
   fit();
   Object.assign(page.view, { scale: kept.scale, centre: kept.centre });
-  if (!page.view.holds(page.poses())) fit();
+  if (page.view.filled(page.poses()) === 0) fit();
   redraw();
 }
 
