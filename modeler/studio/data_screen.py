@@ -116,7 +116,7 @@ class DataScreen:
             with ui.row().classes("items-center gap-6"):
                 timeline.legend()
                 ui.label(
-                    "At first the last 30 % of a log alone is held out, of several logs the last one."
+                    "At first the last 30 % of one log is held out, of several logs the last one."
                 ).classes("studio-soft")
         self._detail = ui.column().classes("w-full gap-4")
         for log in studio.project.logs:

@@ -110,7 +110,7 @@ class _Fails:
         """In 3-D, its joints to be clicked; None where it cannot be drawn."""
         try:
             with ui.card().classes("studio-card fails-robot"):
-                found = await robot_frame(self.studio, "340px")
+                found = await robot_frame(self.studio, "100%", alone=True)
         except ModelerError as error:
             self.studio.show_error(str(error))
             return None
@@ -120,13 +120,13 @@ class _Fails:
     async def _clock(self) -> None:
         """The time that all pictures share, played on a line; the robot goes along."""
         time, positions = await self.studio.view("poses", self.model, self.logs)
-        frame = "" if self.robot is None else self.robot.id
         with ui.row().classes("w-full items-center no-wrap"):
             play = ui.button(icon="play_arrow").props('dense round unelevated aria-label="play"')
             speed = ui.select(_SPEEDS, value=1.0).props('dense borderless aria-label="speed"')
             with ui.element("div").classes("col"):
-                line = Timeline(_TIME, (self.found.start, self.found.end), frame=frame)
-
+                line = Timeline(_TIME, (self.found.start, self.found.end))
+        if self.robot is not None:
+            line.frame = self.robot.id
         line.on("playing", lambda event: play.set_icon("pause" if event.args else "play_arrow"))
         play.on_click(lambda: line.play(speed.value))
         line.show(time, positions)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from modeler.core.figure import Band, Bars, Curve, Heat, Panel, Picture, Points, Series
-from modeler.core.style import BLUE, SHADE
+from modeler.core.style import SHADE
 
 if TYPE_CHECKING:
     from nicegui import ui
@@ -19,7 +19,7 @@ _MANY = 5000  # dots from which on they are drawn by the graphics processor
 _DIGITS = 6  # of the range of an axis: finer than a pixel at any zoom of thinned points
 _GRID, _FAINT = "rgba(128,128,128,0.25)", "rgba(128,128,128,0.8)"
 _NONE = "rgba(0,0,0,0)"
-_WHITE_TO_BLUE = [[0.0, "#ffffff"], [1.0, BLUE]]
+_CLEAR_TO_BLUE = [[0.0, "rgba(0,114,178,0)"], [1.0, "rgba(0,114,178,0.75)"]]
 
 
 def figure(picture: Picture, time: str = "") -> dict[str, Any]:
@@ -34,9 +34,7 @@ def figure(picture: Picture, time: str = "") -> dict[str, Any]:
             cursor and one zoom.
     """
     rows, columns = len(picture.panels), len(picture.panels[0])
-    top = (
-        _TOP + _TITLE * any(panel.title for panel in picture.panels[0])
-    )
+    top = _TOP + _TITLE * any(panel.title for panel in picture.panels[0])
     layout: dict[str, Any] = {
         "height": picture.height,
         "margin": {"l": _LEFT, "r": _RIGHT, "t": top, "b": _BOTTOM + _names(picture)},
@@ -179,7 +177,7 @@ def _trace(series: Series, log: bool) -> dict[str, Any]:
             "z": [_numbers(row, log=True) for row in series.values],
             "text": [[plain(text) for text in row] for row in series.texts],
             "texttemplate": "%{text}", "zmin": 0.0, "zmax": series.top, "showscale": False,
-            "colorscale": _WHITE_TO_BLUE, "xgap": 2, "ygap": 2, "hoverongaps": False,
+            "colorscale": _CLEAR_TO_BLUE, "xgap": 2, "ygap": 2, "hoverongaps": False,
             "hovertemplate": "%{y}, %{x}: %{z:.4g}<extra></extra>",
         }  # fmt: skip
     style = series.style

@@ -17,10 +17,10 @@ class RobotFrame:
         frame: the element.
     """
 
-    def __init__(self, studio: Studio, html: str, height: str) -> None:
+    def __init__(self, studio: Studio, html: str, height: str, alone: bool = False) -> None:
         address = studio.hub.sheet(html)
         self.frame = ui.element("iframe").classes("studio-robot").style(f"height: {height}")
-        self.frame.props(f'src="{address}#bare" title="the robot in 3-D"')
+        self.frame.props(f'src="{address}#bare{"-alone" * alone}" title="the robot in 3-D"')
 
     @property
     def id(self) -> str:
@@ -48,15 +48,16 @@ class RobotFrame:
         self.frame.client.run_javascript(f"toRobot({json.dumps(self.id)}, {words})")
 
 
-async def robot_frame(studio: Studio, height: str = "420px") -> RobotFrame:
+async def robot_frame(studio: Studio, height: str = "420px", alone: bool = False) -> RobotFrame:
     """The robot of the project, here.
 
     Args:
         studio: the window.
         height: of the frame, as CSS has it.
+        alone: True for nothing but the picture: no sliders.
 
     Raises:
         ModelerError: the project has no robot that can be drawn; the line.
     """
     text = read_text(studio.folder / studio.project.robot)
-    return RobotFrame(studio, await studio.view("robot_page", text), height)
+    return RobotFrame(studio, await studio.view("robot_page", text), height, alone)

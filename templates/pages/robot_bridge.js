@@ -2,8 +2,9 @@
 // Told: ready and drawn {q, frames, gaps}, joint {name}, pointed {name}.
 // Heeded: posture {q}, light {rows}, robot {content}.
 
-const bare = location.hash === "#bare"; // without title and table
+const bare = location.hash.startsWith("#bare"); // without title and table
 document.documentElement.classList.toggle("bare", bare);
+document.documentElement.classList.toggle("alone", location.hash === "#bare-alone"); // nothing but the picture
 
 const framed = window.parent !== window && location.origin !== "null";
 
