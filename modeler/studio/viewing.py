@@ -428,8 +428,7 @@ def torque_picture(
         own = running_time(p)[0]  # rows of another model may be others
         kept, left = _between(own, start, end), validation.residual(p)[:, j]
         above.append(_curve(p, "predicted" if alone else name, own, p.predicted[:, j], kept, style))
-        left_named = "residual" if alone else f"{name}: residual"
-        below.append(_curve(p, left_named, own, left, kept, style))
+        below.append(_curve(p, "residual" if alone else name, own, left, kept, style))
     spans = validation.masked_spans(first, j, time, rows)
     ends = float(time[rows[0]]), float(time[rows[-1]])
     what = f"{WORDS[unit]} [{unit}]"
