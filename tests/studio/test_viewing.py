@@ -95,7 +95,8 @@ def long_log(place: Path, rows: int, joints: int = 7) -> tuple[np.ndarray, np.nd
 
 
 @pytest.mark.parametrize("kind", ["parquet", "csv"])
-def test_a_long_log_is_seen_coarsely_then_closely(tmp_path, kind: str) -> None:
+def test_a_long_log_is_seen_coarsely_then_closely(tmp_path, monkeypatch, kind: str) -> None:
+    monkeypatch.setattr(viewing, "_MOST", 1)
     place = tmp_path / "long.parquet"
     clock, q1 = long_log(place, LONG + 40_000, 2)
     if kind == "csv":
@@ -155,8 +156,8 @@ def test_ten_minutes_of_seven_joints_stay_fluent(tmp_path) -> None:
         zooms.append(time.perf_counter() - begun)
         assert len(found) == 21 and all(x.size <= viewing.POINTS for x, _ in found.values())
     print(f"reading {min(reading):.2f} s, first picture {first:.2f} s, zooms {zooms}")
-    assert first < 10.0 * min(reading) + 1.0  # generous: the machine has other work
-    assert max(zooms) < 1.0
+    assert first < 3.0 * max(reading) + 1.0  # generous: the machine has other work
+    assert max(zooms) < 0.5
 
 
 # Torques.
