@@ -120,7 +120,10 @@ def _guessed(
             guess = dataclasses.replace(guess, layers=(layer if len(left) == len(own) else left,))
         said = [f"{k} = {_shown(e)}" for k, e in guess.table(joints).items()]
         told = f"--map auto took {'; '.join(said) or 'the columns as they are called'}"
-        # A name that the robot file has for a column that is not here is for other logs.
+        lacking = [f"{o} (no column {e.columns[0]})" for o, e in names.entries(joints).items()
+                   if e.strict and not there & {*e.columns}]  # fmt: skip
+        told += f"; guessed too: {', '.join(lacking)}" if lacking else ""
+        # A name for a column that is not here is for other logs.
         stated = dataclasses.replace(names, auto=False, layers=_present(names, there, joints))
         either = tuple(line for line in seen.doubts if EITHER in line and "[deg]" in told)
         return dataclasses.replace(stated.overriding(guess), told=(told, *either))
@@ -135,9 +138,9 @@ def _guessed(
 
 
 def _present(names: LogMap, there: set[str], joints: Sequence[Any]) -> tuple[Any, ...]:
-    """The layers, without entries that are not strict and whose columns are not there."""
+    """The layers, without entries whose columns are not there."""
     entries = names.entries(joints)
-    missing = {o for o, e in entries.items() if not e.strict and not there & {*e.columns}}
+    missing = {o for o, e in entries.items() if not there & {*e.columns}}
     if not missing:
         return names.layers
     return ({o: e for o, e in entries.items() if o not in missing},)

@@ -9,16 +9,17 @@ from typing import Any, get_args
 
 from modeler.cli import places
 from modeler.cli.options import (
+    ALL,
     FEW_JOINTS,
     Argument,
     Command,
     Form,
     Group,
+    Methods,
     choice,
     flag,
     repeated,
     several,
-    unknown,
     value,
 )
 from modeler.core import errors
@@ -58,9 +59,6 @@ _FORCE = flag(
 _PICTURES = "folder for every picture as PNG, SVG and CSV; or a file for all as plain data"
 _OPEN = flag("--open", "show the page in the browser; without --report one in a temporary folder")
 _DRAWN = "draw it: .png, .svg or .pdf"
-METHODS = (*get_args(errors.Method), errors.GAIN_METHOD, errors.TWO_STEPS)
-ALL = "all"
-"""`--method all`: every estimator of `ABOUT`, side by side."""
 
 
 def _logs(text: str, nargs: str = "+") -> Argument:
@@ -76,24 +74,6 @@ def _page(kind: type[places.Output] = places.Output) -> tuple[Argument, Argument
 def _pictures(kind: type[places.Pictures] = places.Pictures) -> Argument:
     old = () if kind is places.Pictures else ("--pictures",)
     return value("--picture", "DIR|FILE.json", kind, _PICTURES, old=old)
-
-
-class Methods(places.Word):
-    """An estimator; several with commas between; or `ALL`."""
-
-    def __new__(cls, text: str) -> "Methods":
-        """Refuses a name that is none, as a wrong usage."""
-        names = text.split(",")
-        known = (*METHODS, ALL) if len(names) == 1 else tuple(ABOUT)
-        for name in names:
-            if name not in known:
-                raise argparse.ArgumentTypeError(unknown(name, known))
-        return super().__new__(cls, text)
-
-    @property
-    def several(self) -> bool:
-        """Whether they are compared, and no model is written."""
-        return self == ALL or "," in self
 
 
 # Of a robot: its model, its C, its pictures, its postures.

@@ -6,11 +6,11 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from modeler.cli import places
-from modeler.cli.command_table import ALL, COMMANDS, METHODS
+from modeler.cli.command_table import COMMANDS
 from modeler.cli.commands import commands_of
 from modeler.cli.console import Json, say, say_lines
 from modeler.cli.old_words import OLD_COMMANDS, renewed
-from modeler.cli.options import arguments_of, options_of, sorted_words
+from modeler.cli.options import ALL, METHODS, arguments_of, options_of, sorted_words
 from modeler.core.builtin import paper_names
 from modeler.core.estimators import ABOUT
 from modeler.effects import CATALOGUE as EFFECTS

@@ -12,7 +12,6 @@ from modeler.api.identifying import fitted_on
 from modeler.api.log_maps import settled
 from modeler.api.long_logs import Telling
 from modeler.api.workflow import compile_model, derive, generate
-from modeler.cli.command_table import ALL, Methods
 from modeler.cli.console import (
     Json,
     draw_page,
@@ -25,6 +24,7 @@ from modeler.cli.console import (
     working,
 )
 from modeler.cli.lists import robot_of, use_options_of
+from modeler.cli.options import ALL, Methods
 from modeler.core.errors import GAIN_METHOD, DataError
 from modeler.core.files import write_atomically
 from modeler.core.jobs import Workers, open_workers

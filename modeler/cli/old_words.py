@@ -4,8 +4,8 @@ import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from modeler.cli.command_table import ALL, COMMANDS
-from modeler.cli.options import options_of, sorted_words
+from modeler.cli.command_table import COMMANDS
+from modeler.cli.options import ALL, options_of, sorted_words
 
 OLD_COMMANDS = {"free-run": "compare --free-run"}
 """Commands that are an option of another now."""

@@ -7,15 +7,21 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import partial
 from importlib import import_module
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
-from modeler.cli.places import JsonFile, LogFile, MapWord, Output, OutputFolder
+from modeler.cli.places import JsonFile, LogFile, MapWord, Output, OutputFolder, Word
+from modeler.core import errors
+from modeler.core.estimators import ABOUT
 
 Form = Literal["text", "latex", "markdown"]
 """How relations are printed."""
 
 FEW_JOINTS = 3
 """Robots of as many joints get their coefficients printed unasked."""
+
+METHODS = (*get_args(errors.Method), errors.GAIN_METHOD, errors.TWO_STEPS)
+ALL = "all"
+"""`--method all`: every estimator of `ABOUT`, side by side."""
 
 Run = Callable[[argparse.Namespace], Any]
 """A command: from its arguments to what `--json` writes."""
@@ -172,6 +178,24 @@ def did_you_mean(got: str, known: Iterable[str]) -> str:
 def unknown(got: str, known: Sequence[str]) -> str:
     """What is said of a word that is none of a few."""
     return f"got {got}{did_you_mean(got, known)}; expected one of {', '.join(known)}"
+
+
+class Methods(Word):
+    """An estimator; several with commas between; or `ALL`."""
+
+    def __new__(cls, text: str) -> "Methods":
+        """Refuses a name that is none, as a wrong usage."""
+        names = text.split(",")
+        known = (*METHODS, ALL) if len(names) == 1 else tuple(ABOUT)
+        for name in names:
+            if name not in known:
+                raise argparse.ArgumentTypeError(unknown(name, known))
+        return super().__new__(cls, text)
+
+    @property
+    def several(self) -> bool:
+        """Whether they are compared, and no model is written."""
+        return self == ALL or "," in self
 
 
 # Words in any order: options before or after what they stand beside.

@@ -272,9 +272,7 @@ def _with_variable(row: dict[str, str]) -> None:
     row[home] = cell
 
 
-def _unit_by_size(
-    kind: str, letter: str, rows: Sequence[dict[str, str]], notes: list[str]
-) -> str:
+def _unit_by_size(kind: str, letter: str, rows: Sequence[dict[str, str]], notes: list[str]) -> str:
     """The unit of a column without one, where its numbers are too large for rad or m."""
     cells = [row.get(kind, "") for row in rows]
     if any(re.search(r"\d\s*(deg|mm|cm|m|in)\b|pi", cell) for cell in cells):
@@ -323,7 +321,10 @@ def pasted_robot(table: PastedTable, name: str) -> str:
     stated = f'convention = "{table.convention}"\n' if table.convention != "khalil" else ""
     names = names_in(table.convention)
     cells = [
-        [quoted_cell(cell, column in names) for cell, column in zip(row, table.columns, strict=True)]
+        [
+            quoted_cell(cell, column in names)
+            for cell, column in zip(row, table.columns, strict=True)
+        ]
         for row in table.rows
     ]
     lines = columns_and_rows(table.columns, cells)

@@ -142,7 +142,9 @@ def with_columns(text: str, columns: Sequence[str], rows: Sequence[Sequence[str]
         text = _with_convention(text, convention)
     columns_, rows_ = _table(text)
     kept = _names(text)
-    quoted = [[quoted_cell(c, n in kept) for c, n in zip(row, columns, strict=True)] for row in rows]
+    quoted = [
+        [quoted_cell(c, n in kept) for c, n in zip(row, columns, strict=True)] for row in rows
+    ]
     head, *lines = aligned([[f'"{c}"' for c in columns], *quoted])
     body = "".join(f"          [{line}],\n" for line in lines)
     parts = sorted(

@@ -85,7 +85,9 @@ def serve(
         ui.run_with(inner, title="modeler studio", dark=None, show_welcome_message=False)
         guard = Guard(inner, door.getsockname()[1])
         config = uvicorn.Config(guard, log_level="warning", lifespan="on")
-        nicegui_app.on_startup(lambda: hub.viewer.ask("forget"))  # it is there when the first page asks
+        nicegui_app.on_startup(
+            lambda: hub.viewer.ask("forget")
+        )  # it is there when the first page asks
         told(guard.address, guard.once)
         try:
             uvicorn.Server(config).run(sockets=[door])

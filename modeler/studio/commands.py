@@ -67,14 +67,15 @@ def fit(project: Project, options: Sequence[str] = ()) -> Asked:
 def compare(project: Project, files: Sequence[str] = (), options: Sequence[str] = ()) -> Asked:
     """Measured against predicted: on the held-out stretches, or where there are none on all."""
     logs = files or project.words("test") or project.words("train")
-    return Asked("compare", ("compare", project.model, *logs, *options), "compare")
+    words = ("compare", project.model, *logs, *_guessing(project), *options)
+    return Asked("compare", words, "compare")
 
 
 def diagnose(project: Project) -> Asked:
     """What the current model lacks."""
     words = ("diagnose", project.model, *project.words("train"), *_held(project))
     bans = [word for effect in project.without for word in ("--without", effect)]
-    return Asked("diagnose", (*words, *bans), "look for what is missing")
+    return Asked("diagnose", (*words, *_guessing(project), *bans), "look for what is missing")
 
 
 def add(project: Project, effect: str, joint: str | None) -> Asked:
@@ -83,7 +84,8 @@ def add(project: Project, effect: str, joint: str | None) -> Asked:
     place = ("--joint", joint) if joint is not None else ()
     words = ("add", project.model, effect, *project.words("train"), *place)
     name = effect if joint is None else f"{effect}@{joint}"
-    return Asked("add", (*words, *_held(project), "--out", model), f"add {name}", model)
+    words = (*words, *_held(project), *_guessing(project), "--out", model)
+    return Asked("add", words, f"add {name}", model)
 
 
 def look(project: Project, file: str) -> Asked:
@@ -166,6 +168,11 @@ def demo(project: Project, log: str, seed: int) -> Asked:
 def mapped(project: Project) -> tuple[str, ...]:
     """Whose column is which, as every command takes it."""
     return tuple(word for own in project.mapping for word in ("--map", own))
+
+
+def _guessing(project: Project) -> tuple[str, ...]:
+    """The same where logs are called differently: a model keeps what is so in the first one."""
+    return mapped(project) if "auto" in project.mapping else ()
 
 
 def _held(project: Project) -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 """The screen "data": logs come in, are mapped, cut into stretches, looked at, and played."""
 
 import asyncio
+import dataclasses
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -103,20 +104,31 @@ class DataScreen:
             choose.props("no-caps outline")
         if not studio.project.logs:
             ui.label(
-                "CSV, text, Excel, Parquet, MAT, HDF5, NumPy, MCAP and ROS bags, with the names and "
-                "units that your logger wrote."
+                "CSV, text, Excel, Parquet, MAT, HDF5, NumPy, MCAP and ROS bags, with the names "
+                "and units that your logger wrote."
             ).classes("studio-soft")
             return
         with part("Logs"):
             for log in studio.project.logs:
-                self._rows[log.file] = ui.element("div").classes("data-log")
-            timeline.legend()
+                with ui.element("div").classes("data-log") as self._rows[log.file]:
+                    ui.label(log.file)
+                    ui.label("is read").classes("studio-soft")
+            with ui.row().classes("items-center gap-6"):
+                timeline.legend()
+                ui.label(
+                    "At first the last 30 % of one log is held out, of several logs the last one."
+                ).classes("studio-soft")
         self._detail = ui.column().classes("w-full gap-4")
         for log in studio.project.logs:
             await self._learn(log.file)
             if not self.live:
                 return
         self._begin()
+        for log in studio.project.logs:
+            await self._read(log.file)
+            if not self.live:
+                return
+        self._roles()
         for log in studio.project.logs:
             self.row(log.file)
         readable = [file for file, known in self.logs.items() if not known.error]
@@ -129,33 +141,37 @@ class DataScreen:
     # What is known of logs.
 
     async def _learn(self, file: str) -> None:
-        """Reads a log, unless it is known as it is now."""
-        project, robot = self.studio.project, self.studio.project.robot
-        memory: dict[Any, Known] = self.studio.kept.setdefault("known", {})
+        """Looks at the columns of a log."""
+        robot = self.studio.project.robot
         try:
-            state = Path(self.path(file)).stat()
-            key = (file, state.st_mtime_ns, state.st_size, robot, project.mapping)
-            if key not in memory:
-                where = self.path(file)
-                guess = await self.studio.view("log_guess", where, robot and self.path(robot))
-                if not robot:
-                    self.joints = anybody(max(len(self.joints), guess.joints))
-                clock = self._clock(guess)
-                facts = await self.studio.view("log_facts", where, clock)
-                ends = facts.start, facts.end
-                known = Known(guess, clock, facts.rows, ends, facts.units, state.st_size)
-                memory[key] = known
-            self.logs[file] = memory[key]
+            path = Path(self.path(file))
+            guess = await self.studio.view("log_guess", str(path), robot and self.path(robot))
+            self.logs[file] = Known(guess, size=path.stat().st_size)
+            if not robot:
+                self.joints = anybody(max(len(self.joints), guess.joints))
         except ModelerError as error:
             self.logs[file] = Known(error=str(error))
         except OSError as error:
-            line = (
-                f"{file}: cannot be read ({error.strerror}); put it back, or take it off the list"
-            )
-            self.logs[file] = Known(error=line)
-        guess = self.logs[file].guess
-        if not robot and guess is not None:
-            self.joints = anybody(max(len(self.joints), guess.joints))
+            why = f"cannot be read ({error.strerror}); put it back, or take it off the list"
+            self.logs[file] = Known(error=f"{file}: {why}")
+
+    async def _read(self, file: str) -> None:
+        """Reads a log, unless it is known as it is now."""
+        known = self.logs[file]
+        if known.guess is None:
+            return
+        memory: dict[Any, Known] = self.studio.kept.setdefault("known", {})
+        try:
+            clock = self._clock(known.guess)
+            path = Path(self.path(file))
+            key = (file, path.stat().st_mtime_ns, known.size, clock)
+            if key not in memory:
+                facts = await self.studio.view("log_facts", str(path), clock)
+                ends = facts.start, facts.end
+                memory[key] = Known(known.guess, clock, facts.rows, ends, facts.units, known.size)
+            self.logs[file] = dataclasses.replace(memory[key], guess=known.guess)
+        except (ModelerError, OSError) as error:
+            self.logs[file] = Known(error=str(error))
 
     def _clock(self, guess: LogGuess) -> tuple[str, ...]:
         """Words that say what the time is, whatever the other columns are."""
@@ -188,45 +204,50 @@ class DataScreen:
         return (*topic, *words_of({**under, **guess.choices}, under, self.joints))
 
     def _begin(self) -> None:
-        """Fills in roles of logs that came, and the mapping while it is only a guess."""
+        """The mapping, while it is only a guess: one of all logs, or each by its own."""
         project = self.studio.project
         guesses = [known.guess for known in self.logs.values() if known.guess is not None]
-        ends = {file: known.ends for file, known in self.logs.items() if not known.error}
-        fields: dict[str, Any] = {}
-        new = [log for log in project.logs if not (log.train or log.test) and log.file in ends]
-        if new:
-            old = tuple(log for log in project.logs if log.train or log.test)
-            if old == timeline.by_default(old, ends):
-                fields["logs"] = timeline.by_default(project.logs, ends)
-            else:
-                fields["logs"] = tuple(
-                    timeline.all_training(log) if log in new else log for log in project.logs
-                )
         try:
             every = dict.fromkeys(self.guessed(guess) for guess in guesses)
         except ModelerError as error:
             self.studio.show_error(str(error))
-            every = {}
-        if every and project.mapping in ((), (AUTO,), *every):
+            return
+        if every and project.mapping in ((), (AUTO,), *every) and not self.studio.read_only:
             mapping = next(iter(every)) if len(every) == 1 else (AUTO,)
             if mapping != project.mapping:
-                fields["mapping"] = mapping
-        if fields and not self.studio.read_only:
-            self.studio.change(**fields)
+                self.studio.change(mapping=mapping)
+
+    def _roles(self) -> None:
+        """What logs that came are for."""
+        logs = self.studio.project.logs
+        ends = {file: known.ends for file, known in self.logs.items() if not known.error}
+        new = [log for log in logs if not (log.train or log.test) and log.file in ends]
+        if not new or self.studio.read_only:
+            return
+        old = tuple(log for log in logs if log.train or log.test)
+        if old == timeline.by_default(old, ends):
+            self.studio.change(logs=timeline.by_default(logs, ends))
+        else:
+            made = (timeline.all_training(log) if log in new else log for log in logs)
+            self.studio.change(logs=tuple(made))
 
     # Logs come and go.
 
     def _came(self, files: list[str]) -> None:
-        """Files that were dropped or chosen; many come one after the other."""
-        there = {log.file for log in self.studio.project.logs}
-        new = tuple(ProjectLog(file) for file in dict.fromkeys(files) if file not in there)
-        if not new or not self.studio.change(logs=(*self.studio.project.logs, *new)):
+        """Files that were dropped or chosen; many come one after the other, in any order."""
+        kept = self.studio.kept
+        before = [log for log in self.studio.project.logs if log.file not in kept.get("coming", ())]
+        there = {log.file for log in before}
+        coming = sorted({*kept.get("coming", ()), *files} - there)
+        new = tuple(ProjectLog(file) for file in coming)
+        if not new or not self.studio.change(logs=(*before, *new)):
             return
-        self.studio.kept["came"] = count = self.studio.kept.get("came", 0) + 1
+        kept["coming"] = tuple(coming)
 
         async def drawn() -> None:
             await asyncio.sleep(_QUIET)
-            if self.studio.kept["came"] == count:
+            if kept["coming"] == tuple(coming):
+                kept["coming"] = ()
                 self.studio.redraw()
 
         background_tasks.create(drawn(), name="logs came")
@@ -256,8 +277,9 @@ class DataScreen:
                 line.renew(log, self.result(file).get("marks", ()))
                 ui.label(timeline.told(log)).classes("data-told")
                 count = len(self.result(file).get("doubts", ()))
+                doubts = f"{count} doubt{'s' * (count > 1)}" if count else "no doubts"
                 if self.checked(file) is not None:
-                    ui.label(f"{count} doubts" if count else "no doubts").classes("studio-soft")
+                    ui.label(doubts).classes("studio-soft")
             off = ui.button(icon="close", on_click=lambda: self._remove(file)).props(
                 "flat dense round"
             )

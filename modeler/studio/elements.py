@@ -15,6 +15,9 @@ from modeler.studio.studio import Studio
 
 Light = Literal["good", "doubtful", "bad"]
 
+LIGHTS: tuple[Light, ...] = ("good", "doubtful", "bad")
+"""The worse, the later."""
+
 _SHAPES: dict[Light, str] = {"good": "\u25cf", "doubtful": "\u25b2", "bad": "\u25a0"}
 """A disc, a triangle, a square: told apart without colour."""
 

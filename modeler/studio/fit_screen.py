@@ -16,6 +16,7 @@ from modeler.core.table import percent
 from modeler.report import relation
 from modeler.studio import commands
 from modeler.studio.elements import (
+    LIGHTS,
     Light,
     Markup,
     command_line,
@@ -34,11 +35,6 @@ from modeler.studio.project import MAKING, Step
 from modeler.studio.studio import Studio
 
 _LIGHT: Mapping[str | None, Light] = {"physics": "good", "like motion": "doubtful"}
-_WORTH = {
-    "physics": "its values are those of a machine: for simulation, control, other motion",
-    "like motion": "for torques of motion like that of its logs, not for its values",
-    "nothing": "not usable",
-}
 _WIDTH = 160  # pixels of a drawn value
 
 
@@ -143,9 +139,12 @@ def _stale(studio: Studio, step: Step, chosen: Mapping[str, str]) -> None:
 def _verdict(fit: Mapping[str, Any]) -> None:
     """Lights of the whole and of every joint, with the reasons."""
     with part("What it is worth"):
-        light(_LIGHT.get(fit["usable_for"], "bad"), _WORTH.get(fit["usable_for"] or "nothing", ""))
-        ui.label(fit["verdict"] or "nobody has judged this fit")
         by_joint = fit.get("by_joint") or {}
+        every = [_LIGHT.get(fit["usable_for"], "bad"), *(one["light"] for one in by_joint.values())]
+        named = [name for name, one in by_joint.items() if one["light"] != "good"]
+        worst = max(every, key=LIGHTS.index)
+        light(worst, worst + (f": joint {', '.join(named)}" if named else ""))
+        ui.label(fit["verdict"] or "nobody has judged this fit")
         with ui.element("div").classes("studio-joints"):
             for name, joint in fit["joints"].items():
                 judged = by_joint.get(name, {"light": "doubtful", "reasons": ["not judged"]})

@@ -417,31 +417,43 @@ class Desk:
                 ui.label("It is looked at.").classes("studio-soft")
                 doubt_lines(self.guess.doubts)
                 return
-            doubts = list(result["doubts"])
-            timed = {mark["line"] for mark in self.marks()}
-            doubt_lines(doubts)
-            if not doubts:
+            marks = self.marks()
+            for line in result["doubts"]:
+                own = [mark for mark in marks if line.endswith(mark["line"])]
+                self._doubt_row(line, own)
+            told = [
+                mark
+                for mark in marks
+                if not any(d.endswith(mark["line"]) for d in result["doubts"])
+            ]
+            for mark in told[:_MOST]:
+                self._doubt_row(f"{mark['start']:.4f} s: {mark['line']}", [mark])
+            if not (result["doubts"] or told):
                 ui.label("no doubts").classes("studio-soft")
-            for mark in self.marks()[:_MOST]:
-                self._mark_row(mark)
             table(
                 ("channel", "unit", "from", "to", "resolution", "missing"),
                 map(_cells, result["channels"]),
             )
-            folded("notes", [line for line in result["notes"] if line not in timed])
+            folded("notes", result["notes"])
 
-    def _mark_row(self, mark: Mapping[str, Any]) -> None:
-        with ui.row().classes("items-center no-wrap gap-2"):
-            ui.button("why", on_click=lambda: self._doubt(mark)).props("dense flat no-caps")
-            if mark["end"] > mark["start"] or mark["kind"] in ("spike", "zero", "lost"):
-                ui.button("leave out", on_click=lambda: self._leave(mark)).props(
-                    "dense outline no-caps"
-                )
-            ui.label(f"{mark['start']:.4f} s  {mark['line']}")
+    def _doubt_row(self, line: str, marks: Sequence[Mapping[str, Any]]) -> None:
+        """A doubt, and what can be done where it has a place."""
+        with ui.row().classes("items-center no-wrap gap-2 w-full"):
+            with ui.element("div").classes("data-doubt"):
+                doubt_lines([line])
+            if marks:
+                ui.button("why", on_click=lambda: self._doubt(marks[0])).props("dense flat no-caps")
+                leave = ui.button("leave out", on_click=lambda: self._leave(marks))
+                leave.props("dense outline no-caps").classes("no-wrap")
 
-    def _leave(self, mark: Mapping[str, Any]) -> None:
-        stretch = Stretch(round(mark["start"] - _ROOM, 4), round(mark["end"] + _ROOM, 4))
-        self._become(lambda log: timeline.painted(log, stretch, "out"))
+    def _leave(self, marks: Sequence[Mapping[str, Any]]) -> None:
+        log = self.log
+        for mark in marks:
+            start, end = (
+                round(mark[side] + room, 4) for side, room in (("start", -_ROOM), ("end", _ROOM))
+            )
+            log = timeline.painted(log, Stretch(start, end), "out")
+        self._become(lambda _: log)
 
     def _doubt(self, mark: Mapping[str, Any]) -> None:
         """Why, and what can be done."""
@@ -452,7 +464,8 @@ class Desk:
             ui.label(str(mark["line"]))
             ui.label(_WHY.get(mark["kind"], "")).classes("studio-soft")
             with ui.row():
-                leave = ui.button("Leave out", on_click=lambda: (self._leave(mark), dialog.close()))
+                leave = ui.button("Leave out", on_click=lambda: self._leave([mark]))
+                leave.on_click(dialog.close)
                 leave.props("no-caps unelevated")
                 near = (mark["start"] - 25 * _ROOM, mark["end"] + 25 * _ROOM)
                 ui.button(
@@ -462,7 +475,7 @@ class Desk:
         dialog.open()
 
 
-_MOST = 30  # doubts with a place that are listed; the line has all
+_MOST = 30  # marks that are listed; the line has all
 
 
 def _cells(channel: Mapping[str, Any]) -> Sequence[str]:

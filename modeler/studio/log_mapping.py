@@ -147,10 +147,10 @@ def words_of(
         own = {joint.name: left.get(f"{kind}{joint.name}") for joint in joints}
         pattern = _pattern(own, joints)
         if pattern is not None:
-            words.append(_word(f"{kind}<j>", pattern))
+            words.append(_word(f"{kind}<j>", pattern, joints))
             for joint in own:
                 del left[f"{kind}{joint}"]
-    singles = [_word(own, one) for own, one in left.items()]
+    singles = [_word(own, one, joints) for own, one in left.items()]
     return tuple(sorted(singles, key=lambda word: not word.startswith("time=")) + words)
 
 
@@ -166,7 +166,9 @@ def _pattern(own: Mapping[str, Choice | None], joints: Sequence[JointSpec]) -> C
             continue
         column = first.column[:at] + mark + first.column[at + len(label) :]
         try:
-            entry = map_from_words([_word("q<j>", dataclasses.replace(first, column=column))])
+            entry = map_from_words(
+                [_word("q<j>", dataclasses.replace(first, column=column), joints)]
+            )
         except DataError:
             return None
         made = {k: e.columns[0] for k, e in entry.entries(joints).items()}
@@ -180,13 +182,16 @@ def _pattern(own: Mapping[str, Choice | None], joints: Sequence[JointSpec]) -> C
     return None
 
 
-def _word(own: str, one: Choice) -> str:
+def _word(own: str, one: Choice, joints: Sequence[JointSpec]) -> str:
     """`q2=-enc2:deg`; what is read back is what was meant."""
     word = f"{own}={'-' * (one.sign < 0)}{one.column}"
     word += f":{one.unit}" if one.unit else ""
     entry = map_from_words([word]).layers[0].get(own)
     unit = "" if entry is None or entry.unit is None else entry.unit.text
     kept = entry is not None and one.column in entry.columns and entry.sign == one.sign
+    plain = units_of(own.replace("<j>", joints[0].name if joints else ""), joints)[0]
+    if not kept and not one.unit and plain:  # a name that ends as if in a unit
+        return _word(own, dataclasses.replace(one, unit=plain), joints)
     if not kept or (one.unit and unit != one.unit) or one.offset:
         raise DataError(
             f'{own}: a column called "{one.column}" cannot be named with --map; rename it, or say '
@@ -229,15 +234,15 @@ def as_mapped(
     Raises:
         DataError: a unit that cannot be.
     """
-    said_unit = find_unit(stated) if stated else None
-    if one.unit and said_unit is not None:
-        values = values / said_unit.factor - said_unit.zero
+    before = find_unit(stated) if stated else None
+    if before is not None:
+        values = values / before.factor - before.zero
     values = one.sign * values + one.offset
-    if not one.unit:
-        return values
-    unit = find_unit(one.unit)
-    if unit is None:
+    unit = find_unit(one.unit) if one.unit else before
+    if unit is None and one.unit:
         example = units_of(own, joints)[0]
         raise DataError(f'{own}: got unit "{one.unit}"; expected one such as {example}')
+    if unit is None:
+        return values
     known = si_unit(own, own, unit, joints)
     return (values + known.zero) * known.factor

@@ -93,7 +93,10 @@ class MappingTable:
             menu = ui.select(
                 names, value=one and one.column, with_input=True, clearable=own != "time",
                 on_change=lambda event: self._take(own, event.value),
-            ).props(f'dense options-dense aria-label="column of {own}"').classes("mapping-column")  # fmt: skip
+            )  # fmt: skip
+            menu.props(f'dense options-dense aria-label="column of {own}"').classes(
+                "mapping-column"
+            )
             menu.mark(f"column-{own}")
             if one is not None and one.column not in self.columns:
                 menu.props("error").tooltip("this log has no such column")

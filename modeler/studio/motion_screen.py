@@ -1,10 +1,179 @@
-"""The screen "motion"."""
+"""The screen "next motion": the motion that tells most, or tells two effects apart, to be driven."""
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
 
 from nicegui import ui
 
+from modeler import excitation
+from modeler.core.errors import ModelerError
+from modeler.core.json import parse_json
+from modeler.studio import figures
+from modeler.studio.commands import Asked, robot_copy
+from modeler.studio.elements import go_button, head, part, run_button, table
+from modeler.studio.project import Project, Step
+from modeler.studio.robot_frame import robot_frame
+from modeler.studio.robot_views import MotionLook
 from modeler.studio.studio import Studio
+from modeler.studio.timeline import Timeline
+
+_SECONDS = 10.0
+_ALL = ""  # the question that has no two effects
+_USED = ("lower", "upper", "speed", "acceleration", "torque")
+_CHOSEN = "motion"
+"""What this window asks for: `{"between": "a@1,b@2", "duration": 10.0}`. Other screens may set it."""
 
 
 async def draw(studio: Studio) -> None:
     """Draws it."""
-    ui.label("motion")
+    head("Next motion", "What the robot should do next, within its limits, so that a log tells most.")
+    project = studio.project
+    if not project.robot:
+        ui.label("There is no robot yet.")
+        go_button(studio, "To the robot", "robot")
+        return
+    with part("What it shall tell"):
+        _wish(studio)
+    step = project.about("excite")
+    if step is None:
+        return
+    try:
+        found = parse_json(studio.text(step.result))
+        look: MotionLook = await studio.view("motion_look", _file(step), step.result)
+        with part(f"Found: {step.title}"):
+            _found(studio, step, found)
+        await _shown(studio, step, look)
+    except ModelerError as error:
+        ui.label(str(error)).classes("studio-error").props("role=alert")
+
+
+def excite(project: Project, between: str, duration: float) -> Asked:
+    """The search for a motion.
+
+    Args:
+        project: with a robot; its current model knows which parameters are essential.
+        between: two effects to be told apart, "a@1,b@2"; "": all parameters.
+        duration: s, from rest to rest.
+    """
+    words = ["excite", project.model or robot_copy(project)]
+    words += ["--between", between] if between else []
+    words += ["--duration", f"{duration:g}", "--out", f"motions/{project.next_number}.csv"]
+    one, _, other = between.partition(",")
+    title = f"motion that tells {one} from {other}" if between else "motion that tells most"
+    return Asked("excite", tuple(words), title)
+
+
+def questions(result: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """What a diagnosis leaves open between two effects: the words of `--between`, and a sentence."""
+    seen = set()
+    for effect in result.get("effects", ()):
+        for tie in effect.get("ties", ()):
+            pair = [f"{e['effect']}@{e['joint']}" for e in (effect, tie) if e["joint"] is not None]
+            if len(pair) == 2 and pair[0] != pair[1] and frozenset(pair) not in seen:
+                seen.add(frozenset(pair))
+                one, other = (e.replace("_", " ").replace("@", " on joint ") for e in pair)
+                yield ",".join(pair), f"tell {one} from {other}"
+
+
+def _wish(studio: Studio) -> None:
+    project = studio.project
+    chosen = studio.kept.setdefault(_CHOSEN, {"between": _ALL, "duration": _SECONDS})
+    whose = "the current model" if project.model else "the robot"
+    options = {_ALL: f"all parameters of {whose}"}
+    step = project.about("diagnose")
+    if project.model and step is not None:
+        options |= questions(parse_json(studio.text(step.result)))
+    if chosen["between"] not in options:
+        chosen["between"] = _ALL
+    with ui.row().classes("items-center w-full gap-6"):
+        between = ui.radio(options, value=chosen["between"]).props("dense")
+        duration = ui.number("duration, s", value=chosen["duration"], min=1, max=600, step=1)
+        duration.classes("w-32")
+    if len(options) == 1 and project.model:
+        ui.label(
+            "Where a diagnosis cannot tell two effects apart, the motion that does is offered here."
+        ).classes("studio-soft studio-small")
+    with ui.row().classes("items-center"):
+        ui.label("Its limits are those of the robot.").classes("studio-soft")
+        go_button(studio, "Change them", "robot")
+    studio.kept["robot tab"] = "Limits"
+    renew = run_button(
+        studio, "Find the motion",
+        lambda: excite(studio.project, chosen["between"], chosen["duration"]),
+    )  # fmt: skip
+
+    def changed() -> None:
+        chosen.update(between=between.value, duration=float(duration.value or _SECONDS))
+        renew()
+
+    between.on_value_change(changed)
+    duration.on_value_change(changed)
+
+
+def _file(step: Step) -> str:
+    return step.words[step.words.index("--out") + 1]
+
+
+def _found(studio: Studio, step: Step, found: Mapping[str, Any]) -> None:
+    random = found["random"]
+    ui.label(
+        f"Condition number {found['condition_scaled']:.4g}, columns of length one; the best of "
+        f"{random['motions']} random motions has {random['condition_scaled_best']:.4g}."
+    )
+    for line in _between(found.get("between")):
+        ui.label(line)
+    rows = []
+    for joint, limits in found["joints"].items():
+        cells = []
+        for what in _USED:
+            used, limit = limits[what]["used"], limits[what]["limit"]
+            known = "" if used is None else f"{used:.3g}"
+            cells.append(known if limit is None else f"{known} of {limit:.3g}")
+        rows.append((joint, *cells))
+    table(("joint", *_USED), rows)
+
+    async def as_parquet() -> None:
+        place = Path(_file(step))
+        try:
+            content = await studio.view("motion_parquet", str(place), step.result)
+        except ModelerError as error:
+            studio.show_error(str(error))
+            return
+        ui.download.content(content, f"{place.stem}.parquet")
+
+    with ui.row():
+        name = f"motion-{Path(_file(step)).stem}.csv"
+        place = studio.folder / _file(step)
+        ui.button("Download CSV", on_click=lambda: ui.download.file(place, name)).props("no-caps")
+        ui.button("Download Parquet", on_click=as_parquet).props("no-caps")
+
+
+def _between(told: Mapping[str, Any] | None) -> list[str]:
+    """How well two effects are told apart along the motion."""
+    if not told:
+        return []
+    shares = (tuple(e[key] for e in told.values()) for key in ("left", "left_random", "gain"))
+    return excitation.Separation(tuple(told), *shares).lines()
+
+
+async def _shown(studio: Studio, step: Step, look: MotionLook) -> None:
+    """The motion in 3-D and over time, with one cursor."""
+    name = _file(step)
+    with ui.element("div").classes("studio-split"):
+        with ui.column().classes("w-full"):
+            figures.draw(look.picture, name)
+        with ui.column().classes("studio-beside w-full"):
+            frame = await robot_frame(studio, "calc(100vh - 260px)")
+            with ui.row().classes("items-center no-wrap w-full"):
+                button = ui.button(icon="play_arrow").props("round aria-label='play the motion'")
+                ends = float(look.time[0]), float(look.time[-1])
+                line = Timeline(name, ends).classes("w-full")
+            line.frame = frame.id
+            button.on_click(lambda: line.play(1.0))
+
+            def playing(event: Any) -> None:
+                button.props(f"icon={'pause' if event.args else 'play_arrow'}")
+
+            line.on("playing", playing)
+            line.show(look.time, look.q)

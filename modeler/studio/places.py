@@ -10,7 +10,7 @@ from pathlib import Path
 
 from modeler.core.builtin import LOG_ENDINGS, OTHER_PROGRAMS
 from modeler.core.errors import DataError, ModelerError
-from modeler.studio.project import FOLDERS, Project
+from modeler.studio.project import FOLDERS, MAKING, Project
 
 ROBOT_ENDINGS = (".toml", *OTHER_PROGRAMS)
 """How the name of a robot file ends."""
@@ -203,7 +203,7 @@ def spare(folder: Path, project: Project) -> Spare:
     steps = tuple(
         step
         for step in project.steps
-        if step.number in way or (not step.model and step.parent in {0, *way})
+        if step.number in way or (step.kind not in MAKING and step.parent in {0, *way})
     )
     needed = {step.number for step in steps}
     named = {name for step in steps for name in (step.model, step.result, step.pictures)}

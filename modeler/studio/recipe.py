@@ -29,20 +29,17 @@ class Recipe:
         folder: of the project, where its logs lie.
         steps: in their order.
         robots: text by file.
-        made: logs that a step of it makes.
+        logs: files that lie in the folder, and are made by no step.
     """
 
     folder: Path
     steps: tuple[Step, ...]
     robots: Mapping[str, str]
-    made: frozenset[str]
+    logs: frozenset[str]
 
-    def is_log(self, word: str) -> bool:
-        """Whether a word names a log that lies in the project, and is made by no step."""
-        file = word.partition("@")[0]
-        return file not in self.made and (
-            file.startswith("logs/") or Path(file).is_absolute() or (self.folder / file).is_file()
-        )
+    def lies_there(self, word: str) -> bool:
+        """Whether a word names a log, or a stretch of it, that lies in the folder."""
+        return word.partition("@")[0] in self.logs
 
 
 def recipe(project: Project, folder: Path, robots: Mapping[str, str]) -> Recipe:
@@ -60,11 +57,13 @@ def recipe(project: Project, folder: Path, robots: Mapping[str, str]) -> Recipe:
     made = [step for step in project.steps if step.kind == "simulate"]
     made = [step for step in made if out_of(step.words) in used]
     steps = [*made, *way, *(step for step in about if step is not None)]
+    logs = frozenset(file for file in used if file.startswith("logs/"))
+    logs |= {log.file for log in project.logs if not Path(log.file).is_absolute()}
     own = {word for step in steps for word in step.words if word in robots}
     return Recipe(
         folder, tuple(sorted(steps, key=lambda step: step.number)),
         {name: robots[name] for name in sorted(own)},
-        frozenset(out_of(step.words) for step in made),
+        logs - {out_of(step.words) for step in made},
     )  # fmt: skip
 
 
@@ -104,7 +103,7 @@ def _one_line(text: str) -> str:
 
 
 def _shell_word(own: Recipe, word: str) -> str:
-    if own.is_log(word) and not Path(word.partition("@")[0]).is_absolute():
+    if own.lies_there(word):
         return f'"$LOGS"/{shlex.quote(word)}'
     return shlex.quote(word)
 
@@ -176,7 +175,7 @@ def _preparation(own: Recipe) -> Iterator[str]:
 
 def _log(own: Recipe, word: str) -> str:
     """A log as Python names it."""
-    if own.is_log(word) and not Path(word.partition("@")[0]).is_absolute():
+    if own.lies_there(word):
         return f"LOGS + {chr(47) + word!r}"
     return repr(word)
 

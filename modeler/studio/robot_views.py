@@ -9,9 +9,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from modeler import excitation, simulation
 from modeler.core.errors import ModelerError
+from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.files import read_file
 from modeler.core.json import parse_json
+from modeler.core.style import COLORS, GREY, Style
 from modeler.report import page_content, relations_html, robot_html, show
 from modeler.robot import (
     Robot,
@@ -105,6 +110,83 @@ def relations_of(result: str, place: str) -> tuple[str, dict[str, Any]]:
     found = parse_json(read_file(Path(result)))
     told = {key: found[key] for key in ("rank", "counts", "proof", "rank_gap", "unidentifiable")}
     return relations_html(found, read_robot(place)), told
+
+
+# Motions that a robot is to drive.
+
+
+@dataclass(frozen=True)
+class MotionLook:
+    """A motion against its limits.
+
+    Attributes:
+        time: (n,) s.
+        q: (n,) position of each joint, rad or m.
+        picture: position, speed and acceleration of all joints, as shares of their limits.
+    """
+
+    time: np.ndarray
+    q: dict[str, np.ndarray]
+    picture: Picture
+
+
+def motion_look(place: str, result: str) -> MotionLook:
+    """A motion that `modeler excite` wrote, and its limits.
+
+    Args:
+        place: file of the motion.
+        result: file of the result.
+    """
+    joints, motion = _motion(place, result)
+    panels = []
+    for title, of, label in (
+        ("position", motion.q, "of its range"),
+        ("speed", motion.qd, "of the limit"),
+        ("acceleration", motion.qdd, "of the limit"),
+    ):
+        curves = [
+            Curve(f"joint {name}", motion.time, _share(title, of[:, j], limits), _style(j))
+            for j, (name, limits) in enumerate(joints.items())
+        ]
+        ends = motion.time[[0, -1]]
+        edges = Curve("limits", np.array([*ends, np.nan, *ends]), _SIDES, _EDGE)
+        label = f"{title}, {label}"
+        series = (*curves, edges)
+        panels.append((Panel("", "time [s]", label, series, y_range=(-1.1, 1.1), zero=True),))
+    picture = Picture("motion", "", "Shares of the limits of each joint; the dashed lines are the "
+                      "limits.", tuple(panels), 560, shared_time=True)  # fmt: skip
+    q = {name: motion.q[:, j] for j, name in enumerate(joints)}
+    return MotionLook(motion.time, q, picture)
+
+
+def motion_parquet(place: str, result: str) -> bytes:
+    """A motion as a Parquet file, for what does not take CSV."""
+    joints, motion = _motion(place, result)
+    columns = {"time": motion.time}
+    for name, of in (("q", motion.q), ("qd", motion.qd), ("qdd", motion.qdd)):
+        columns |= {f"{name}{joint}": of[:, j] for j, joint in enumerate(joints)}
+    return excitation.motion_table(columns)
+
+
+_SIDES = np.array([1.0, 1.0, np.nan, -1.0, -1.0])
+_EDGE = Style(GREY, 1.0, dash=True)
+
+
+def _style(number: int) -> Style:
+    return Style(COLORS[number % len(COLORS)], dash=number >= len(COLORS))
+
+
+def _motion(place: str, result: str) -> tuple[dict[str, Any], simulation.Reference]:
+    joints = parse_json(read_file(Path(result)))["joints"]
+    return joints, simulation.read_motion(place, list(joints))
+
+
+def _share(what: str, values: np.ndarray, limits: dict[str, Any]) -> np.ndarray:
+    """-1 to 1 within the limits."""
+    if what != "position":
+        return values / float(limits[what]["limit"])
+    lower, upper = limits["lower"]["limit"], limits["upper"]["limit"]
+    return (2.0 * values - lower - upper) / (upper - lower)
 
 
 def _wrong(error: str, text: str, table: TableText | None) -> tuple[int, int] | None:

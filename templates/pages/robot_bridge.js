@@ -22,7 +22,10 @@ function standing() {
 }
 
 const HEEDED = {
-  posture: ({ q }) => { page.pose(q); },
+  posture: ({ q }) => {
+    page.pose(q);
+    page.view.back(page.poses());
+  },
   light: ({ rows }) => {
     page.view.lit = new Set(robot.rows.flatMap((row, i) => (rows.includes(row.name) ? [i] : [])));
     redraw();
@@ -43,7 +46,7 @@ function recall() {
   page.pose(kept.q);
   fit();
   Object.assign(page.view, { scale: kept.scale, centre: kept.centre });
-  if (!page.view.holds(page.poses())) fit();
+  if (page.view.filled(page.poses()) === 0) fit();
   redraw();
 }
 

@@ -87,7 +87,7 @@ page.replace = (content) => {
   element("note").textContent = robot.note;
   begin();
   if (moved) page.pose(q);
-  if (!page.view.holds(page.poses())) fit();
+  if (page.view.filled(page.poses()) < 0.3) fit();
 };
 
 // The value of a cell of the table, as the robot stands.

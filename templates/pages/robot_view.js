@@ -93,14 +93,19 @@ class View {
     }
   }
 
-  // True if all of the robot is in the window, and fills a good part of it.
-  holds(poses) {
+  // Share of the window that the robot fills, in its wider direction; 0 if it reaches out of it.
+  filled(poses) {
     this.poses = poses;
     const points = this.outline().map((p) => this.flat(p));
     const xs = points.map((p) => p.x), ys = points.map((p) => p.y);
     const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-    return left > 0 && low > 0 && right < this.width && high < this.height
-      && (right - left > 0.3 * this.width || high - low > 0.3 * this.height);
+    const inside = left > 0 && low > 0 && right < this.width && high < this.height;
+    return inside ? Math.max((right - left) / this.width, (high - low) / this.height) : 0;
+  }
+
+  // Steps back until all of the robot is in the window.
+  back(poses) {
+    for (let k = 0; k < 30 && this.filled(poses) === 0; k += 1) this.scale *= 0.93;
   }
 
   outline() {

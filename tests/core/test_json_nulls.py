@@ -123,7 +123,8 @@ COMMANDS = {
 
 
 def test_every_command_is_tried_here():
-    assert {name.split()[0] for name in COMMANDS} == set(TABLE)
+    served = {"studio"}  # which goes on after it: tests/studio/test_command.py
+    assert {name.split()[0] for name in COMMANDS} == set(TABLE) - served
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from modeler.estimation.verdict import with_verdict
 from modeler.observation import Doubt
 from modeler.observation.read import read_log
 from modeler.robot.read import robot_from_text
-from modeler.simulation import SimulationSettings, simulate, write_log
+from modeler.simulation import HiddenEffect, SimulationSettings, simulate, write_log
 
 
 @dataclasses.dataclass(frozen=True)
@@ -69,6 +69,9 @@ def test_a_good_fit_leaves_no_doubt(bench):
     assert verdict.line.startswith("usable: predicts torques of motion like that of its logs to ")
     assert verdict.line.endswith("a machine with these values could be built")
     assert verdict.warning() == []
+    assert verdict.possible
+    assert {one.light for one in verdict.by_joint.values()} == {"good"}
+    assert all("left out foretold to" in one.reasons[0] for one in verdict.by_joint.values())
 
 
 @pytest.mark.parametrize(
@@ -105,6 +108,10 @@ def test_a_torque_with_the_wrong_sign(bench):
     assert "carried by" in verdict.line and "2" in verdict.line.split("carried by")[1]
     assert "% of the torque of joint 2, not " in verdict.line
     assert any("is negative, which physics does not allow" in line for line in verdict.doubts)
+    assert verdict.possible is False
+    assert (
+        verdict.by_joint["2"].light == "bad" and verdict.line[12:] in verdict.by_joint["2"].reasons
+    )
 
 
 def test_torques_of_another_motion(bench):
@@ -128,6 +135,8 @@ def test_a_joint_that_stands_still_leaves_the_prediction(bench):
     verdict = bench.verdict(dataclasses.replace(bench.log, q=q, tau=tau))
     assert verdict.usable_for != "physics"
     assert any("and set aside; record a motion that moves" in line for line in verdict.doubts)
+    assert verdict.by_joint["1"].light == "doubtful"
+    assert "none of its rows was fitted" in verdict.by_joint["1"].reasons
 
 
 def test_values_that_stand_in_for_what_the_model_lacks(bench):
@@ -143,15 +152,36 @@ def test_values_that_stand_in_for_what_the_model_lacks(bench):
     assert verdict.usable and verdict.usable_for == "like motion"
     stands_in = "the values of others stand in for it; `modeler diagnose` names it"
     assert any(stands_in in line for line in verdict.doubts)
+    about = next(line for line in verdict.doubts if stands_in in line).split(":")[0]
+    named = about.removeprefix("joint ").split(", ")
+    assert all(verdict.by_joint[name].light == "doubtful" for name in named)
+
+
+def test_a_joint_whose_halves_differ_is_doubtful_and_no_other(bench, tmp_path):
+    # friction that grows with the load, which the model lacks, on joint 3 alone
+    hidden = (HiddenEffect("load_friction", "3"),)
+    settings = SimulationSettings(duration=16.0, rate=500.0, seed=9, hidden=hidden)
+    write_log(tmp_path / "a.parquet", simulate(bench.derivation.robot, settings))
+    verdict = bench.verdict(read_log(tmp_path / "a.parquet", bench.emitted.spec))
+    assert verdict.by_joint["1"].light == "good"
+    assert verdict.by_joint["3"].light == "doubtful"
+    assert "`modeler diagnose`" in verdict.by_joint["3"].reasons[0]
 
 
 def test_what_other_stages_tell_joins_in(bench):
     swapped = Doubt("joint 1 and 2: exchanged; exchange tau1 and tau2", True)
     verdict = bench.verdict(bench.log, told=[swapped])
     assert verdict.line == f"not usable: {swapped.line}" and verdict.doubts == (swapped.line,)
+    assert {one.light for one in verdict.by_joint.values()} == {"bad"}  # it is about all of them
+    own = dataclasses.replace(swapped, about=("1", "2"))
+    lights = {
+        name: one.light for name, one in bench.verdict(bench.log, told=[own]).by_joint.items()
+    }
+    assert lights == {"1": "bad", "2": "bad", "3": "good"}
     vague = Doubt("joint 3: positions may be late", False)
     verdict = bench.verdict(bench.log, told=[vague])
     assert verdict.usable and vague.line in verdict.line
+    assert {one.light for one in verdict.by_joint.values()} == {"good"}
 
 
 def test_the_model_file_keeps_it_and_old_ones_have_none(bench, tmp_path):

@@ -1,0 +1,140 @@
+"""`modeler studio`: what it prints, writes and refuses, and how it ends."""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from modeler.cli import main
+from tests.json_schemas import check_schema
+from tests.studio.requests import ask, let_in
+from tests.studio.window import Served, served
+
+WORDS = [sys.executable, "-m", "modeler.cli", "studio", "--no-open"]
+
+
+def test_the_address_stands_in_the_json_before_it_serves(tmp_path: Path) -> None:
+    place = tmp_path / "address.json"
+    with served(tmp_path / "arm", "--json", str(place)) as studio:
+        raw = json.loads(place.read_text())
+        check_schema("studio", raw)
+        assert raw["address"] == studio.address and raw["folder"] == str(tmp_path / "arm")
+        assert raw["pid"] == studio.process.pid
+        assert place.stat().st_mode & 0o077 == 0  # who has the token is let in
+        assert ask(studio, cookie=let_in(studio)).status == 200
+        assert studio.end() == 130
+
+
+def test_json_alone_on_stdout_over_a_pipe(tmp_path: Path) -> None:
+    with subprocess.Popen(
+        [*WORDS, str(tmp_path), "--json", "-"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdout is not None and process.stderr is not None
+        lines = []
+        for line in process.stdout:
+            lines.append(line)
+            if line == "}\n":
+                break
+        raw = json.loads("".join(lines))
+        assert ask(Served(tmp_path, raw["address"], process)).status == 403  # it answers
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 130
+        assert process.stdout.read() == "" and process.stderr.read() == "modeler: interrupted\n"
+
+
+def test_it_says_how_to_reach_it_over_ssh(tmp_path: Path) -> None:
+    with subprocess.Popen([*WORDS, str(tmp_path)], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        first, second = process.stdout.readline(), process.stdout.readline()
+        process.send_signal(signal.SIGTERM)
+        process.wait(20)
+    port = first.partition("127.0.0.1:")[2].partition("/")[0]
+    assert f"studio of {tmp_path}: http://127.0.0.1:{port}/?token=" in first
+    assert f"ssh -L {port}:127.0.0.1:{port} HOST" in second
+
+
+def test_a_window_that_is_open_does_not_hold_it(tmp_path: Path) -> None:
+    """Ctrl-C while a browser is connected."""
+    with (
+        served(tmp_path) as studio,
+        socket.create_connection(("127.0.0.1", int(studio.root.rpartition(":")[2]))) as line,
+    ):
+        path = "/_nicegui_ws/socket.io/?EIO=4&transport=websocket"
+        head = f"GET {path} HTTP/1.1\r\nHost: {studio.root[7:]}\r\n"
+        more = "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+        key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+        line.sendall(f"{head}{more}{key}Cookie: {let_in(studio)}\r\n\r\n".encode())
+        assert line.recv(12) == b"HTTP/1.1 101"
+        begin = time.monotonic()
+        assert studio.end() == 130 and time.monotonic() - begin < 10
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--port", "99999"), "--port: got 99999; expected 1 to 65535, 0 for a free one"),
+        (("--allow", "{}/none"), "no such folder; expected one that holds logs"),
+        (("{}/file",), "cannot be used as a project folder"),
+        (("{}", "--port", "{port}"), "cannot be opened (Address already in use); choose another"),
+        (("{}/broken",), "expected a file that `modeler studio` wrote"),
+    ],
+)
+def test_what_it_cannot_do_is_one_line(tmp_path, capsys, words, told) -> None:
+    (tmp_path / "file").write_text("")
+    (tmp_path / "broken").mkdir()
+    (tmp_path / "broken/project.toml").write_text("robot = 3\nx =")
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        port = other.getsockname()[1]
+        given = [word.format(tmp_path, port=port) for word in words]
+        assert main(["studio", "--no-open", *given]) == 1
+    err = capsys.readouterr().err
+    assert told in err and err.count("\n") == 1
+
+
+@pytest.mark.parametrize("package", ["nicegui", "fastapi"])
+def test_where_it_is_not_installed_it_says_what_to_install(
+    tmp_path, monkeypatch, capsys, package
+) -> None:
+    for name in [name for name in sys.modules if name.startswith("modeler.studio")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, package, None)
+    assert main(["studio", str(tmp_path), "--no-open"]) == 1
+    err = capsys.readouterr().err
+    assert f"needs the package {package}, which is not installed" in err
+    assert 'run: pip install "modeler-robotics[studio]"' in err and err.count("\n") == 1
+
+
+def test_the_browser_gets_an_address_that_is_good_once(tmp_path: Path, monkeypatch) -> None:
+    """What a browser is started with stands in the list of processes; what is printed does not."""
+    opener = tmp_path / "opener"
+    opener.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/opened.part\n'
+                      f"mv {tmp_path}/opened.part {tmp_path}/opened\n")  # fmt: skip
+    opener.chmod(0o755)
+    environment = os.environ | {"BROWSER": f"{opener} %s"}
+    environment.pop("SSH_CONNECTION", None)
+    words = [word for word in WORDS if word != "--no-open"]
+    with subprocess.Popen(
+        [*words, str(tmp_path / "p")], stdout=subprocess.PIPE, text=True, env=environment
+    ) as process:
+        assert process.stdout is not None
+        printed = process.stdout.readline().rpartition(" ")[2].strip()
+        end = time.monotonic() + 20
+        while not (tmp_path / "opened").exists() and time.monotonic() < end:
+            time.sleep(0.05)
+        opened = (tmp_path / "opened").read_text().strip()
+        studio = Served(tmp_path, opened, process)
+        path = opened.removeprefix(studio.root)
+        assert opened != printed and [ask(studio, path).status for _ in range(2)] == [303, 403]
+        process.send_signal(signal.SIGINT)
+        process.wait(20)

@@ -1,0 +1,216 @@
+"""What the data screen makes of menus and brushes: words of commands that say just that."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.cli import main
+from modeler.core.errors import DataError
+from modeler.core.manifest import JointSpec
+from modeler.logs import map_from_table, map_from_words
+from modeler.studio import timeline
+from modeler.studio.log_mapping import Choice, as_mapped, choices, units_of, words_of
+from modeler.studio.project import ProjectLog, Stretch
+from modeler.studio.viewing import log_film, log_guess, log_window
+
+
+def joints(*names: str) -> tuple[JointSpec, ...]:
+    return tuple(JointSpec(name, "revolute", "rad", "N m", True, None) for name in names)
+
+
+FIVE = joints("1", "2", "3", "4", "5")
+NAMES = joints("waist", "11", "7")
+
+
+def drawn_choices(rng: np.random.Generator, robot: tuple[JointSpec, ...]) -> dict[str, Choice]:
+    """A mapping as a person might click it together."""
+    signs = [1, -1]
+    alike = rng.random() < 0.5
+    stem = rng.choice(["pos{}", "data.pos[{}]", "arm/q[{}]", "Joint {} [x]", "{}_pos", "w 1 {}"])
+    found = {"time": Choice("zeit: s", str(rng.choice(["", "ms", "us"])))}
+    unit, sign = str(rng.choice(["", "deg", "0.01 rev/8192"])), int(rng.choice(signs))
+    for k, joint in enumerate(robot):
+        label = str(rng.choice([joint.name, str(k + 1)])) if not alike else str(k + 1)
+        own = (unit, sign) if alike else (str(rng.choice(["", "deg"])), int(rng.choice(signs)))
+        found[f"q{joint.name}"] = Choice(f"{stem.format(label)}{'' if alike else f' ({k})'}", *own)
+        if rng.random() < 0.7:
+            found[f"tau{joint.name}"] = Choice(f"t={k}:N", str(rng.choice(["N m", "mN m"])))
+    return found
+
+
+@pytest.mark.parametrize("robot", [FIVE, NAMES, joints("1")], ids=["digits", "names", "one"])
+@pytest.mark.parametrize("seed", range(12))
+def test_words_say_what_was_chosen(robot: tuple[JointSpec, ...], seed: int) -> None:
+    wanted = drawn_choices(np.random.default_rng(seed), robot)
+    words = words_of(wanted, {}, robot)
+    columns = {one.column for one in wanted.values()}
+    found = choices(map_from_words(words), robot, columns)
+    if wanted["time"].unit == "":  # "zeit: s" looks like a column with its unit
+        wanted["time"] = Choice("zeit: s", "s")
+    assert found == wanted
+
+
+def test_patterns_are_found_and_what_is_so_is_not_said() -> None:
+    plain = {f"q{j.name}": Choice(f"pos_{k}", "deg", -1) for k, j in enumerate(FIVE)}
+    assert words_of(plain, {}, FIVE) == ("q<j>=-pos_{n-1}:deg",)
+    own = {f"q{j.name}": Choice(f"q{j.name}") for j in FIVE}
+    assert words_of(own, own, FIVE) == ()
+    assert words_of(own | {"q2": Choice("q2", "deg")}, own, FIVE) == ("q2=q2:deg",)
+
+
+def test_a_robot_file_that_says_it_needs_no_words() -> None:
+    table = {"q<j>": {"column": "enc{n}", "unit": "deg", "scale": 0.01, "offset": 3.0}}
+    stated = choices(map_from_table(table, "[log]"), FIVE, [f"enc{k}" for k in range(1, 6)])
+    assert stated["q2"] == Choice("enc2", "0.01 deg", 1, 3.0)
+    assert words_of(stated, stated, FIVE) == ()
+
+
+@pytest.mark.parametrize("column", ["-enc", "a -b:deg ", " x"])
+def test_names_that_no_word_can_say_are_refused(column: str) -> None:
+    with pytest.raises(DataError, match="cannot be named with --map; rename it"):
+        words_of({"q1": Choice(column)}, {}, FIVE)
+
+
+def test_units_that_cannot_be_are_refused() -> None:
+    with pytest.raises(DataError, match='q1: got unit "N m"'):
+        as_mapped(np.ones(2), "", Choice("x", "N m"), "q1", FIVE)
+    with pytest.raises(DataError, match='got unit "furlong"; expected one such as rad'):
+        as_mapped(np.ones(2), "", Choice("x", "furlong"), "q1", FIVE)
+
+
+def test_pictures_have_the_numbers_that_commands_read(tmp_path: Path) -> None:
+    """The window as the picture maps it is the one that the words of `--map` read."""
+    rng = np.random.default_rng(7)
+    rows = np.column_stack([np.arange(300) * 2.0, *rng.normal(size=(4, 300)) * 90.0])
+    file = tmp_path / "log.csv"
+    lines = "\n".join(",".join(map(repr, row)) for row in rows.tolist())
+    file.write_text(f"t,a,b,c,d\nms,deg,,kg cm,degC\n{lines}\n", encoding="utf-8")
+    one = joints("1", "2")
+    for wanted in (
+        {"q1": Choice("a"), "q2": Choice("b", "deg", -1), "tau1": Choice("c", "", -1),
+         "temperature1": Choice("d")},
+        {"q1": Choice("a", "0.5 rev"), "q2": Choice("b"), "tau1": Choice("c", "mN m"),
+         "temperature1": Choice("d", "K")},
+    ):  # fmt: skip
+        clock = ("time=t:ms",)
+        raw = log_window(str(file), [c.column for c in wanted.values()], -np.inf, np.inf, clock)
+        words = (*clock, *words_of(wanted, {}, one))
+        robot = tmp_path / "two.toml"
+        robot.write_text(
+            'name = "two"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "a", "theta", "d"]\n'
+            'rows = [["1", "0", "q1", 0], ["2", "1", "q2", 1]]\n', encoding="utf-8",
+        )  # fmt: skip
+        read = log_window(str(file), list(wanted), -np.inf, np.inf, words, str(robot))
+        for own, choice in wanted.items():
+            stated = {"a": "deg", "c": "kg cm", "d": "degC"}.get(choice.column, "")
+            time, values = raw[choice.column]
+            np.testing.assert_allclose(time, read[own][0], atol=1e-12)
+            shown = as_mapped(values, stated, choice, own, one)
+            np.testing.assert_allclose(shown, read[own][1], rtol=1e-12)
+
+
+def test_a_film_passes_through_the_rows(tmp_path: Path) -> None:
+    time = np.arange(0.0, 3.0, 0.01)
+    file = tmp_path / "log.csv"
+    table = np.column_stack([time, np.sin(time), np.cos(3.0 * time)])
+    text = "\n".join(f"{a!r},{b!r},{c!r}" for a, b, c in table.tolist())
+    file.write_text(f"time,q1,q2\n{text}\n", encoding="utf-8")
+    film = log_film(str(file), ["q1", "q2", "q9"], rate=25.0)
+    assert set(film) == {"time", "q1", "q2"} and np.ptp(np.diff(film["time"])) < 1e-9
+    np.testing.assert_allclose(film["q1"], np.sin(film["time"]), atol=2e-5)
+    assert log_guess(str(file)).joints == 2
+
+
+# Stretches: an algebra of sets, with instants as its elements.
+
+
+def drawn_log(rng: np.random.Generator) -> ProjectLog:
+    log = ProjectLog("a.csv", train=(Stretch(),))
+    for _ in range(int(rng.integers(1, 9))):
+        start, end = np.sort(rng.uniform(0.0, 10.0, 2)).round(2)
+        role = str(rng.choice(["train", "test", "out", "in"]))
+        held = Stretch(float(start), float(end))
+        log = timeline.let_in(log, held) if role == "in" else timeline.painted(log, held, role)  # type: ignore[arg-type]
+    return log
+
+
+def inside(parts: tuple[Stretch, ...], times: np.ndarray) -> np.ndarray:
+    none = np.zeros(times.size, dtype=bool)
+    return np.any([none, *((times >= p.start) & (times < p.end) for p in parts)], axis=0)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_every_instant_has_one_role(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    log, times = drawn_log(rng), np.arange(-1.0, 12.0, 0.005) + 0.0017
+    train, test, out = (inside(getattr(log, role), times) for role in timeline.ROLES)
+    assert not (train & test).any() and (train | test).all()
+    start, end = np.sort(rng.uniform(0.0, 10.0, 2)).round(2)
+    held = Stretch(float(start), float(end))
+    own = inside((held,), times)
+    for role in ("train", "test"):
+        now = timeline.painted(log, held, role)  # type: ignore[arg-type]
+        assert inside(getattr(now, role), times)[own].all()
+        assert not inside(now.out, times)[own].any()
+        np.testing.assert_array_equal(inside(now.train, times)[~own], train[~own])
+        np.testing.assert_array_equal(inside(now.out, times)[~own], out[~own])
+    left = timeline.painted(log, held, "out")
+    np.testing.assert_array_equal(inside(left.out, times), out | own)
+    assert left.train == log.train
+    np.testing.assert_array_equal(inside(timeline.let_in(left, held).out, times), out & ~own)
+
+
+def test_first_roles() -> None:
+    a, b, c = (ProjectLog(name) for name in ("a", "b", "c"))
+    ends = {"a": (0.0, 10.0), "b": (5.0, 6.0)}
+    (only,) = timeline.by_default((a,), ends)
+    assert only.words("train") == ["a@:7"] and only.words("test") == ["a@7:"]
+    first, second, broken = timeline.by_default((a, b, c), ends)
+    assert first.words("train") == ["a"] and second.words("test") == ["b"]
+    assert broken.words("train") == broken.words("test") == []
+
+
+# Where doubts lie.
+
+
+def test_marks_of_a_log_lie_where_it_was_spoilt(
+    tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    rng = np.random.default_rng(3)
+    run = tmp_path / "run.csv"
+    words = ["simulate", "demo-arm", "--duration", "6", "--seed", "3", "--out", str(run)]
+    assert main(words) == 0
+    lines = run.read_text(encoding="utf-8").split("\n")
+    names = lines[0].split(",")
+    spike, hole, gap = rng.integers([500, 2000, 4000], [1500, 3000, 5000])
+    cells = [line.split(",") for line in lines[1:] if line]
+    cells[spike][names.index("tau2")] = "400"
+    for row in cells[hole : hole + 3]:
+        row[names.index("q1")] = ""
+    kept = cells[:gap] + cells[gap + 150 :]
+    run.write_text("\n".join([lines[0], *map(",".join, kept)]) + "\n", encoding="utf-8")
+    said = tmp_path / "said.json"
+    assert main(["log", str(run), "--robot", "demo-arm", "--json", str(said)]) == 0
+    capsys.readouterr()
+    marks = json.loads(said.read_text(encoding="utf-8"))["marks"]
+    places = {(mark["kind"], mark["channel"]): mark for mark in marks}
+    step = 1e-3
+    for kind, channel, first, last in (
+        ("spike", "tau2", spike, spike + 1), ("missing", "q1", hole, hole + 2),
+        ("gap", "time", gap - 1, gap + 150),
+    ):  # fmt: skip
+        mark = places[kind, channel]
+        assert mark["start"] == pytest.approx(first * step, abs=1.5 * step)
+        assert mark["end"] == pytest.approx(last * step, abs=1.5 * step)
+    assert [mark["start"] for mark in marks] == sorted(mark["start"] for mark in marks)
+
+
+def test_units_begin_with_what_is_taken_without_one() -> None:
+    for own in ("time", "q1", "qd1", "qdd1", "tau1", "qc1", "temperature1"):
+        first = units_of(own, FIVE)[0]
+        np.testing.assert_allclose(
+            as_mapped(np.array([2.0]), "", Choice("x", first), own, FIVE),
+            as_mapped(np.array([2.0]), "", Choice("x"), own, FIVE),
+        )
