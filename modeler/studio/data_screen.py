@@ -329,7 +329,7 @@ class DataScreen:
         failed: set[tuple[str, ...]] = studio.kept.setdefault("failed", set())
 
         def leave() -> None:  # nobody waits for this
-            if not self.live and hub.running is not None and hub.running.title == asked.title:
+            if not self.live and hub.running is not None and hub.gives_way:
                 hub.running.cancel()
 
         while self.live and hub.running is None and not studio.read_only:
@@ -342,9 +342,9 @@ class DataScreen:
             asked = left[0]
             studio.listeners.append(leave)
             try:
-                step = await hub.run(asked, keep=False)
+                step = await hub.run(asked, keep=False, aside=True)
             except ModelerError as error:
-                if not self.live:
+                if str(error).endswith(": cancelled") or not self.live:
                     return
                 failed.add(asked.words)
                 studio.show_error(str(error))
