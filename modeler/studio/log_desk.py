@@ -185,7 +185,7 @@ class Desk:
             return
         with self._robot:
             if not self._line.frame:
-                self._line.frame = (await robot_frame(self.studio)).id
+                self._line.frame = (await robot_frame(self.studio, alone=True)).id
         named = {
             own: one
             for own, one in self._named().items()
