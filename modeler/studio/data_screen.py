@@ -280,8 +280,8 @@ class DataScreen:
                 ui.label(timeline.told(log)).classes("data-told")
                 count = len(self.result(file).get("doubts", ()))
                 doubts = f"{count} doubt{'s' * (count > 1)}" if count else "no doubts"
-                if self.checked(file) is not None:
-                    ui.label(doubts).classes("studio-soft")
+                doubts = doubts if self.checked(file) else ""
+                ui.label(doubts).classes("studio-soft")
             off = ui.button(icon="close", on_click=lambda: self._remove(file)).props(
                 "flat dense round"
             )
