@@ -321,7 +321,6 @@ class _Desk:
                      wrong=look.wrong, line=look.error, reading=self.studio.read_only,
                      names=names, fixed=0)  # fmt: skip
 
-
     def _show_named(self, good: RobotLook, look: RobotLook, all_cells: bool) -> None:
         """The tables of limits and letters; `good` is the last text in which nothing was wrong."""
         joints = [joint.name for joint in good.joints]
