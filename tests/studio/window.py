@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -86,6 +87,15 @@ def served(folder: Path, *options: str) -> Iterator[Served]:
                 process.kill()
                 process.wait()
         process.stdout.close()
+
+
+def until(frame: Any, condition: str) -> None:
+    """Waits for a condition in a page whose policy lets nothing be evaluated by its scripts."""
+    end = time.monotonic() + PATIENCE / 1000.0
+    while not frame.evaluate(condition):
+        if time.monotonic() > end:
+            raise TimeoutError(condition)
+        time.sleep(0.03)
 
 
 class Window:
