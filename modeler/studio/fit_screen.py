@@ -93,7 +93,7 @@ def _advanced(studio: Studio, chosen: dict[str, str], renew: Any) -> None:
             ways = ui.select(["", "log", "position"], label="velocities from")
             ways.set_value(chosen.get("--derivatives", ""))
             ways.on_value_change(lambda e: kept("--derivatives", e.value)).classes("w-40")
-            label = "effects of every joint, in place of those of the robot file"
+            label = "effects, in place of the robot file's"
             own = [effect for effect in chosen.get("--effects", "").split(",") if effect]
             effects = ui.select(list(EFFECTS), label=label, multiple=True, value=own)
             effects.on_value_change(lambda e: kept("--effects", ",".join(e.value or ())))
@@ -105,9 +105,9 @@ def _advanced(studio: Studio, chosen: dict[str, str], renew: Any) -> None:
 
 _NUMBERS = (
     ("--cutoff", "position filter [Hz]"),
-    ("--parallel-cutoff", "filter of torques and columns [Hz]"),
-    ("--low-speed", "left out below this share of top speed"),
-    ("--essential-below", "essential below this sigma [%]"),
+    ("--parallel-cutoff", "parallel filter [Hz]"),
+    ("--low-speed", "low speed [share of top]"),
+    ("--essential-below", "essential below [% sigma]"),
 )
 
 

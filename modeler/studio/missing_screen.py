@@ -236,7 +236,10 @@ def _by_hand(studio: Studio) -> None:
     with part("Any effect of the catalogue"):
         names = {effect.id: f"{effect.title} ({effect.id})" for effect in CATALOGUE}
         chosen = studio.kept.setdefault("by hand", {"effect": "viscous", "joint": ""})
-        joints = [j["name"] for j in studio.model(studio.made)["manifest"]["joints"]]
+        manifest = studio.model(studio.made)["manifest"]
+        joints = [joint["name"] for joint in manifest["joints"]]
+        passive = (manifest["closure"] or {}).get("variables", ())
+        joints += [name for name in passive if name not in joints]
         about = ui.label(_about(chosen["effect"])).classes("studio-soft")
         with ui.row().classes("items-end"):
             effect = ui.select(names, label="effect", value=chosen["effect"], with_input=True)
