@@ -80,8 +80,10 @@ async def _diagnosis(studio: Studio, step: Step) -> None:
             folded("In the words of the command", found["sentences"])
         else:
             _left(found["joints"])
-    for one in sorted(every, key=lambda one: _RANKS.index(one["status"])):
-        await _card(studio, one, pictures, refines=(one["effect"], one["joint"]) not in named)
+    ranked = sorted(every, key=lambda one: _RANKS.index(one["status"]))
+    for one in ranked:
+        refines = (one["effect"], one["joint"]) not in named
+        await _card(studio, one, pictures, refines, first=one is ranked[0])
     with part("What else"):
         if any(one["status"] != "perhaps" for one in every):
             run_button(
@@ -102,7 +104,9 @@ async def _diagnosis(studio: Studio, step: Step) -> None:
         page_button(studio, step)
 
 
-async def _card(studio: Studio, one: Found, pictures: Mapping[str, Picture], refines: bool) -> None:
+async def _card(
+    studio: Studio, one: Found, pictures: Mapping[str, Picture], refines: bool, first: bool
+) -> None:
     """One effect: what it is, how large, what it gains, why, and what to do with it."""
     effect, joint = one["effect"], one["joint"]
     which, status = _STATUS[one["status"]]
@@ -126,9 +130,25 @@ async def _card(studio: Studio, one: Found, pictures: Mapping[str, Picture], ref
             go_button(studio, "The motion that tells them apart", "motion")
         _deeds(studio, effect, joint)
         await _ghost(studio, effect, joint)
-        for kind in ("evidence", "torque"):
-            if picture := pictures.get(f"{kind}_{effect}_{joint or 'robot'}"):
-                figures.draw(picture)
+        names = [f"{kind}_{effect}_{joint or 'robot'}" for kind in ("evidence", "torque")]
+        _evidence([pictures[name] for name in names if name in pictures], unfolded=first)
+
+
+def _evidence(pictures: Sequence[Picture], unfolded: bool) -> None:
+    """Of the first effect at once, of others when they are asked for."""
+    if unfolded:
+        for picture in pictures:
+            figures.draw(picture)
+    elif pictures:
+        with ui.expansion("Evidence").classes("w-full studio-folded") as folded:
+            inside = ui.column().classes("w-full")
+
+        def opened() -> None:
+            inside.clear()
+            with inside:
+                _evidence(pictures, unfolded=True)
+
+        folded.on("show", opened)
 
 
 def _value(one: Found, name: str, value: float) -> str:
