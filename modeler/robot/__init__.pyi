@@ -28,7 +28,9 @@ from .edit import (
     with_own_effect as with_own_effect,
     with_parameters as with_parameters,
     with_reference as with_reference,
+    with_symbol as with_symbol,
     written_limits as written_limits,
+    written_symbols as written_symbols,
 )
 from .loops import read_home as read_home
 from .mdh_rows import roll_pitch_yaw as roll_pitch_yaw

@@ -327,6 +327,36 @@ def with_limits(text: str, joint: str, cells: Sequence[str]) -> str:
     return _with_table(text, "limits", limits, "one joint a line")
 
 
+def with_symbol(text: str, name: str, value: str) -> str:
+    """The robot file with another value of a letter; its comment stays.
+
+    Args:
+        text: of the file.
+        name: of the letter.
+        value: a number, or an expression as text.
+
+    Raises:
+        RobotError: [symbols] has no line of that letter.
+    """
+    lines = text.splitlines()
+    for place, (head, line) in enumerate(_lines(text)):
+        entry = _ENTRY.fullmatch(line)
+        if head == "[symbols]" and entry is not None and entry["name"].strip("\"'") == name:
+            start = f"{entry['key']}{_toml(_cell(value))}"
+            kept = entry["rest"].lstrip()
+            lines[place] = f"{start.ljust(len(line) - len(kept))}{kept}".rstrip()
+            if kept and not lines[place].startswith(f"{start} "):
+                lines[place] = f"{start} {kept}"
+            return "\n".join(lines) + "\n"
+    raise RobotError(f"[symbols], {name}: its line is not found; edit the file as text")
+
+
+def written_symbols(text: str) -> dict[str, str]:
+    """The letters of a robot file and their values, as it has them."""
+    stated = tomllib.loads(text).get("symbols", {})
+    return {name: v if isinstance(v, str) else f"{v:.15g}" for name, v in stated.items()}
+
+
 def written_limits(text: str) -> dict[str, tuple[str, ...]]:
     """Lower, upper, speed, acceleration by joint, as a robot file has them."""
     stated = _stated(text, "limits")

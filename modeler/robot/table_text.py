@@ -181,6 +181,9 @@ def cell_of(error: str, text: str) -> tuple[int, str] | None:
         return None
     if re.search(r"\[mdh\], columns?\b", error):
         return -1, _column(error)
+    twice = re.search(r"\[mdh\], row .* stands in rows \d+ and (\d+)", error)
+    if twice:
+        return int(twice[1]) - 1, "j"
     numbered = re.search(r"\[mdh\], row (\d+)\b", error)
     if numbered:
         row = int(numbered[1]) - 1

@@ -28,6 +28,10 @@ TOKEN = "token"
 _HOST = re.compile(r"(?:127\.0\.0\.1|localhost|\[::1\])(?::(\d{1,5}))?", re.IGNORECASE)
 _SAFE = ("GET", "HEAD")
 
+REPORTS = "/report/"
+"""Where pages of the project are that a file holds: they are no part of the studio. Their scripts
+may draw, but reach nothing of it, whoever wrote the file."""
+
 _REFUSED = "modeler studio: open the address that it printed in the terminal; its token is needed\n"
 _FOREIGN = "modeler studio: asked by another page; open the address that it printed\n"
 _NO_HOST = "modeler studio: got another host; open it as 127.0.0.1 or localhost, with its port\n"
@@ -153,6 +157,9 @@ def _protected(send: Send, scope: Scope, host: str) -> Send:
         "worker-src 'self' blob:; object-src 'none'; base-uri 'self'; form-action 'self'; "
         "frame-ancestors 'self'"
     )
+    report = scope["path"].startswith(REPORTS)
+    if report:
+        policy += "; sandbox allow-scripts allow-popups allow-downloads allow-modals"
 
     async def sending(message: Message) -> None:
         if message["type"] == "http.response.start":
@@ -161,7 +168,8 @@ def _protected(send: Send, scope: Scope, host: str) -> Send:
             headers["x-content-type-options"] = "nosniff"
             headers["referrer-policy"] = "no-referrer"
             headers["cross-origin-resource-policy"] = "same-origin"
-            headers["cross-origin-opener-policy"] = "same-origin"
+            if not report:  # browsers show no sandbox that says so
+                headers["cross-origin-opener-policy"] = "same-origin"
             if not scope["path"].startswith("/_nicegui/"):  # scripts, which have their version
                 headers["cache-control"] = "no-store"
         await send(message)

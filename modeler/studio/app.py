@@ -27,7 +27,7 @@ from modeler.studio import (
     start_screen,
     take_screen,
 )
-from modeler.studio.access import Guard
+from modeler.studio.access import REPORTS, Guard
 from modeler.studio.commands import typed
 from modeler.studio.places import folder_lock
 from modeler.studio.project import Project, Workspace
@@ -122,6 +122,7 @@ def _routes(app: FastAPI, hub: Hub) -> None:
         return FileResponse(content, filename=name)
 
     @app.get("/sheet/{digest}.html")
+    @app.get(f"{REPORTS}{{digest}}.html")
     def sheet(digest: str) -> Response:
         html = hub.sheets.get(digest)
         return Response(status_code=404) if html is None else HTMLResponse(html)

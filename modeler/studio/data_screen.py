@@ -83,7 +83,9 @@ class DataScreen:
     @property
     def live(self) -> bool:
         """False as soon as the screen is drawn anew, or another one is shown."""
-        return self.studio.kept["data"] is self and self.studio.screen == "data"
+        studio = self.studio
+        here = studio in studio.hub.studios and studio.screen == "data"
+        return here and studio.kept["data"] is self
 
     def path(self, file: str) -> str:
         """Of a file of the project, wherever it lies."""

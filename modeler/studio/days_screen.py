@@ -146,14 +146,14 @@ async def _models(studio: Studio, kept: dict[str, Any]) -> None:
     with part("Measured and predicted by both"):
         found = await studio.view("verdict", pair[0], logs)
         joints = {joint: f"joint {joint}" for joint in found.joints}
-        if kept.get("joint") not in joints:
+        if kept.get("of models") not in joints:
             errors = dict(zip(found.joints, found.errors, strict=True))
-            kept["joint"] = max(found.joints, key=lambda joint: errors[joint])
-        which = ui.select(joints, value=kept["joint"], label="joint").classes("w-40")
+            kept["of models"] = max(found.joints, key=lambda joint: errors[joint])
+        which = ui.select(joints, value=kept["of models"], label="joint").classes("w-40")
         place = ui.column().classes("w-full")
 
         async def torques() -> None:
-            kept["joint"] = which.value
+            kept["of models"] = which.value
 
             async def window(*ends: float) -> Any:
                 return await studio.view(
@@ -188,7 +188,7 @@ def _contest(studio: Studio, step: Step) -> None:
             rows.append([f"joint {joint}", *told])
         table(["", *names], rows)
         ui.label("*: better than the other beyond doubt.").classes("studio-soft")
-    _pictures(studio, step)
+    _pictures(studio, step, _TIME)
 
 
 async def _drift(studio: Studio, kept: dict[str, Any]) -> None:
@@ -255,8 +255,8 @@ def _last(studio: Studio, kind: str, words: tuple[str, ...]) -> Step | None:
     return own[-1] if own else None
 
 
-def _pictures(studio: Studio, step: Step) -> None:
+def _pictures(studio: Studio, step: Step, time: str = "") -> None:
     """All that a command drew."""
     for picture in pictures_from_json(studio.folder / step.pictures):
         with ui.card().classes("studio-card w-full"):
-            figures.draw(picture)
+            figures.draw(picture, time)

@@ -9,6 +9,7 @@ from nicegui.element import Element
 
 from modeler.core.errors import ModelerError
 from modeler.studio import commands
+from modeler.studio.access import REPORTS
 from modeler.studio.commands import Asked, typed
 from modeler.studio.project import Step
 from modeler.studio.studio import Studio
@@ -170,7 +171,7 @@ def page_button(studio: Studio, step: Step) -> None:
 
 def _opened(studio: Studio, page: str) -> None:
     try:
-        ui.navigate.to(studio.hub.sheet(studio.text(page)), new_tab=True)
+        ui.navigate.to(studio.hub.sheet(studio.text(page), REPORTS), new_tab=True)
     except ModelerError as error:
         studio.show_error(str(error))
 

@@ -34,7 +34,8 @@ def figure(picture: Picture, time: str = "") -> dict[str, Any]:
             cursor and one zoom.
     """
     rows, columns = len(picture.panels), len(picture.panels[0])
-    top = _TOP + _TITLE * any(panel.title for panel in picture.panels[0])
+    titled = any(panel.title for panel in picture.panels[0])
+    top = _TOP + _TITLE * titled + _LEGEND * _keyed(picture)
     layout: dict[str, Any] = {
         "height": picture.height,
         "margin": {"l": _LEFT, "r": _RIGHT, "t": top, "b": _BOTTOM + _names(picture)},

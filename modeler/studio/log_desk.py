@@ -185,7 +185,7 @@ class Desk:
             return
         with self._robot:
             if not self._line.frame:
-                self._line.frame = (await robot_frame(self.studio)).id
+                self._line.frame = (await robot_frame(self.studio, alone=True)).id
         named = {
             own: one
             for own, one in self._named().items()
@@ -314,23 +314,36 @@ class Desk:
     # The columns.
 
     def _mapping(self) -> None:
-        """The table, anew."""
-        self.columns.clear()
-        words, guess = self.studio.project.mapping, self.guess
+        """The table."""
         with self.columns:
-            ui.label("Columns").classes("studio-part")
-            is_guess = words in (self.screen.guessed(guess), ("auto",)) and bool(guess.choices)
-            ranged = guess.ranged if is_guess else ()
+            self._about = ui.column().classes("w-full gap-1")
+            joints, columns = self.screen.joints, self.guess.columns
+            self._table = MappingTable(joints, columns, self.chosen, self._ranged(), self._mapped)
+            self._said = command_line(())
+        self._say()
+
+    def _guessed(self) -> bool:
+        """Whether the mapping is still what the log looks like."""
+        words = self.studio.project.mapping
+        alike = words in (self.screen.guessed(self.guess), ("auto",))
+        return alike and bool(self.guess.choices)
+
+    def _ranged(self) -> tuple[str, ...]:
+        return self.guess.ranged if self._guessed() else ()
+
+    def _say(self) -> None:
+        """What the mapping is, in words of people and of commands."""
+        words = commands.mapped(self.studio.project)
+        self._said.text = " ".join(words) if words else "columns as they are called"
+        self._about.clear()
+        with self._about:
             if "auto" in words:
                 text = "The logs name their columns differently: each is taken by its own guess."
                 ui.label(text).classes("studio-soft")
-            elif is_guess:
-                text = "A guess by names" + (", dotted units by range alone" if ranged else "")
-                ui.label(f"{text}: check it.").classes("studio-soft mapping-told")
+            elif self._guessed():
+                ranged = ", dotted units by range alone" if self._ranged() else ""
+                ui.label(f"A guess by names{ranged}: check it.").classes("studio-soft")
             self._absent()
-            MappingTable(self.screen.joints, guess.columns, self.chosen, ranged, self._mapped)
-            self._said = command_line(())
-            self._say()
 
     def _absent(self) -> None:
         """What the mapping of all logs does not find in this one."""
@@ -353,10 +366,6 @@ class Desk:
             )
             button.props("dense outline no-caps")
 
-    def _say(self) -> None:
-        words = commands.mapped(self.studio.project)
-        self._said.text = " ".join(words) if words else "columns as they are called"
-
     async def _mapped(self, chosen: Mapping[str, Choice]) -> None:
         """Other columns, units or signs: words of `--map`, and the pictures at once."""
         screen, project = self.screen, self.studio.project
@@ -373,17 +382,18 @@ class Desk:
             words = (*kept, *words_of(chosen, under, screen.joints))
         except ModelerError as error:
             self.studio.show_error(str(error))
-            self._mapping()
+            self._table.renew(self.chosen, self._ranged(), anew=True)
             return
         if not self.studio.change(mapping=words):
-            self._mapping()
+            self._table.renew(self.chosen, self._ranged(), anew=True)
             return
         self.studio.show_error("")
         if chosen.get("time") != self.chosen.get("time"):
             self.studio.redraw()
             return
         self.chosen = dict(chosen)
-        self._mapping()
+        self._table.renew(self.chosen, self._ranged())
+        self._say()
         fresh = {one.column for one in self._named().values()} - set(self._raw)
         if fresh:
             await self._curves()

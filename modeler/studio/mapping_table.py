@@ -1,15 +1,17 @@
 """The table in which columns of a log become ours: by menu, by dragging, with unit and sign."""
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from typing import Any
 
 from nicegui import ui
+from nicegui.element import Element
 
 from modeler.core.manifest import JointSpec
 from modeler.studio.log_mapping import KINDS, Choice, kind_of, units_of
 
 _MOST = 400  # columns that a menu lists; others are typed
+_SIGNS = {1: "+", -1: "\u2212"}
 _AS_STATED = "as the file says"
 
 
@@ -26,42 +28,67 @@ class MappingTable:
 
     def __init__(
         self, joints: Sequence[JointSpec], columns: Mapping[str, str], chosen: Mapping[str, Choice],
-        ranged: Sequence[str], changed: Callable[[Mapping[str, Choice]], Any],
+        ranged: Sequence[str], changed: Callable[[Mapping[str, Choice]], Awaitable[None]],
     ) -> None:  # fmt: skip
         self.joints, self.columns, self.chosen = joints, columns, dict(chosen)
         self.ranged, self.changed = ranged, changed
         self._dragged = ""
+        self._cells: dict[str, Element] = {}
+        self._chips: dict[str, Element] = {}
         there = {kind_of(own, joints)[0] for own in chosen}
-        self._wide = ui.checkbox("all quantities").props("dense")
-        effort = ("tau", "current", "duty")
-        driven = [kind for kind in effort if kind in there][:1] or ["tau"]
+        driven = [kind for kind in ("tau", "current", "duty") if kind in there][:1] or ["tau"]
         shown = [kind for kind in KINDS if kind in ("q", "qd", *driven)]
+        wide = ui.checkbox("all quantities").props("dense")
+        wide.on_value_change(lambda: self._draw([*KINDS] if wide.value else shown))
         self._place = ui.element("div").classes("mapping-scroll")
-        self._wide.on_value_change(lambda: self._table([*KINDS] if self._wide.value else shown))
-        self._table(shown)
-        self._chips()
+        self._draw(shown)
+        with ui.element("div").classes("mapping-chips"):
+            for name, unit in [*columns.items()][:_MOST]:
+                chip = ui.label(f"{name} [{unit}]" if unit else name).classes("mapping-chip")
+                chip.props("draggable=true")
+                chip.on("dragstart", lambda _, name=name: setattr(self, "_dragged", name), args=[])
+                self._chips[name] = chip
+        self._mark()
 
-    def _table(self, kinds: Sequence[str]) -> None:
+    def renew(
+        self, chosen: Mapping[str, Choice], ranged: Sequence[str], anew: bool = False
+    ) -> None:
+        """Shows other choices; cells that show them already stay as they are, unless `anew`."""
+        changed = [own for own in self._cells if anew or chosen.get(own) != self.chosen.get(own)]
+        self.chosen, self.ranged = dict(chosen), ranged
+        for own in changed:
+            self._fill(own)
+        self._mark()
+
+    def _mark(self) -> None:
+        """What is a guess, and which columns are taken."""
+        taken = {one.column for one in self.chosen.values()}
+        for own, cell in self._cells.items():
+            cell.classes(**{"add" if own in self.ranged else "remove": "mapping-guess"})
+        for name, chip in self._chips.items():
+            chip.classes(**{"add" if name in taken else "remove": "mapping-taken"})
+
+    def _draw(self, kinds: Sequence[str]) -> None:
         self._place.clear()
+        self._cells.clear()
         with self._place, ui.element("table").classes("studio-table mapping"):
             with ui.element("tr"):
-                self._th("")
-                for kind in kinds:
-                    self._th(KINDS[kind])
+                for text in ("", *(KINDS[kind] for kind in kinds)):
+                    self._th(text)
             with ui.element("tr"):
                 self._th("time")
                 with ui.element("td"):
                     self._cell("time")
-                if self.joints:
-                    for kind in kinds[1:]:
-                        with ui.element("td"):
-                            self._unit_of_all(kind)
+                for kind in kinds[1:] if self.joints else ():
+                    with ui.element("td"):
+                        self._unit_of_all(kind)
             for joint in self.joints:
                 with ui.element("tr"):
                     self._th(f"joint {joint.name}")
                     for kind in kinds:
                         with ui.element("td"):
                             self._cell(f"{kind}{joint.name}")
+        self._mark()
 
     @staticmethod
     def _th(text: str) -> None:
@@ -73,48 +100,51 @@ class MappingTable:
         every = [f"{kind}{joint.name}" for joint in self.joints]
         units = list(dict.fromkeys(unit for own in every for unit in units_of(own, self.joints)))
 
-        def take(event: Any) -> None:
-            for own in every:
-                if own in self.chosen and event.value in units_of(own, self.joints):
-                    self.chosen[own] = dataclasses.replace(self.chosen[own], unit=event.value)
-            self.changed(self.chosen)
+        async def take(event: Any) -> None:
+            chosen = dict(self.chosen)
+            for own in (own for own in every if own in chosen):
+                chosen[own] = self._in_unit(own, chosen[own], event.value)
+            await self.changed(chosen)
 
         menu = ui.select(units, label="all in", on_change=take).props("dense options-dense")
-        menu.classes("mapping-all").mark(f"all-{kind}")
+        menu.classes("mapping-all")
 
     def _cell(self, own: str) -> None:
-        """The column, its unit and its sign; a column can be dropped here."""
-        one = self.chosen.get(own)
-        guessed = " mapping-guess" if own in self.ranged else ""
-        with ui.element("div").classes(f"mapping-cell{guessed}") as cell:
-            names = [*self.columns][:_MOST]
-            if one is not None and one.column not in names:
-                names.insert(0, one.column)
+        """Where one of ours is said; a column can be dropped here."""
+        self._cells[own] = cell = ui.element("div").classes("mapping-cell")
+        cell.props(f'data-own="{own}"')
+        cell.on("dragover", js_handler="(event) => event.preventDefault()")
+        let = "(event) => { event.preventDefault(); emit(); }"
+        cell.on("drop", lambda: self._take(own, self._dragged), js_handler=let)
+        self._fill(own)
+
+    def _fill(self, own: str) -> None:
+        """The column, its unit and its sign."""
+        one, cell = self.chosen.get(own), self._cells[own]
+        cell.clear()
+        names = [*self.columns][:_MOST]
+        if one is not None and one.column not in names:
+            names.insert(0, one.column)
+        with cell:
             menu = ui.select(
                 names, value=one and one.column, with_input=True, clearable=own != "time",
                 on_change=lambda event: self._take(own, event.value),
             )  # fmt: skip
-            menu.props(f'dense options-dense aria-label="column of {own}"').classes(
-                "mapping-column"
-            )
-            menu.mark(f"column-{own}")
-            if one is not None and one.column not in self.columns:
+            menu.props(f'dense options-dense aria-label="column of {own}"')
+            menu.classes("mapping-column")
+            if one is None:
+                return
+            if one.column not in self.columns:
                 menu.props("error").tooltip("this log has no such column")
-            if one is not None:
-                self._unit(own, one)
-                sign = ui.button(
-                    "+" if one.sign > 0 else "\u2212", on_click=lambda: self._turn(own)
-                )
-                sign.props(f'dense flat aria-label="sign of {own}"').mark(f"sign-{own}")
-            if guessed:
-                cell.tooltip("a guess by its range alone: check it")
-        cell.on("dragover", js_handler="(event) => event.preventDefault()")
-        cell.on(
-            "drop",
-            lambda: self._take(own, self._dragged),
-            js_handler="(event) => { event.preventDefault(); emit(); }",
-        )
-        cell.props(f'data-own="{own}"')
+            self._unit(own, one)
+            sign = ui.button(_SIGNS[one.sign])
+            sign.on_click(lambda: self._turn(own, sign))
+            sign.props(f'dense flat aria-label="sign of {own}"')
+
+    def _in_unit(self, own: str, one: Choice, unit: str | None) -> Choice:
+        """The same column in another unit; SI need not be said where the file says nothing."""
+        plain = unit == units_of(own, self.joints)[0] and not self.columns.get(one.column)
+        return dataclasses.replace(one, unit="" if plain else unit or "")
 
     def _unit(self, own: str, one: Choice) -> None:
         units = list(units_of(own, self.joints))
@@ -123,37 +153,26 @@ class MappingTable:
         if shown not in units:
             units.append(shown)
 
-        def take(event: Any) -> None:
-            self.chosen[own] = dataclasses.replace(self.chosen[own], unit=event.value or "")
-            self.changed(self.chosen)
+        async def take(event: Any) -> None:
+            self.chosen[own] = self._in_unit(own, self.chosen[own], event.value)
+            await self.changed(self.chosen)
 
         menu = ui.select(units, value=shown, with_input=True, new_value_mode="add-unique",
                          on_change=take)  # fmt: skip
         menu.props(f'dense options-dense hide-dropdown-icon aria-label="unit of {own}"')
-        menu.classes("mapping-unit").mark(f"unit-{own}")
+        menu.classes("mapping-unit")
         if stated and not one.unit:
             menu.tooltip(_AS_STATED)
 
-    def _take(self, own: str, column: str | None) -> None:
-        if not column:
-            self.chosen.pop(own, None)
-        else:
-            old = self.chosen.get(own)
-            self.chosen[own] = (
-                Choice(column) if old is None else dataclasses.replace(old, column=column)
-            )
-        self.changed(self.chosen)
+    async def _take(self, own: str, column: str | None) -> None:
+        chosen = dict(self.chosen)
+        old = chosen.pop(own, None)
+        if column:
+            chosen[own] = Choice(column) if old is None else dataclasses.replace(old, column=column)
+        await self.changed(chosen)
 
-    def _turn(self, own: str) -> None:
+    async def _turn(self, own: str, button: ui.button) -> None:
         one = self.chosen[own]
         self.chosen[own] = dataclasses.replace(one, sign=-one.sign)
-        self.changed(self.chosen)
-
-    def _chips(self) -> None:
-        """Columns of the file; what is taken already is faint."""
-        taken = {one.column for one in self.chosen.values()}
-        with ui.element("div").classes("mapping-chips"):
-            for name, unit in [*self.columns.items()][:_MOST]:
-                chip = ui.label(f"{name} [{unit}]" if unit else name).classes("mapping-chip")
-                chip.props("draggable=true").classes("mapping-taken" if name in taken else "")
-                chip.on("dragstart", lambda _, name=name: setattr(self, "_dragged", name), args=[])
+        button.text = _SIGNS[-one.sign]
+        await self.changed(self.chosen)

@@ -164,7 +164,7 @@ async def _shown(studio: Studio, step: Step, look: MotionLook) -> None:
         with ui.column().classes("w-full"):
             figures.draw(look.picture, name)
         with ui.column().classes("studio-beside w-full"):
-            frame = await robot_frame(studio, "calc(100vh - 260px)")
+            frame = await robot_frame(studio, "calc(100vh - 260px)", alone=True)
             with ui.row().classes("items-center no-wrap w-full"):
                 button = ui.button(icon="play_arrow").props("round aria-label='play the motion'")
                 ends = float(look.time[0]), float(look.time[-1])

@@ -128,12 +128,31 @@ class Roots:
             found = Path(place).resolve(strict=True)
         except (OSError, ValueError, RuntimeError):  # ValueError: a NUL; RuntimeError: a ring
             raise DataError(f"{place}: no such file; choose another one") from None
+        self._check(str(place), found)
+        return found
+
+    def _check(self, place: str, found: Path) -> None:
         if not any(found.is_relative_to(folder.resolve()) for folder in self.folders):
             raise DataError(
-                f"{place}: lies outside the folders that this studio may read; start it with "
+                f"{place}: lies outside the folders that this studio may use; start it with "
                 f"--allow {found if found.is_dir() else found.parent}"
             )
-        return found
+
+    def check_words(self, folder: Path, words: Iterable[str]) -> None:
+        """Refuse a command that would read or write elsewhere, whoever wrote its words.
+
+        Words that are no files stand for names in the folder here, which are inside.
+
+        Raises:
+            DataError: a word leads out of the folders; says which.
+        """
+        for word in words:
+            option, _, value = word.partition("=")
+            texts = [word, value] if option.startswith("--") and option != "--map" else [word]
+            for text in texts:
+                for file in (text, text.rpartition("@")[0]):
+                    with contextlib.suppress(ValueError):  # a NUL: it will not be started
+                        self._check(text, (folder / file).resolve())
 
     def listed(self, folder: Path | str, endings: Sequence[str] = LOG_ENDINGS) -> list[Entry]:
         """Folders, then files that end so; what is hidden or leads out is left out.

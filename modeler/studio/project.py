@@ -13,6 +13,7 @@ the step that ran.
 import dataclasses
 import json
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -194,12 +195,26 @@ def project_from_text(text: str, where: str) -> Project:
         DataError: it is no such file; says what is wrong with it.
     """
     try:
-        return built(Project, parse_toml(text))
+        project: Project = built(Project, parse_toml(text))
+        for file in _files(project):
+            if file and not _OWN.fullmatch(file):
+                raise ValueError(f"{file} is no file of this folder")
+        return project
     except (UndeclaredEntry, ValueError) as error:
         raise DataError(
             f"{where}: {error}; expected a file that `modeler studio` wrote; mend it, or move it "
             "away to begin anew beside the same files"
         ) from None
+
+
+_OWN = re.compile(r"(?:(?!\.\.?/)[\w.+-]+/)*(?!\.\.?$)[\w.+-]+")
+"""Files that the studio calls its own: below the folder, and of harmless letters."""
+
+
+def _files(project: Project) -> Iterator[str]:
+    yield project.robot
+    for step in project.steps:
+        yield from (step.model, step.result, step.pictures)
 
 
 class Workspace:

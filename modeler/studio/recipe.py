@@ -218,7 +218,9 @@ def _name(model: str) -> str:
 def _simulated(words: _Parsed) -> Iterator[str]:
     names = {"--duration": "duration", "--seed": "seed", "--noise": "torque_noise"}
     settings = [
-        f"{name}={words.one(word)}" for word, name in names.items() if word in words.options
+        f"{name}={float(value)!r}" if name != "seed" else f"seed={int(value)}"
+        for word, name in names.items()
+        if (value := words.one(word)) is not None
     ]
     out, hide = words.one("--out"), words.options.get("--hide", [])
     yield f"robot = modeler.open_robot({words.plain[0]!r})"

@@ -19,6 +19,7 @@ from modeler.robot import (
     with_limits,
     with_pasted,
     with_row,
+    with_symbol,
     without_row,
 )
 from modeler.studio import robot_start
@@ -62,6 +63,8 @@ class _Desk:
     async def draw(self) -> None:
         """The screen of a robot that there is."""
         studio = self.studio
+        dark = "matchMedia('(prefers-color-scheme: dark)').matches"
+        self.theme: Any = "vscodeDark" if await ui.run_javascript(dark) else "vscodeLight"
         with ui.row().classes("items-center w-full"):
             self.title = ui.label().classes("studio-head")
             ui.space()
@@ -91,9 +94,10 @@ class _Desk:
     def _tabs(self) -> None:
         names = ("Table", "Effects", "Limits", "Base parameters", "Text")
         kept = self.studio.kept
-        with ui.tabs().props("no-caps dense align=left") as tabs:
+        with ui.tabs().props("no-caps dense align=left") as self.tabs:
             for name in names:
                 ui.tab(name)
+        tabs = self.tabs
         tabs.value = kept.get("robot tab", names[0])
         tabs.on_value_change(lambda event: kept.update({"robot tab": event.value}))
 
@@ -111,6 +115,8 @@ class _Desk:
                 "Arrows and Enter move, Ctrl+Enter adds a row; a block from a spreadsheet may "
                 'be pasted. Angles in rad or "90 deg", lengths in m or "40 mm".'
             )
+            self.letters = ui.element("div").classes("studio-scroll")
+            self._heard(self.letters, cell=self._letter, block=self._letter_block)
         with panel("Effects"):
             self.effects = ui.element("div").classes("studio-scroll")
         with panel("Limits"):
@@ -124,7 +130,7 @@ class _Desk:
             pass
         with panel("Text"):
             self.editor = ui.codemirror(
-                self.kept.text, language="TOML", on_change=self._typed
+                self.kept.text, language="TOML", on_change=self._typed, theme=self.theme
             ).classes("studio-text w-full")
             self.editor.set_enabled(not self.studio.read_only)
 
@@ -209,6 +215,17 @@ class _Desk:
         cells = _new_row(table, self.kept.text, row)
         await self.change(with_row(self.kept.text, row, cells), all_cells=True)
 
+    async def _letter(self, row: int, column: int, text: str) -> None:
+        if self.look is not None and column == 1:
+            await self.change(with_symbol(self.kept.text, self.look.symbols[row][0], text))
+
+    async def _letter_block(self, row: int, column: int, text: str) -> None:
+        changed = self.kept.text
+        for k, cells in enumerate(pasted_cells(text), row):
+            if self.look is not None and k < len(self.look.symbols):
+                changed = with_symbol(changed, self.look.symbols[k][0], cells[-1])
+        await self.change(changed, all_cells=True)
+
     async def _limit(self, row: int, column: int, text: str) -> None:
         if self.look is None or column == 0:
             return
@@ -259,6 +276,7 @@ class _Desk:
             self.look = look
         self._tell(look.error)
         self._show_cells(look, all_cells)
+        self._show_named(self.look or look, look, all_cells)
         if look.content is None:
             if self.frame is None:
                 await self._last_good()
@@ -275,7 +293,6 @@ class _Desk:
             self.frame.replace(look.content)
         if before is None or before.joints != look.joints:
             self._show_effects(look)
-            self._show_limits(look, all_cells)
         self._stale()
 
     async def _last_good(self) -> None:
@@ -287,7 +304,14 @@ class _Desk:
     async def _picture(self, text: str) -> None:
         html = await self.studio.view("robot_page", text)
         with self.beside:
-            self.frame = RobotFrame(self.studio, html, "calc(100vh - 250px)")
+            self.frame = RobotFrame(self.studio, html, "calc(100vh - 190px)")
+        self.frame.on_joint(self._clicked)
+
+    def _clicked(self, joint: str) -> None:
+        """A joint of the picture: its row."""
+        self.tabs.value = "Table"
+        words = ", ".join(map(json.dumps, (self.cells.html_id, joint)))
+        self.cells.client.run_javascript(f"setTimeout(() => focusRow({words}), 50)")
 
     def _show_cells(self, look: RobotLook, all_cells: bool) -> None:
         if look.table is None:
@@ -297,11 +321,23 @@ class _Desk:
                      wrong=look.wrong, line=look.error, reading=self.studio.read_only,
                      names=names, fixed=0)  # fmt: skip
 
-    def _show_limits(self, look: RobotLook, all_cells: bool) -> None:
-        rows = [(f"{joint.name} [{joint.unit}]", *joint.limits) for joint in look.joints]
-        names = [[joint.name] for joint in look.joints]
-        self._script(self.ranges, columns=_LIMITS, rows=rows, all=all_cells, wrong=None, line="",
-                     reading=self.studio.read_only, names=names, fixed=1)  # fmt: skip
+
+    def _show_named(self, good: RobotLook, look: RobotLook, all_cells: bool) -> None:
+        """The tables of limits and letters; `good` is the last text in which nothing was wrong."""
+        joints = [joint.name for joint in good.joints]
+        limits = [(f"{j.name} [{j.unit}]", *j.limits) for j in good.joints]
+        letters = [name for name, _ in good.symbols]
+        uses = [[] for _ in letters]
+        for element, table, columns, rows, keys, names in (
+            (self.ranges, "limits", _LIMITS, limits, joints, [[name] for name in joints]),
+            (self.letters, "symbols", ("letter", "value"), good.symbols, letters, uses),
+        ):
+            wrong = None
+            if look.named[:1] == (table,) and look.named[1] in keys:
+                wrong = (keys.index(look.named[1]), -1)
+            self._script(element, columns=columns, rows=rows, all=all_cells, wrong=wrong,
+                         line=look.error, reading=self.studio.read_only, names=names,
+                         fixed=1)  # fmt: skip
 
     def _show_effects(self, look: RobotLook) -> None:
         self.effects.clear()

@@ -26,6 +26,7 @@ from modeler.robot import (
     robot_from_text,
     table_text,
     written_limits,
+    written_symbols,
 )
 
 BASIC_EFFECTS = ("rotor_inertia", "viscous", "coulomb", "offset")
@@ -57,24 +58,29 @@ class RobotLook:
 
     Attributes:
         error: the line of the reader; "" where nothing is wrong.
-        wrong: row and column of the cell that it is about, -1 for names of columns or all of a row.
+        wrong: row and column of the cell of the table that it is about, -1 for names of columns or
+            all of a row.
+        named: table of the file and entry that it is about, as ("limits", "2"); empty otherwise.
         table: cells as they are written; None where no table is found.
         names: rows of the robot that each row of the table stands for.
         name: of the robot.
         notes: what reading it decided.
         joints: that move; empty where something is wrong.
         everyone: joints that "all" means in [effects].
+        symbols: letters and their values, as they are written.
         content: what the page draws; None where something is wrong.
     """
 
     error: str
     wrong: tuple[int, int] | None
     table: TableText | None
+    named: tuple[str, ...] = ()
     names: tuple[tuple[str, ...], ...] = ()
     name: str = ""
     notes: tuple[str, ...] = ()
     joints: tuple[JointFacts, ...] = ()
     everyone: tuple[str, ...] = ()
+    symbols: tuple[tuple[str, str], ...] = ()
     content: dict[str, Any] | None = field(default=None, repr=False)
 
 
@@ -86,11 +92,14 @@ def robot_look(text: str, where: str = "robot.toml") -> RobotLook:
         shown = show(robot)
         content = page_content(shown.skeleton, shown.posture)
     except ModelerError as error:
-        return RobotLook(str(error), _wrong(str(error), text, table), table)
+        named = re.search(r": \[(symbols|limits)\], \"?(\w+)", str(error))
+        found = named.groups() if named else ()
+        return RobotLook(str(error), _wrong(str(error), text, table), table, found)
     rows = [joint.name for joint in robot.joints]
     return RobotLook(
-        "", None, table, _names(table, rows), robot.name, robot.readings, _joints(robot),
-        tuple(joint.name for joint in robot.moving if joint.actuated), content,
+        "", None, table, (), _names(table, rows), robot.name, robot.readings, _joints(robot),
+        tuple(joint.name for joint in robot.moving if joint.actuated),
+        tuple(written_symbols(text).items()), content,
     )  # fmt: skip
 
 

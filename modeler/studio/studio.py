@@ -20,6 +20,7 @@ from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import read_text, write_atomically
 from modeler.core.json import JsonError, parse_json
 from modeler.studio import commands
+from modeler.studio.places import Roots
 from modeler.studio.project import FOLDERS, MAKING, ROBOT, Project, Step, Workspace
 from modeler.studio.running import Running
 from modeler.studio.viewer import Viewer
@@ -87,6 +88,9 @@ class Hub:
             )
         if not self.workspace.writable:
             self.workspace.save(self.project)  # says why not
+        Roots((self.workspace.folder, *self.allowed)).check_words(
+            self.workspace.folder, asked.words
+        )
         number, parent = self.project.next_number, asked.about
         more, result, pictures = commands.bookkeeping(asked.words, number)
         self._prepare(asked, number)
@@ -121,14 +125,19 @@ class Hub:
             text = read_text(self.workspace.folder / (self.project.robot or ROBOT))
             write_atomically(self.workspace.folder / copy, text)
 
-    def sheet(self, html: str) -> str:
-        """The address of a page of its own, for a frame inside the page."""
+    def sheet(self, html: str, place: str = "/sheet/") -> str:
+        """The address of a page of its own, for a frame inside the page.
+
+        Args:
+            html: that was made here and now.
+            place: `access.REPORTS` for what stands in a file.
+        """
         digest = hashlib.sha256(html.encode()).hexdigest()[:20]
         self.sheets[digest] = html
         self.sheets.move_to_end(digest)
         while len(self.sheets) > _MOST_SHEETS:
             self.sheets.popitem(last=False)
-        return f"/sheet/{digest}.html"
+        return f"{place}{digest}.html"
 
     def download(self, content: Path | bytes, name: str) -> str:
         """The address under which a file, a folder (as ZIP) or bytes are downloaded.

@@ -122,7 +122,8 @@ class _Source:
         return LogTable(self.path, self.mapping, self.joints, True, part, before)
 
 
-_PIECE = 256  # rows of a long log
+_PIECE = 64  # rows of a long log
+_MOST = 25_000_000  # values of a log that is held as it is: 200 MB
 
 
 def log_facts(place: str, words: Sequence[str] = (), robot: str = "") -> LogFacts:
@@ -229,7 +230,7 @@ def _rows(log: _Log, start: float, end: float) -> tuple[np.ndarray, dict[str, np
     """Time and columns between two times; of a long log all rows only of a short window."""
     low, high = np.searchsorted(log.time, [start, end])
     own = slice(max(0, low - 1), high + 1)
-    if log.source is None or high - low > 2 * POINTS:
+    if log.source is None or high - low > POINTS:
         return log.time[own], {name: v[own] for name, v in log.values.items()}
     if not log.within[0] <= start <= end <= log.within[1]:
         _look_closely(log, log.source, float(log.time[own][0]), float(log.time[own][-1]))
@@ -279,7 +280,9 @@ def _read_as(place: str, mapping: LogMap, joints: tuple[JointSpec, ...]) -> _Log
     path = Path(log_maps.file_and_span(place)[0])
     source, blocks = _Source(path, mapping, joints), blocks_of(path)
     if blocks is not None and blocks.rows > LONG:
-        return _coarse(source, blocks)
+        columns = len(blocks.window(0.0, 1).columns)
+        if blocks.rows * columns > _MOST:
+            return _coarse(source, blocks)
     table = source.table()
     values = {n: table.numbers(n) for n in table.names if table.is_numeric(n)}
     time = _seconds(table, values.pop("time", None))
@@ -428,8 +431,7 @@ def torque_picture(
         own = running_time(p)[0]  # rows of another model may be others
         kept, left = _between(own, start, end), validation.residual(p)[:, j]
         above.append(_curve(p, "predicted" if alone else name, own, p.predicted[:, j], kept, style))
-        left_named = "residual" if alone else f"{name}: residual"
-        below.append(_curve(p, left_named, own, left, kept, style))
+        below.append(_curve(p, "residual" if alone else name, own, left, kept, style))
     spans = validation.masked_spans(first, j, time, rows)
     ends = float(time[rows[0]]), float(time[rows[-1]])
     what = f"{WORDS[unit]} [{unit}]"

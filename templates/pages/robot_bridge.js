@@ -2,7 +2,8 @@
 // Told: ready and drawn {q, frames, gaps}, joint {name}, pointed {name}.
 // Heeded: posture {q}, light {rows}, robot {content}.
 
-document.documentElement.classList.toggle("bare", location.hash.startsWith("#bare"));
+const bare = location.hash.startsWith("#bare"); // without title and table
+document.documentElement.classList.toggle("bare", bare);
 document.documentElement.classList.toggle("alone", location.hash === "#bare-alone"); // nothing but the picture
 
 const framed = window.parent !== window && location.origin !== "null";

@@ -382,6 +382,7 @@ function begin() {
   show();
 }
 
+if (bare) document.querySelector("#sliders h2").append(element("state"));
 pointers();
 buttons();
 page.view.fit(page.poses(), boxes());

@@ -52,7 +52,7 @@ function showCells(id, { columns, rows, wrong, line, reading, all, names, fixed 
     const input = cellAt(host, row, column);
     if (!input || (input === document.activeElement && !all)) return;
     if (input.value !== text) input.value = text;
-    input.size = Math.max(4, text.length + 1);
+    roomFor(input);
   }));
   host.querySelectorAll("tbody tr").forEach((line, row) => { line.dataset.rows = (names[row] ?? []).join(" "); });
   host.querySelectorAll(".wrong").forEach((place) => place.classList.remove("wrong"));
@@ -68,6 +68,14 @@ function showCells(id, { columns, rows, wrong, line, reading, all, names, fixed 
   }
 }
 
+const roomFor = (input) => { input.style.minWidth = `${Math.max(5, input.value.length + 2)}ch`; };
+
+// The cursor goes to the row of a joint.
+function focusRow(id, name) {
+  const line = [...document.querySelectorAll(`#${id} tbody tr`)].find((row) => row.dataset.rows.split(" ").includes(name));
+  line?.querySelector("input")?.focus();
+}
+
 const cellAt = (host, row, column) => host.querySelector(`input[data-row="${row}"][data-column="${column}"]`);
 
 function cellTable(host, columns, rows, reading, fixed) {
@@ -79,11 +87,11 @@ function cellTable(host, columns, rows, reading, fixed) {
   const tell = (what, detail) => host.dispatchEvent(new CustomEvent(what, { detail }));
   const button = (row, what, sign, title) => node("button", { type: "button", textContent: sign, title, ariaLabel: title, tabIndex: -1, onclick: () => tell("row", { row, what }) });
   const cell = (row, column, name) => {
-    const input = node("input", { type: "text", spellcheck: false, autocomplete: "off", readOnly: reading || column < fixed, ariaLabel: `row ${row + 1}, column ${name}` });
+    const input = node("input", { type: "text", size: 4, spellcheck: false, autocomplete: "off", readOnly: reading || column < fixed, ariaLabel: `row ${row + 1}, column ${name}` });
     Object.assign(input.dataset, { row, column });
     let later = 0;
     input.addEventListener("input", () => {
-      input.size = Math.max(4, input.value.length + 1);
+      roomFor(input);
       clearTimeout(later);
       later = setTimeout(() => tell("cell", { row, column, text: input.value }), 200);
     });

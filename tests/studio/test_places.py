@@ -44,7 +44,7 @@ def test_the_picker_lists_what_may_be_chosen(tree: Path) -> None:
 @pytest.mark.parametrize(
     ("place", "told"),
     [
-        ("shut", "outside the folders that this studio may read; start it with --allow"),
+        ("shut", "outside the folders that this studio may use; start it with --allow"),
         ("shut/secret.csv", "outside"), ("open/..", "outside"), ("open/out", "outside"),
         ("open/out.csv", "outside"), ("open/../shut/secret.csv", "outside"),
         ("open/none", "no such file"), ("open/ring.csv", "no such file"),

@@ -23,13 +23,14 @@ from modeler.studio.project import (
 )
 
 _TEXT = st.text(st.characters(exclude_categories=["Cs"]), max_size=12)
+_FILE = st.from_regex(r"([a-z][\w.+-]{0,9}/){0,2}[a-z][\w.+-]{0,9}", fullmatch=True) | st.just("")
 _SECOND = st.floats(0.0, 1e4, allow_nan=False) | st.sampled_from([-math.inf, math.inf])
 _STRETCHES = st.lists(st.builds(Stretch, _SECOND, _SECOND), max_size=3).map(tuple)
 _LOGS = st.lists(st.builds(ProjectLog, _TEXT, _STRETCHES, _STRETCHES, _STRETCHES), max_size=3)
 _STEPS = st.lists(
     st.builds(
         Step, st.integers(1, 99), st.integers(0, 99), _TEXT, st.lists(_TEXT, max_size=4).map(tuple),
-        _TEXT, _TEXT, _TEXT, _TEXT, st.floats(0.0, 1e5, allow_nan=False), _TEXT,
+        _TEXT, _FILE, _FILE, _FILE, st.floats(0.0, 1e5, allow_nan=False), _TEXT,
     ),
     max_size=3,
 )  # fmt: skip
@@ -37,7 +38,7 @@ _STEPS = st.lists(
 
 @given(
     st.builds(
-        Project, _TEXT, st.integers(0, 99), st.lists(_TEXT, max_size=3).map(tuple),
+        Project, _FILE, st.integers(0, 99), st.lists(_TEXT, max_size=3).map(tuple),
         st.lists(_TEXT, max_size=3).map(tuple), _LOGS.map(tuple), _STEPS.map(tuple),
     )
 )  # fmt: skip

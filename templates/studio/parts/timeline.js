@@ -33,7 +33,8 @@ export default {
   },
   mounted() {
     this.heard = ({ detail }) => {
-      if (this.active && detail.time === this.name && detail.by !== this) this.goTo(detail.at, false);
+      if (!this.active || this.playing || detail.time !== this.name || detail.by === this) return;
+      this.goTo(detail.at, false);
     };
     window.addEventListener("studio-time", this.heard);
   },
@@ -109,14 +110,15 @@ export default {
     },
     posture() {
       const { time, q } = this.film ?? {};
-      if (!time?.length || this.at === null) return null;
+      const at = this.at ?? this.start;
+      if (!time?.length) return null;
       let low = 0, high = time.length - 1;
       while (high - low > 1) {
         const middle = (low + high) >> 1;
-        if (time[middle] <= this.at) low = middle;
+        if (time[middle] <= at) low = middle;
         else high = middle;
       }
-      const share = high > low ? Math.min(1, Math.max(0, (this.at - time[low]) / (time[high] - time[low]))) : 0;
+      const share = high > low ? Math.min(1, Math.max(0, (at - time[low]) / (time[high] - time[low]))) : 0;
       const between = Object.entries(q).map(([name, own]) => [name, own[low] + share * (own[high] - own[low])]);
       return Object.fromEntries(between.filter(([, value]) => Number.isFinite(value)));
     },

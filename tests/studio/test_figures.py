@@ -1,0 +1,157 @@
+"""Figures of plotly.js: every kind of series, every setting of a panel, drawn once by a browser."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from modeler.core.figure import Curve, Panel, Picture, Points
+from modeler.core.style import BLUE, Style
+from modeler.studio.figures import figure, x_range
+from tests.browser.chromium import found
+from tests.studio.drawn import CLOUD, EVERY_KIND, SHARED, X, Y
+
+
+def traces(picture: Picture) -> dict[str, dict[str, Any]]:
+    """By name; of equal names the last."""
+    return {trace["name"]: trace for trace in figure(picture)["data"]}
+
+
+def test_every_kind_of_series_is_drawn_as_it_is() -> None:
+    own = traces(EVERY_KIND)
+    measured = own["measured"]
+    assert measured["mode"] == "lines" and measured["line"]["color"] == "#000000"
+    np.testing.assert_allclose(np.array(measured["y"], dtype=float), Y, atol=1e-6)
+    assert measured["y"].count(None) == int(np.isnan(Y).sum()) > 0
+    assert own["predicted"]["line"]["dash"] == "dash"
+    assert own["samples"]["mode"] == "markers" and own["samples"]["type"] == "scatter"
+    mean = own["mean"]
+    assert mean["mode"] == "lines+markers" and mean["error_y"]["array"] == [0.05] * 7
+    bars = own["left"]
+    assert bars["type"] == "bar" and bars["base"] == [60.0, 80.0] and bars["y"] == [40.0, 20.0]
+    assert bars["x"] == ["1", "two<br>lines"] and bars["text"] == ["40", "20"]
+    cells = own["share"]
+    assert cells["type"] == "heatmap" and cells["z"] == [[10.0, None], [0.0, 90.0], [55.0, 20.0]]
+    assert cells["zmax"] == 100.0 and cells["y"] == ["1", "2", "3"]
+
+
+def test_a_band_is_a_closed_piece_for_each_run() -> None:
+    band = traces(EVERY_KIND)["band"]
+    x, y = (np.array(band[axis], dtype=float) for axis in "xy")
+    pieces = np.split(np.arange(x.size), np.flatnonzero(np.isnan(x)) + 1)
+    areas = []
+    for piece in (own[:-1] for own in pieces if own.size):
+        u, v = x[piece], y[piece]
+        areas.append(0.5 * abs(np.dot(u, np.roll(v, 1)) - np.dot(v, np.roll(u, 1))))
+    held = X[~np.isnan(Y)]
+    widths = [np.ptp(own) for own in np.split(held, np.flatnonzero(np.diff(held) > 0.15) + 1)]
+    np.testing.assert_allclose(areas, 0.2 * np.array(widths), rtol=1e-6)  # of height 0.2
+    assert band["fill"] == "toself" and band["opacity"] == 0.4
+
+
+def test_a_panel_has_its_axes_lines_and_spans() -> None:
+    made = figure(EVERY_KIND)
+    layout = made["layout"]
+    assert layout["xaxis"]["range"] == [0.0, 6.0] and layout["yaxis"]["range"] == [-1.0, 1.0]
+    assert layout["xaxis"]["title"]["text"] == "time [s]"
+    spectrum = layout["xaxis4"]
+    assert spectrum["type"] == "log"
+    np.testing.assert_allclose(spectrum["range"], [math.log10(0.1), math.log10(10.0)])
+    rects = [shape for shape in layout["shapes"] if shape["type"] == "rect"]
+    ends = [(shape["x0"], shape["x1"]) for shape in rects]
+    assert ends == [(0.5, 1.0), (5.0, 5.5), (4.0, 4.5)]
+    lines = [shape for shape in layout["shapes"] if shape["type"] == "line"]
+    assert any(line.get("y0") == line.get("y1") == 0 for line in lines)
+    assert any(line["x0"] == line["x1"] == 2.0 for line in lines)
+    texts = [note["text"] for note in layout["annotations"]]
+    assert "second log" in texts and "Torque &lt;b>&amp;&lt;/b>" in texts  # no tag of a name
+    assert layout["paper_bgcolor"] == layout["plot_bgcolor"] == "rgba(0,0,0,0)"
+    assert not any(trace.get("xaxis") == "x6" for trace in made["data"])  # an empty panel
+    domains = [layout[f"xaxis{n}"]["domain"] for n in ("", "2")]
+    assert domains[0][1] < domains[1][0]
+    heights = [layout[f"yaxis{n}"]["domain"] for n in ("", "3", "5")]
+    assert heights[0][0] > heights[1][1] > heights[1][0] > heights[2][1]
+
+
+def test_the_legend_names_each_series_once() -> None:
+    named = [trace["name"] for trace in figure(SHARED)["data"] if trace["showlegend"]]
+    assert sorted(named) == ["band", "low speed", "measured", "predicted"]
+    alone = Picture("one", "", "", ((Panel("", "x", "y", (CLOUD.series[0],)),),), 300)
+    assert not figure(alone)["layout"]["showlegend"]
+
+
+def test_rows_of_one_time_share_their_axis() -> None:
+    layout = figure(SHARED, time="log")["layout"]
+    assert layout["xaxis2"]["matches"] == "x" and "matches" not in layout["xaxis"]
+    assert layout["xaxis"]["showticklabels"] is False
+    assert layout["meta"] == {"time": "log"} and layout["uirevision"] == "shared"
+
+
+def test_many_dots_are_drawn_by_the_graphics_processor() -> None:
+    x = np.random.default_rng(3).normal(size=20_000)
+    panel = Panel("", "x", "y", (Points("many", x, x, Style(BLUE)),))
+    assert figure(Picture("p", "", "", ((panel,),), 300))["data"][0]["type"] == "scattergl"
+
+
+def test_numbers_keep_what_a_zoom_of_a_thousand_shows() -> None:
+    x = 1.7e9 + np.linspace(0.0, 100.0, 200)  # seconds since 1970
+    panel = Panel("", "x", "y", (Curve("c", x, 1e-9 * np.sin(x), Style(BLUE)),))
+    own = figure(Picture("p", "", "", ((panel,),), 300))["data"][0]
+    assert np.abs(np.array(own["x"]) - x).max() < 1e-6 * 100.0
+    assert np.abs(np.array(own["y"]) - 1e-9 * np.sin(x)).max() < 1e-6 * 2e-9 * 1.01
+
+
+def test_what_a_relayout_says_of_time() -> None:
+    assert x_range({"xaxis.range[0]": 1.5, "xaxis.range[1]": 2.5}) == (1.5, 2.5)
+    assert x_range({"xaxis2.range": [0, 3]}) == (0.0, 3.0)
+    assert x_range({"xaxis.autorange": True, "yaxis.autorange": True}) is None
+    assert x_range({"yaxis.range[0]": 1.0, "yaxis.range[1]": 2.0}) is False
+
+
+PAGE = """<!DOCTYPE html><meta charset="utf-8"><title>p</title><div id="a"></div><div id="b"></div>
+<script type="module">
+import { Plotly } from "./DIST";
+const [one, two] = JSON.parse(document.getElementById("data").textContent);
+await Plotly.newPlot("a", one); await Plotly.newPlot("b", two);
+document.title = "drawn";
+</script>"""
+
+
+def test_a_browser_draws_them_without_complaint(tmp_path) -> None:
+    playwright = pytest.importorskip("playwright.sync_api", reason="NOT CHECKED: no playwright")
+    nicegui = pytest.importorskip("nicegui", reason="NOT CHECKED: no nicegui")
+    program = found()
+    if program is None:
+        pytest.skip("NOT CHECKED: no browser is on the path")
+    dist = Path(nicegui.__file__).parent / "elements" / "plotly" / "dist"
+    figures = json.dumps([figure(EVERY_KIND), figure(SHARED, "t")]).replace("<", "\\u003c")
+    data = f'<script type="application/json" id="data">{figures}</script>'
+    complaints: list[str] = []
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=program, args=["--no-sandbox"])
+        page = browser.new_page()
+        page.on("console", lambda m: m.type in ("error", "warning") and complaints.append(m.text))
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+
+        def served(route: Any) -> None:
+            name = route.request.url.rpartition("/")[2]
+            if name == "index.html":
+                body = PAGE.replace("DIST", "index.js") + data
+                route.fulfill(body=body, content_type="text/html")
+            elif (dist / name).is_file():
+                route.fulfill(path=str(dist / name), content_type="text/javascript")
+            else:
+                route.fulfill(status=204)
+
+        page.route("**/*", served)
+        page.goto("http://localhost/index.html")
+        page.wait_for_function("document.title === 'drawn'")
+        assert page.locator("#a .scatterlayer .trace").count() >= 5
+        assert page.locator("#a .barlayer .trace").count() == 2
+        assert page.locator("#a .heatmaplayer image").count() == 1
+        assert page.locator("#b .xaxislayer-above path, #b .xaxislayer-above text").count() > 0
+        browser.close()
+    assert complaints == []

@@ -1,0 +1,119 @@
+"""A project that somebody else made to do harm: nothing of it is run, nothing outside touched."""
+
+import asyncio
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from modeler.core.errors import DataError, ModelerError
+from modeler.studio.commands import Asked
+from modeler.studio.places import Roots
+from modeler.studio.project import (
+    Project,
+    ProjectLog,
+    Step,
+    Stretch,
+    Workspace,
+    project_from_text,
+    project_text,
+)
+from modeler.studio.recipe import notebook, recipe
+from modeler.studio.studio import Hub
+
+
+@pytest.mark.parametrize(
+    "file",
+    [
+        "/etc/passwd", "../robot.toml", "models/../../x.json", "models/..", "..", "~/x", "a\nb",
+        "models/1;import os.json", 'x"y', "-x y", "models//x", "./x",
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("field", ["robot", "model", "result", "pictures"])
+def test_a_project_names_no_file_outside(file: str, field: str) -> None:
+    step = Step(1, 0, "fit", ("fit",))
+    project = Project(steps=(step,))
+    project = (
+        Project(robot=file)
+        if field == "robot"
+        else replace(project, steps=(replace(step, **{field: file}),))
+    )
+    with pytest.raises(DataError, match=r"is no file of this folder; expected a file that"):
+        project_from_text(project_text(project), "project.toml")
+
+
+def test_files_of_the_studio_itself_are_its_own() -> None:
+    step = Step(
+        3, 0, "fit", ("fit",), "", "models/3.json", "results/3.json", "results/3.pictures.json"
+    )
+    project = Project(robot="robot.toml", steps=(step, replace(step, number=4, model="taken/4_c")))
+    assert project_from_text(project_text(project), "project.toml") == project
+
+
+@pytest.mark.parametrize(
+    ("words", "outside"),
+    [
+        (("fit", "robots/1.toml", "logs/a.csv@1:2", "--out", "models/1.json"), False),
+        (("log", "{0}/data/a.csv", "--map", "q1=/joint_states.position[0]:rad"), False),
+        (("log", "{0}/data/a.csv@0:5"), False),
+        (("log", "{0}/other/a.csv"), True), (("log", "{0}/other/a.csv@0:5"), True),
+        (("log", "../other/a.csv"), True), (("log", "logs/../../other/a.csv"), True),
+        (("derive", "emps", "--coefficients-out", "{0}/.bashrc.md"), True),
+        (("derive", "emps", "--coefficients-out=../.bashrc.md"), True),
+        (("log", "logs/a.csv", "--map", "/etc/passwd"), True),
+        (("fit", "emps", "logs/a.csv", "--out", "models/out.json"), True),
+        (("fit", "emps", "linked/a.csv", "--out", "models/1.json"), True),
+    ],
+)  # fmt: skip
+def test_words_lead_nowhere_else(tmp_path: Path, words: tuple[str, ...], outside: bool) -> None:
+    """Neither those of a project.toml, nor links that came with the folder."""
+    folder = tmp_path / "project"
+    for name in ("project/models", "project/logs", "data", "other"):
+        (tmp_path / name).mkdir(parents=True)
+    (folder / "models/out.json").symlink_to(tmp_path / ".profile")
+    (folder / "linked").symlink_to(tmp_path / "other")
+    given = tuple(word.format(tmp_path) if "{0}" in word else word for word in words)
+    hub = Hub(Workspace(folder), (tmp_path / "data",), {})
+    if not outside:
+        Roots((folder, tmp_path / "data")).check_words(folder, given)
+        return
+    with pytest.raises(ModelerError, match=r"outside the folders that this studio may use; start"):
+        asyncio.run(hub.run(Asked(given[0], given, "do harm")))
+    assert not (tmp_path / ".profile").exists() and not list(folder.glob("results/*"))
+
+
+def test_a_notebook_holds_words_as_words(tmp_path: Path) -> None:
+    """What is taken away is run elsewhere, by somebody who trusts it."""
+    evil = "__import__('pathlib').Path('evil').write_text('x')"
+    simulate = ("simulate", f"robots/1.toml{evil}", "--out", f"logs/{evil}.csv", "--hide", evil)
+    fit = ("fit", "robots/2.toml", f"logs/{evil}.csv", "--map", f"q1={evil}", "--method", evil,
+           "--out", "models/2.json")  # fmt: skip
+    add = (
+        "add",
+        "models/2.json",
+        evil,
+        f"logs/{evil}.csv",
+        "--joint",
+        evil,
+        "--out",
+        "models/3.json",
+    )
+    steps = (
+        Step(1, 0, "simulate", simulate, f"a\n{evil}"),
+        Step(2, 0, "fit", fit, evil, "models/2.json"),
+        Step(3, 2, "add", add, evil, "models/3.json"),
+    )
+    project = Project("robot.toml", 3, steps=steps, logs=(ProjectLog("logs/a.csv", (Stretch(),)),))
+    book = json.loads(notebook(recipe(project, tmp_path / evil, {})))
+    import ast
+
+    for cell in book["cells"]:
+        if cell["cell_type"] == "code":
+            for node in ast.walk(ast.parse("".join(cell["source"]))):
+                assert not (isinstance(node, ast.Name) and node.id == "__import__")
+    number = replace(
+        steps[0], words=("simulate", "emps", "--duration", evil, "--out", f"logs/{evil}.csv")
+    )
+    with pytest.raises(ValueError, match="could not convert"):
+        notebook(recipe(replace(project, steps=(number, *steps[1:]), logs=()), tmp_path, {}))

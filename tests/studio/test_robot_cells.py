@@ -1,0 +1,183 @@
+"""Cells of a table changed in the text of a robot file, and the cell that an error is about."""
+
+import tomllib
+
+import numpy as np
+import pytest
+
+from modeler.core.builtin import builtin_names, builtin_text
+from modeler.core.errors import RobotError
+from modeler.robot import (
+    cell_of,
+    robot_from_text,
+    table_text,
+    with_cell,
+    with_effect_on,
+    with_limits,
+    with_row,
+    with_symbol,
+    without_row,
+    written_limits,
+    written_symbols,
+)
+from modeler.studio.robot_views import robot_look
+
+
+def others(text: str) -> dict:
+    """All that a file says but for its rows."""
+    document = tomllib.loads(text)
+    return {**document, "mdh": {k: v for k, v in document["mdh"].items() if k != "rows"}}
+
+
+def comments(text: str) -> list[str]:
+    return [line.partition("#")[2] for line in text.splitlines() if "#" in line]
+
+
+@pytest.mark.parametrize("name", builtin_names())
+def test_a_cell_changes_alone_and_back(name: str) -> None:
+    text, rng = builtin_text(name), np.random.default_rng(len(name))
+    table = table_text(text)
+    assert table is not None
+    document = tomllib.loads(text)["mdh"]
+    assert list(table.columns) == document["columns"]
+    assert [list(row) for row in table.rows] == [list(map(str, r)) for r in document["rows"]]
+    for _ in range(6):
+        row, column = int(rng.integers(len(table.rows))), int(rng.integers(len(table.columns)))
+        changed = with_cell(text, row, column, 'x + "1"')
+        found = table_text(changed)
+        assert found is not None
+        different = [
+            (i, k)
+            for i, cells in enumerate(found.rows)
+            for k, cell in enumerate(cells)
+            if cell != table.rows[i][k]
+        ]
+        assert different == [(row, column)] and found.rows[row][column] == 'x + "1"'
+        assert others(changed) == others(text) and comments(changed) == comments(text)
+        assert tomllib.loads(with_cell(changed, row, column, table.rows[row][column])) == (
+            tomllib.loads(text)
+        )
+        grown = with_row(text, row, table.rows[row])
+        assert table_text(grown).rows[row + 1] == table.rows[row]
+        assert tomllib.loads(without_row(grown, row + 1)) == tomllib.loads(text)
+        assert comments(grown) == comments(text)
+
+
+def test_tables_in_one_line_and_with_comments() -> None:
+    text = 'name = "x"\n[mdh]\ncolumns = ["j", "theta"] # c\nrows = [["1", "q1"], ["2", "q2"]] # d\n'
+    assert with_row(text, 1, ["3", "q3"]).count("# d") == 1
+    assert table_text(with_row(text, 0, ["3", "q3"])).rows[1] == ("3", "q3")
+    assert table_text(without_row(text, 1)).rows == (("1", "q1"),)
+    text = '[mdh]\ncolumns = ["j"]\nrows = [\n  ["1"], # the first, "not a cell", [nor] this\n  ["2"]\n]\n'
+    assert table_text(text).rows == (("1",), ("2",))
+    assert "the first" in with_row(text, 0, ["9"]) and table_text(with_row(text, 1, ["9"])).rows[2:]
+    assert table_text(without_row(text, 0)).rows == (("2",),)
+
+
+@pytest.mark.parametrize("change", [lambda t: with_cell(t, 9, 0, "1"), lambda t: without_row(t, 9)])
+def test_a_row_that_is_not_there_is_told(change) -> None:
+    with pytest.raises(RobotError, match=r"\[mdh\]: there is no row 10; edit the file as text"):
+        change(builtin_text("demo-arm"))
+    with pytest.raises(RobotError, match=r"the text has no table \[mdh\]|columns and rows are not"):
+        change('name = "x"\n')
+
+
+ARM = builtin_text("demo-arm")  # columns j a sigma alpha d theta r
+CRAIG = """name = "c"
+gravity = [0, 0, -9.81]
+[mdh]
+convention = "craig"
+columns = ["j", "alpha", "a", "d", "theta"]
+rows = [
+    ["1", 0, 0, 0, "q1"],
+    ["2", "-90 deg", 0.4, 0.1, "q2"],
+]
+"""
+DH = CRAIG.replace("craig", "classical").replace(
+    '"j", "alpha", "a", "d", "theta"', '"j", "theta", "d", "a", "alpha"'
+).replace('0, 0, 0, "q1"', '"q1", 0.2, 0.3, "90 deg"').replace(
+    '"-90 deg", 0.4, 0.1, "q2"', '"q2", 0, 0.4, 0'
+)  # fmt: skip
+MISTAKES = {
+    "a name that is not declared": (ARM, 1, 4, "D9", (1, 4)),
+    "no expression": (ARM, 2, 4, "0.4 +", (2, 4)),
+    "an unknown antecedent": (ARM, 1, 1, "7", (1, 1)),
+    "a later antecedent": (ARM, 0, 1, "3", (0, 1)),
+    "the variable of another row": (ARM, 2, 5, "q3 + q1", (2, 5)),
+    "no variable": (ARM, 2, 5, "0", (2, 5)),
+    "the variable in the wrong column": (ARM, 2, 6, "q3", (2, 6)),
+    "a gear ratio": (ARM, 0, 5, "2*q1", (0, 5)),
+    "a kind that is none": (ARM, 0, 2, "5", (0, 2)),
+    "a length for an angle": (ARM, 1, 3, "40 mm", (1, 3)),
+    "an angle for a length": (ARM, 1, 4, "40 deg", (1, 4)),
+    "more than a turn": (ARM, 1, 3, "90", (1, 3)),
+    "a length of a mile": (ARM, 1, 4, "20000", (1, 4)),
+    "a name twice": (ARM, 2, 0, "2", (2, 0)),
+    "a name that is none": (ARM, 2, 0, "a b", (2, 0)),
+    "a function that is none": (ARM, 1, 4, "open(1)", (1, 4)),
+    "a column that is none": (ARM, -1, 3, "alfa", (-1, -1)),
+    "Craig's a": (CRAIG, 1, 2, "A2", (1, 2)),
+    "Craig's d": (CRAIG, 1, 3, "q2", (1, 3)),
+    "a of Denavit and Hartenberg": (DH, 0, 3, "L1", (0, 3)),
+    "alpha of the last row": (DH, 1, 4, "beta", (1, 4)),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_an_error_is_at_its_cell(mistake: str) -> None:
+    """The cell that was spoilt is the one that is named, and the last text is kept as it is."""
+    text, row, column, cell, expected = MISTAKES[mistake]
+    assert not robot_look(text).error
+    spoilt = with_cell(text, row, column, cell)
+    look = robot_look(spoilt)
+    assert look.error and look.content is None, look.error
+    assert look.wrong == expected, look.error
+    assert "\n" not in look.error
+    with pytest.raises(RobotError) as told:
+        robot_from_text(spoilt, "robot.toml")
+    assert str(told.value) == look.error
+
+
+def test_errors_of_legs_are_at_the_row_that_they_are_written_in() -> None:
+    text = builtin_text("orthoglide-2003")
+    look = robot_look(with_cell(text, 4, 5, "b33"))
+    assert look.wrong == (4, 5) and 'row "31"' in look.error
+    good = robot_look(text)
+    assert good.names[3:5] == (("21", "22", "23"), ("31", "32", "33"))
+    assert cell_of("something else", text) is None and cell_of('[mdh], row "zz": x', text) is None
+
+
+def test_what_stands_elsewhere_is_named_too() -> None:
+    assert robot_look(with_symbol(ARM, "D2", "D7")).named == ("symbols", "D2")
+    assert robot_look(with_limits(ARM, "2", ["5", "1", "1", "1"])).named == ("limits", "2")
+    look = robot_look(ARM.replace("rows = [", "rows = ["))
+    assert look.named == () and robot_look(ARM.replace("gravity", "gravty")).wrong is None
+    broken = robot_look(ARM.replace('"q1",     0],', '"q1",     0,'))
+    assert "not TOML" in broken.error
+
+
+@pytest.mark.parametrize("name", builtin_names())
+def test_letters_limits_and_effects_change_alone(name: str) -> None:
+    text = builtin_text(name)
+    before = tomllib.loads(text)
+    for letter, value in written_symbols(text).items():
+        changed = with_symbol(text, letter, value)
+        assert tomllib.loads(changed) == before and comments(changed) == comments(text)
+        assert written_symbols(with_symbol(text, letter, "1.5 mm"))[letter] == "1.5 mm"
+    look = robot_look(text)
+    joint = look.joints[0].name
+    changed = with_limits(text, joint, ["-0.1", "0.2", "1", "2"])
+    assert written_limits(changed)[joint] == ("-0.1", "0.2", "1", "2")
+    assert {k: v for k, v in tomllib.loads(changed).items() if k != "limits"} == {
+        k: v for k, v in before.items() if k != "limits"
+    }
+    assert joint not in written_limits(with_limits(changed, joint, ["", "", "", ""]))
+    has = "viscous" in look.joints[0].effects
+    turned = with_effect_on(text, "viscous", joint, not has, look.everyone)
+    after = robot_look(turned)
+    if after.error:  # a value or a priority of that effect stands elsewhere
+        assert "Fv" in after.error or "passive" in after.error
+    else:
+        assert ("viscous" in after.joints[0].effects) is not has
+        back = with_effect_on(turned, "viscous", joint, has, look.everyone)
+        assert [j.effects for j in robot_look(back).joints] == [j.effects for j in look.joints]

@@ -1,0 +1,321 @@
+"""What the process of the viewer answers, and that process: windows, residuals, kill, memory."""
+
+import asyncio
+import os
+import signal
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet
+import pytest
+
+from modeler.api import checks
+from modeler.cli import main
+from modeler.core.errors import DataError, ModelerError
+from modeler.core.figure import Curve, Means
+from modeler.core.thinning import thin_curves
+from modeler.estimation import load_model
+from modeler.observation import LONG
+from modeler.studio import viewing
+from modeler.studio.viewer import Viewer, answer
+
+HIDDEN = ("--hide", "load_friction@2", "--noise", "0.01", "--duration", "12", "--rate", "500")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Iterator[Path]:
+    """Two runs of an arm with a hidden effect, a model of the first."""
+    place = tmp_path_factory.mktemp("viewed")
+    before = Path.cwd()
+    os.chdir(place)
+    try:
+        for log, seed in (("a.parquet", "21"), ("b.parquet", "22")):
+            assert main(["simulate", "demo-arm", *HIDDEN, "--seed", seed, "--out", log, "-q"]) == 0
+        assert main(["fit", "demo-arm", "a.parquet", "--out", "m.json", "-q"]) == 0
+        viewing.forget()
+        yield place
+    finally:
+        os.chdir(before)
+        viewing.forget()
+
+
+# Thinning.
+
+
+def test_thinning_keeps_every_extreme_and_the_ends() -> None:
+    rng = np.random.default_rng(time.time_ns() % 2**32)
+    for rows in (1501, 4096, 99_991):
+        curves = tuple(rng.normal(size=rows).cumsum() for _ in range(3))
+        curves[1][rng.integers(0, rows, rows // 9)] = np.nan
+        curves[2][rng.integers(0, rows, 5)] = 1e6
+        kept = thin_curves(curves, 1500)
+        assert kept.size <= 1500 and kept[0] == 0 and kept[-1] == rows - 1
+        assert (np.diff(kept) > 0).all()
+        size = -(-rows // (1498 // 6))  # of bins
+        for values in curves:
+            for start in range(0, rows, size):
+                own = values[start : start + size]
+                there = values[kept[(kept >= start) & (kept < start + size)]]
+                assert np.nanmax(there) == np.nanmax(own) and np.nanmin(there) == np.nanmin(own)
+
+
+# Logs.
+
+
+def test_a_window_of_a_log_has_its_rows_and_its_extremes(folder) -> None:
+    table = pyarrow.parquet.read_table("a.parquet")
+    clock, q1 = table["time"].to_numpy(), table["q1"].to_numpy()
+    facts = viewing.log_facts("a.parquet", robot="")
+    assert facts.rows == clock.size and not facts.coarse
+    assert (facts.start, facts.end) == (clock[0], clock[-1])
+    assert {"q1", "tau3"} <= set(facts.names) and "time" not in facts.names
+    x, y = viewing.log_window("a.parquet", ["q1", "nothing"], 2.0, 2.5)["q1"]
+    rows = (clock >= 2.0) & (clock <= 2.5)
+    assert set(clock[rows]) <= set(x)
+    np.testing.assert_array_equal(y[np.isin(x, clock[rows])], q1[rows])
+    x, y = viewing.log_window("a.parquet", ["q1"], -np.inf, np.inf)["q1"]
+    assert x.size <= viewing.POINTS and (y.min(), y.max()) == (q1.min(), q1.max())
+
+
+def long_log(place: Path, rows: int, joints: int = 7) -> tuple[np.ndarray, np.ndarray]:
+    """A log at 1 kHz with a single spike, and the row of that; q1 of it."""
+    rng = np.random.default_rng(8)
+    clock = np.arange(rows) * 1e-3
+    columns = {"time": clock}
+    for j in range(1, joints + 1):
+        q = np.sin(0.3 * clock + j) + 1e-4 * rng.normal(size=rows)
+        columns |= {f"q{j}": q, f"qd{j}": 0.3 * np.cos(0.3 * clock + j), f"tau{j}": 3.0 * q}
+    columns["q1"][rows // 3] = 9.0
+    pyarrow.parquet.write_table(pa.table(columns), place, row_group_size=64_000)
+    return clock, columns["q1"]
+
+
+@pytest.mark.parametrize("kind", ["parquet", "csv"])
+def test_a_long_log_is_seen_coarsely_then_closely(tmp_path, monkeypatch, kind: str) -> None:
+    monkeypatch.setattr(viewing, "_MOST", 1)
+    place = tmp_path / "long.parquet"
+    clock, q1 = long_log(place, LONG + 40_000, 2)
+    if kind == "csv":
+        place = tmp_path / "long.csv"
+        rows = np.column_stack([clock, q1, 3.0 * q1])
+        np.savetxt(place, rows, "%.9g", ",", header="time,q1,tau1", comments="")
+    facts = viewing.log_facts(str(place))
+    assert facts.coarse and facts.rows == clock.size
+    assert abs(facts.end - clock[-1]) < 1e-9
+    x, y = viewing.log_window(str(place), ["q1"], -np.inf, np.inf)["q1"]
+    assert x.size <= viewing.POINTS and abs(y.max() - 9.0) < 1e-6  # one row of 290 000
+    at = clock[clock.size // 3]
+    x, y = viewing.log_window(str(place), ["q1"], at - 0.2, at + 0.2)["q1"]
+    rows = np.abs(clock - at) < 0.1905
+    inside = np.abs(x - at) < 0.1905
+    np.testing.assert_allclose(x[inside], clock[rows], atol=1e-9)
+    np.testing.assert_allclose(y[inside], q1[rows], atol=1e-8)
+    for ends in ((clock[-1] - 0.3, clock[-1]), (0.0, 0.3)):
+        x, _ = viewing.log_window(str(place), ["q1"], *ends)["q1"]
+        assert x[0] <= ends[0] + 1e-9 and x[-1] >= ends[1] - 1e-9 and x.size >= 300
+
+
+def test_a_file_that_went_away_or_changed_is_seen(tmp_path) -> None:
+    place = tmp_path / "log.csv"
+    text = "time,q1,tau1\n" + "".join(f"{k * 0.01},{k % 7},{k % 5}\n" for k in range(300))
+    place.write_text(text)
+    assert viewing.log_facts(str(place)).rows == 300
+    place.write_text(text + "3.00,1,1\n")
+    assert viewing.log_facts(str(place)).rows == 301
+    place.unlink()
+    with pytest.raises(DataError, match=r"log\.csv: cannot be read .* put the file back"):
+        viewing.log_facts(str(place))
+
+
+@pytest.mark.slow
+def test_ten_minutes_of_seven_joints_stay_fluent(tmp_path) -> None:
+    """First picture within three times the reading of the file, a zoom below 0.2 s."""
+    place = tmp_path / "long.parquet"
+    long_log(place, 600_000)
+    names = [f"{kind}{j}" for kind in ("q", "qd", "tau") for j in range(1, 8)]
+    reading = []
+    for _ in range(2):
+        begun = time.perf_counter()
+        table = pyarrow.parquet.read_table(place)
+        for name in table.column_names:
+            table[name].to_numpy()
+        reading.append(time.perf_counter() - begun)
+    viewing.forget()
+    begun = time.perf_counter()
+    viewing.log_facts(str(place))
+    viewing.log_window(str(place), names, -np.inf, np.inf)
+    first = time.perf_counter() - begun
+    zooms = []
+    for ends in ((100.0, 400.0), (100.0, 160.0), (130.0, 131.0), (500.0, 502.0)):
+        begun = time.perf_counter()
+        found = viewing.log_window(str(place), names, *ends)
+        zooms.append(time.perf_counter() - begun)
+        assert len(found) == 21 and all(x.size <= viewing.POINTS for x, _ in found.values())
+    print(f"reading {min(reading):.2f} s, first picture {first:.2f} s, zooms {zooms}")
+    assert first < 3.0 * max(reading) + 1.0  # generous: the machine has other work
+    assert max(zooms) < 0.5
+
+
+# Torques.
+
+
+def test_the_verdict_is_that_of_the_command(folder, capsys) -> None:
+    assert main(["compare", "m.json", "b.parquet"]) == 0
+    told = capsys.readouterr().out
+    found = viewing.verdict("m.json", ["b.parquet"])
+    assert found.joints == ("1", "2", "3")
+    assert all(sentence in told for sentence in found.sentences)
+    assert max(zip(found.errors, found.joints, strict=True))[1] == "2"  # the hidden effect's
+    assert {"velocity", "position", "acceleration", "load", "travel", "time", "qc1"} <= {
+        channel for channel, _ in found.channels
+    }
+
+
+def test_torques_are_those_of_the_comparison(folder) -> None:
+    comparison = checks.compare(load_model("m.json"), ["b.parquet"])
+    p = comparison.prediction
+    picture = viewing.torque_picture(["m.json"], ["b.parquet"], "2", 3.0, 8.0)
+    above, below = (row[0] for row in picture.panels)
+    measured, predicted = above.series
+    rows = (p.time >= 3.0) & (p.time <= 8.0)
+    for curve, values in ((measured, p.measured), (predicted, p.predicted)):
+        assert isinstance(curve, Curve)
+        there = np.isfinite(curve.y)
+        np.testing.assert_allclose(curve.y[there], values[rows, 1], rtol=1e-12)
+    left = below.series[0]
+    assert isinstance(left, Curve)
+    expected = np.where(p.used, p.measured - p.predicted, np.nan)[rows, 1]
+    np.testing.assert_allclose(
+        left.y[np.isfinite(left.y)], expected[np.isfinite(expected)], rtol=1e-9
+    )
+    assert above.x_range is not None and 3.0 <= above.x_range[0] < above.x_range[1] <= 8.0
+    assert {span.label for span in above.spans} == {span.label for span in below.spans}
+
+
+@pytest.mark.parametrize("channel", ["velocity", "load", "qc3"])
+def test_the_residual_over_a_channel_is_that_of_numpy(folder, channel: str) -> None:
+    """Means of bins of the same samples, counted anew."""
+    p = checks.compare(load_model("m.json"), ["b.parquet"]).prediction
+    table = pyarrow.parquet.read_table("b.parquet")
+    x = {
+        "velocity": p.qd[:, 1],
+        "load": np.abs(p.predicted[:, 1]) * np.sign(p.qd[:, 1]),
+        "qc3": np.interp(p.time, table["time"].to_numpy(), table["qc3"].to_numpy()),
+    }[channel][p.used[:, 1]]
+    e = (p.measured - p.predicted)[p.used[:, 1], 1]
+    series = viewing.residual_picture(["m.json"], ["b.parquet"], "2", channel).panels[0][0].series
+    samples, means = series
+    np.testing.assert_allclose(np.sort(samples.x), np.sort(x), rtol=1e-12)
+    assert isinstance(means, Means)
+    edges = np.unique(np.concatenate(
+        [np.linspace(x.min(), x.max(), 13), np.quantile(x, np.linspace(0.0, 1.0, 13))]
+    ))  # fmt: skip
+    expected = []
+    for low, high in zip(edges[:-1], edges[1:], strict=True):
+        own = (x >= low) & ((x < high) | ((high == edges[-1]) & (x <= high)))
+        if own.sum() >= 8:
+            expected.append((x[own].mean(), e[own].mean()))
+    np.testing.assert_allclose(np.column_stack([means.x, means.y]), expected, rtol=1e-9)
+
+
+def test_explained_shares_are_those_of_what_was_put_in() -> None:
+    rng = np.random.default_rng(time.time_ns() % 2**32)
+    n = 20_000
+    x, noise = rng.uniform(-1.0, 1.0, n), rng.normal(size=n)
+    assert viewing.explained(x, noise) < 0.01
+    signal = np.where(x > 0.0, 1.0, -1.0)  # of variance 1, as the noise
+    assert abs(viewing.explained(x, signal + noise) - 0.5) < 0.03
+    assert abs(viewing.explained(np.sign(x), signal + noise) - 0.5) < 0.03  # two values
+    assert np.isnan(viewing.explained(np.ones(n), noise)) and np.isnan(
+        viewing.explained(x[:9], x[:9])
+    )
+
+
+def test_the_map_shows_which_joint_follows_what(folder) -> None:
+    heat = viewing.where_picture("m.json", ["b.parquet"]).panels[0][0].series[0]
+    values = dict(zip(heat.columns, heat.values[1], strict=True))  # joint 2
+    assert heat.rows == ("1", "2", "3") and values["load"] > 20.0
+    assert values["load"] > np.nanmax(heat.values[[0, 2], heat.columns.index("load")])
+
+
+def test_poses_and_errors_by_log(folder) -> None:
+    clock, q = viewing.poses("m.json", ["a.parquet", "b.parquet"])
+    assert set(q) == {"1", "2", "3"} and (np.diff(clock) >= 0.0).all()
+    errors = viewing.log_errors("m.json", ["a.parquet", "b.parquet"])
+    assert [name for name, _, _ in errors] == ["a.parquet", "b.parquet"]
+    for _, whole, by_joint in errors:
+        assert min(by_joint.values()) <= whole <= max(by_joint.values())
+    picture = viewing.residual_picture(["m.json"], ["a.parquet", "b.parquet"], "2", "load", True)
+    names = [series.label.split()[0] for series in picture.panels[0][0].series]
+    assert names == ["a.parquet"] * 2 + ["b.parquet"] * 2
+
+
+# The process.
+
+
+def pids(viewer: Viewer) -> list[int]:
+    assert viewer._pool is not None
+    return list(viewer._pool._processes)
+
+
+def test_the_viewer_starts_again_after_a_kill(folder) -> None:
+    async def asked() -> None:
+        viewer = Viewer(folder)
+        try:
+            first = await viewer.ask("log_facts", "a.parquet")
+            old = pids(viewer)
+            os.kill(old[0], signal.SIGKILL)
+            assert await viewer.ask("log_facts", "a.parquet") == first
+            assert pids(viewer) != old
+        finally:
+            viewer.end()
+
+    asyncio.run(asked())
+
+
+def test_a_stale_question_is_dropped_and_the_loop_goes_on(folder) -> None:
+    async def asked() -> None:
+        viewer = Viewer(folder)
+        beats = 0
+
+        async def beat() -> None:
+            nonlocal beats
+            while True:
+                beats += 1
+                await asyncio.sleep(0.01)
+
+        heart = asyncio.create_task(beat())
+        try:
+            window = ("log_window", "a.parquet", ["q1"], 0.0)
+            asks = [viewer.ask(*window, float(end), kind="zoom") for end in range(1, 7)]
+            answers = await asyncio.gather(viewer.ask("verdict", "m.json", ["b.parquet"]), *asks)
+            assert answers[0].joints == ("1", "2", "3")
+            assert answers[1:-1] == [None] * 5 and answers[-1]["q1"][0][-1] >= 6.0
+            assert beats > 20  # while the process started and predicted
+            with pytest.raises(ModelerError, match="none.parquet: cannot be read"):
+                await viewer.ask("log_facts", "none.parquet")
+        finally:
+            heart.cancel()
+            viewer.end()
+
+    asyncio.run(asked())
+
+
+def test_memory_that_runs_out_is_one_line(monkeypatch) -> None:
+    def hungry(*arguments: Any) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(viewing, "log_facts", hungry)
+    with pytest.raises(DataError, match="memory ran out .* shorter stretch"):
+        answer("log_facts", ("a",))
+
+    def broken(*arguments: Any) -> None:
+        raise RuntimeError("OpenBLAS: Cannot allocate memory")
+
+    monkeypatch.setattr(viewing, "log_facts", broken)
+    with pytest.raises(DataError, match="memory ran out"):
+        answer("log_facts", ("a",))
