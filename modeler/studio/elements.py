@@ -129,6 +129,11 @@ def folded(title: str, lines: Sequence[str]) -> None:
             told(lines)
 
 
+def number(value: float | None) -> str:
+    """Three digits; a dash for none."""
+    return "-" if value is None else f"{value:.3g}"
+
+
 class Markup(str):
     """A text that is HTML already."""
 
