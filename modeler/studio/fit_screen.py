@@ -13,24 +13,8 @@ from modeler.core.json import built
 from modeler.core.manifest import BaseSpec
 from modeler.core.table import percent
 from modeler.report import relation
-from modeler.studio import commands
-from modeler.studio.elements import (
-    LIGHTS,
-    Light,
-    Markup,
-    command_line,
-    doubt_lines,
-    folded,
-    go_button,
-    head,
-    light,
-    number,
-    page_button,
-    part,
-    run_button,
-    table,
-    told,
-)
+from modeler.studio import commands, elements
+from modeler.studio.elements import LIGHTS, Light, Markup, number
 from modeler.studio.project import MAKING, Step
 from modeler.studio.studio import Studio
 
@@ -46,16 +30,18 @@ _WIDTH = 160  # pixels of a drawn value
 async def draw(studio: Studio) -> None:
     """Draws it."""
     project = studio.project
-    head("Fit", "Base parameters from the training stretches, each with its sigma.")
+    elements.head("Fit", "Base parameters from the training stretches, each with its sigma.")
     if not project.robot or not project.words("train"):
         ui.label("A fit needs a robot, and a stretch of a log that is marked for training.")
         where = "data" if project.robot else "robot"
-        go_button(studio, f"To the {where}", where)
+        elements.go_button(studio, f"To the {where}", where)
         return
     step = project.step(project.current)
-    with part("What is fitted"):
+    with elements.part("What is fitted"):
         chosen: dict[str, str] = studio.kept.setdefault("fit", {})
-        renew = run_button(studio, "Fit", lambda: commands.fit(studio.project, _options(chosen)))
+        renew = elements.run_button(
+            studio, "Fit", lambda: commands.fit(studio.project, _options(chosen))
+        )
         _advanced(chosen, renew)
     if step is None or step.kind not in MAKING or not step.result:
         return
@@ -64,8 +50,8 @@ async def draw(studio: Studio) -> None:
     _verdict(fit)
     _values(fit, studio.model(step))
     _choices(fit)
-    page_button(studio, step)
-    go_button(studio, "Look for what is missing", "missing")
+    elements.page_button(studio, step)
+    elements.go_button(studio, "Look for what is missing", "missing")
 
 
 def _advanced(chosen: dict[str, str], renew: Callable[[], None]) -> None:
@@ -83,7 +69,7 @@ def _advanced(chosen: dict[str, str], renew: Callable[[], None]) -> None:
         told = {"what it solves": about.law, "source": about.source,
                 "the wrong one": about.avoid, "of the motion": about.motion}  # fmt: skip
         ui.label(about.title).classes("studio-part")
-        table(("", ""), list(told.items()))
+        elements.table(("", ""), list(told.items()))
 
     with ui.expansion("Advanced: estimator, band, effects").classes("w-full studio-folded"):
         with ui.row().classes("items-end w-full"):
@@ -119,38 +105,38 @@ def _stale(studio: Studio, step: Step) -> None:
     """Says where these values are not those of the robot and the stretches as they are now."""
     copy, *logs = takewhile(lambda word: word[0] != "-", studio.project.path()[0].words[1:])
     if studio.text(copy) != studio.text(studio.project.robot):
-        doubt_lines(["the robot was changed since these values were fitted; fit again"])
+        elements.doubt_lines(["the robot was changed since these values were fitted; fit again"])
     if logs != studio.project.words("train"):
-        doubt_lines(["the training stretches were changed since; fit again"])
+        elements.doubt_lines(["the training stretches were changed since; fit again"])
     with ui.row().classes("items-center no-wrap w-full"):
         ui.label("these values come from").classes("studio-soft")
-        command_line(step.words)
+        elements.command_line(step.words)
 
 
 def _verdict(fit: Mapping[str, Any]) -> None:
     """Lights of the whole and of every joint, with the reasons."""
-    with part("What it is worth"):
+    with elements.part("What it is worth"):
         by_joint = fit.get("by_joint") or {}
         every = [_LIGHT.get(fit["usable_for"], "bad"), *(one["light"] for one in by_joint.values())]
         named = [name for name, one in by_joint.items() if one["light"] != "good"]
         worst = max(every, key=LIGHTS.index)
-        light(worst, worst + (f": joint {', '.join(named)}" if named else ""))
+        elements.light(worst, worst + (f": joint {', '.join(named)}" if named else ""))
         ui.label(fit["verdict"] or "nobody has judged this fit")
         with ui.element("div").classes("studio-joints"):
             for name, joint in fit["joints"].items():
                 judged = by_joint.get(name, {"light": "doubtful", "reasons": ["not judged"]})
                 with ui.card().classes(f"studio-card studio-joint studio-edge-{judged['light']}"):
                     ui.label(f"joint {name}").classes("studio-part")
-                    light(judged["light"])
+                    elements.light(judged["light"])
                     left, rms = percent(joint["relative_error"]), number(joint["rms"])
                     text = f"{left} of its torque is left, {rms} {joint['unit']} rms"
                     ui.label(text).classes("studio-soft")
-                    told(judged["reasons"])
+                    elements.told(judged["reasons"])
         ui.label("Can such a machine be built?").classes("studio-part")
-        light(*_BUILT[fit.get("possible")])
+        elements.light(*_BUILT[fit.get("possible")])
         reasons = {reason for joint in by_joint.values() for reason in joint["reasons"]}
-        doubt_lines(line for line in fit["doubts"] if line not in reasons)
-        folded("What else is to be known", [*fit["sentences"], *fit.get("unseen", ())])
+        elements.doubt_lines(line for line in fit["doubts"] if line not in reasons)
+        elements.folded("What else is to be known", [*fit["sentences"], *fit.get("unseen", ())])
 
 
 def _values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
@@ -161,14 +147,14 @@ def _values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
     tops: dict[str, float] = {}
     for p in own:
         tops[p["unit"]] = max(tops.get(p["unit"], 0.0), abs(p["value"]) + (p["sigma"] or 0.0))
-    with part(f"{len(own)} values"):
+    with elements.part(f"{len(own)} values"):
         ui.label(
             "The whisker is one sigma to either side, among values of the same unit; a name that "
             "is underlined tells what it is the sum of. Grey: the model does as well without."
         ).classes("studio-soft")
         heads = ("parameter", "value", "sigma", "% sigma", "unit", "")
         rows = [_row(p, sums.get(p["name"], ""), tops[p["unit"]]) for p in own]
-        table(heads, rows, [not p["essential"] for p in own])
+        elements.table(heads, rows, [not p["essential"] for p in own])
 
 
 def _row(p: Mapping[str, Any], relation: str, top: float) -> Sequence[str]:
@@ -203,8 +189,8 @@ def _choices(fit: Mapping[str, Any]) -> None:
     """What was chosen from the logs, and why."""
     own, bands = fit["processing"], fit["bands"] or {"chosen_by": [], "noise": []}
     cutoffs = {"position filter": "position_cutoff", "parallel filter": "parallel_cutoff"}
-    with part("How the logs were processed, and why"):
-        told(bands["chosen_by"])
+    with elements.part("How the logs were processed, and why"):
+        elements.told(bands["chosen_by"])
         rows = [
             (title, f"{number(own[name])} Hz",
              "chosen from the logs" if name in own["chosen"] else "as it was asked for")
@@ -217,4 +203,4 @@ def _choices(fit: Mapping[str, Any]) -> None:
              f"hides the motion above {number(noise['hides_above_hz'])} Hz")
             for noise in bands["noise"]
         ]  # fmt: skip
-        table(("", "", ""), rows)
+        elements.table(("", "", ""), rows)
