@@ -32,15 +32,15 @@ def run_studio(args: argparse.Namespace) -> None:
     allowed = [Path.cwd(), *(Path(place).resolve() for place in args.allow)]
 
     def told(address: str, once: str) -> None:
-        say(f"studio of {folder}: {address}")
-        port = urlsplit(address).port
-        say(f"over SSH: ssh -L {port}:127.0.0.1:{port} HOST, and the same address; Ctrl-C ends it")
-        flush_stdout()
         before = os.umask(0o077)  # who has the token is let in
         try:
             args.tell({"address": address, "folder": str(folder), "pid": os.getpid()})
         finally:
             os.umask(before)
+        say(f"studio of {folder}: {address}")
+        port = urlsplit(address).port
+        say(f"over SSH: ssh -L {port}:127.0.0.1:{port} HOST, and the same address; Ctrl-C ends it")
+        flush_stdout()
         if not args.no_open:
             threading.Thread(target=_open, args=[once], daemon=True).start()
 

@@ -150,7 +150,7 @@ def test_what_does_not_heed_an_interrupt_is_killed(tmp_path: Path, monkeypatch) 
         running.cancel()
         return await running.wait()
 
-    assert asyncio.run(cancelled()).cancelled and gone(str(tmp_path / "below"), 2.0)
+    assert asyncio.run(cancelled()).cancelled and gone(str(tmp_path / "below"))
 
 
 def test_endless_lines_are_no_trouble(tmp_path: Path, monkeypatch) -> None:
