@@ -125,11 +125,19 @@ def told(lines: Iterable[str]) -> None:
         ui.label(line)
 
 
-def folded(title: str, lines: Sequence[str]) -> None:
-    """Sentences under a title that opens them; nothing where there are none."""
+def folded(title: str, lines: Sequence[str] | Sequence[Sequence[str]], *heads: str) -> None:
+    """Sentences, or with heads a table, under a title that opens them; nothing of none."""
     if lines:
         with ui.expansion(f"{title} ({len(lines)})").classes("w-full studio-folded"):
-            told(lines)
+            if heads:
+                table(heads, lines)
+            else:
+                told(map(str, lines))
+
+
+def number(value: float | None) -> str:
+    """Three digits; a dash for none."""
+    return "-" if value is None else f"{value:.3g}"
 
 
 class Markup(str):

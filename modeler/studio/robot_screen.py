@@ -311,7 +311,7 @@ class _Desk:
         """A joint of the picture: its row."""
         self.tabs.value = "Table"
         words = ", ".join(map(json.dumps, (self.cells.html_id, joint)))
-        self.cells.client.run_javascript(f"setTimeout(() => focusRow({words}), 50)")
+        self.cells.client.run_javascript(f"focusRow({words})")
 
     def _show_cells(self, look: RobotLook, all_cells: bool) -> None:
         if look.table is None:

@@ -21,7 +21,8 @@ from modeler.core.files import read_text, write_atomically
 from modeler.core.json import JsonError, parse_json
 from modeler.studio import commands
 from modeler.studio.places import Roots
-from modeler.studio.project import FOLDERS, MAKING, ROBOT, Project, Step, Workspace
+from modeler.studio.project import FILE, FOLDERS, MAKING, ROBOT, Project, Step, Workspace
+from modeler.studio.robot_text import DRAFT
 from modeler.studio.running import Running
 from modeler.studio.viewer import Viewer
 
@@ -51,6 +52,9 @@ class Hub:
         self, workspace: Workspace, allowed: tuple[Path, ...], screens: Mapping[str, Screen]
     ) -> None:
         self.workspace, self.allowed, self.screens = workspace, allowed, screens
+        self._roots = Roots((workspace.folder, *allowed))
+        own = (FILE, ROBOT, DRAFT, *(name for name in FOLDERS if name != "logs"))
+        self._roots.check_links(workspace.folder, own)
         self.viewer = Viewer(workspace.folder)
         self.running: Running | None = None
         self.gives_way = False
@@ -94,9 +98,7 @@ class Hub:
             )
         if not self.workspace.writable:
             self.workspace.save(self.project)  # says why not
-        Roots((self.workspace.folder, *self.allowed)).check_words(
-            self.workspace.folder, asked.words
-        )
+        self._roots.check_words(self.workspace.folder, asked.words)
         number, parent = self.project.next_number, asked.about
         more, result, pictures = commands.bookkeeping(asked.words, number)
         self._prepare(asked, number)
@@ -161,7 +163,12 @@ class Hub:
         Args:
             content: what it is; no address leads to any other file.
             name: that the browser gives it.
+
+        Raises:
+            DataError: there is no such file in the project.
         """
+        if isinstance(content, Path):
+            content = self._roots.inside(content)
         key = secrets.token_urlsafe(16)
         self.downloads[key] = content, name
         while len(self.downloads) > _MOST_DOWNLOADS:
