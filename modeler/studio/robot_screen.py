@@ -321,13 +321,12 @@ class _Desk:
                      wrong=look.wrong, line=look.error, reading=self.studio.read_only,
                      names=names, fixed=0)  # fmt: skip
 
-
     def _show_named(self, good: RobotLook, look: RobotLook, all_cells: bool) -> None:
         """The tables of limits and letters; `good` is the last text in which nothing was wrong."""
         joints = [joint.name for joint in good.joints]
         limits = [(f"{j.name} [{j.unit}]", *j.limits) for j in good.joints]
         letters = [name for name, _ in good.symbols]
-        uses = [[] for _ in letters]
+        uses: list[list[str]] = [[] for _ in letters]
         for element, table, columns, rows, keys, names in (
             (self.ranges, "limits", _LIMITS, limits, joints, [[name] for name in joints]),
             (self.letters, "symbols", ("letter", "value"), good.symbols, letters, uses),
