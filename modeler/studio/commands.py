@@ -108,11 +108,6 @@ def again(project: Project, step: Step) -> Asked:
     return Asked("page", words, f"page of {step.title}", page, about=step.number)
 
 
-def physical(project: Project) -> Asked:
-    """Which physical parameters follow from the values, if some are known."""
-    return Asked("physical", ("physical", project.model), "physical parameters")
-
-
 def generate(project: Project, precision: str = "double") -> Asked:
     """C with the fitted values."""
     folder = f"taken/{project.next_number}_c"

@@ -96,9 +96,12 @@ def run_button(
 
 def busy_with(studio: Studio, button: ui.button) -> ui.button:
     """A button that changes the project: while a command runs, or another window may, it rests."""
-    return button.bind_enabled_from(
-        studio.hub, "running", lambda running: running is None and not studio.read_only
-    )
+    hub = studio.hub
+
+    def free(running: object) -> bool:
+        return (running is None or hub.gives_way) and not studio.read_only
+
+    return button.bind_enabled_from(hub, "running", free)
 
 
 def light(which: Light, text: str = "") -> None:
@@ -122,11 +125,19 @@ def told(lines: Iterable[str]) -> None:
         ui.label(line)
 
 
-def folded(title: str, lines: Sequence[str]) -> None:
-    """Sentences under a title that opens them; nothing where there are none."""
+def folded(title: str, lines: Sequence[str] | Sequence[Sequence[str]], *heads: str) -> None:
+    """Sentences, or with heads a table, under a title that opens them; nothing of none."""
     if lines:
         with ui.expansion(f"{title} ({len(lines)})").classes("w-full studio-folded"):
-            told(lines)
+            if heads:
+                table(heads, lines)
+            else:
+                told(map(str, lines))
+
+
+def number(value: float | None) -> str:
+    """Three digits; a dash for none."""
+    return "-" if value is None else f"{value:.3g}"
 
 
 class Markup(str):

@@ -2,7 +2,7 @@
 
 import contextlib
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -15,22 +15,8 @@ from modeler.core.picture_file import pictures_from_json
 from modeler.core.table import percent, printed
 from modeler.effects import CATALOGUE, effect_named
 from modeler.estimation import spread_text
-from modeler.studio import commands, figures
-from modeler.studio.elements import (
-    Light,
-    busy_with,
-    command_line,
-    doubt_lines,
-    folded,
-    go_button,
-    head,
-    light,
-    page_button,
-    part,
-    run_button,
-    table,
-    told,
-)
+from modeler.studio import commands, elements, figures
+from modeler.studio.elements import Light
 from modeler.studio.fails_screen import zooms
 from modeler.studio.project import Project, Step
 from modeler.studio.studio import Studio
@@ -49,66 +35,66 @@ _RANKS = ("fact", "named", "perhaps")
 async def draw(studio: Studio) -> None:
     """Draws it."""
     project = studio.project
-    head("What is missing", "Which physical effect the model lacks, on which joint, how large.")
+    elements.head(
+        "What is missing", "Which physical effect the model lacks, on which joint, how large."
+    )
     if not project.model:
         ui.label("There is no model yet: fit one first.")
-        go_button(studio, "To the fit", "fit")
+        elements.go_button(studio, "To the fit", "fit")
         return
     step = project.about("diagnose")
-    with part("Look"):
-        run_button(studio, "Look", lambda: commands.diagnose(studio.project))
+    with elements.part("Look"):
+        elements.run_button(studio, "Look", lambda: commands.diagnose(studio.project))
         _bans(studio)
     if step is not None:
         if not commands.as_it_was(commands.diagnose(project), step):
-            doubt_lines(["stretches or bans were changed since this was found; look again"])
+            elements.doubt_lines(
+                ["stretches or bans were changed since this was found; look again"]
+            )
         await _diagnosis(studio, step)
     _by_hand(studio)
 
 
 async def _diagnosis(studio: Studio, step: Step) -> None:
     """What was found, ranked, and what the data cannot tell."""
-    found = studio.result(step)
+    found, project = studio.result(step), studio.project
     named = {(one["effect"], one["joint"]) for one in found["effects"]}
     every = [*found["effects"], *found["refinements"]]
     pictures: Mapping[str, Picture] = {}
     with contextlib.suppress(ModelerError):  # a page of words is a page
         pictures = {p.name: p for p in pictures_from_json(studio.folder / step.pictures)}
-    with part(f"Verdict: {found['verdict']}"):
-        told(found["sentences"] if not every else found["sentences"][:1])
-        doubt_lines(found["data"])
+    with elements.part(f"Verdict: {found['verdict']}"):
+        elements.told(found["sentences"] if not every else found["sentences"][:1])
+        elements.doubt_lines(found["data"])
         if every:
-            folded("In the words of the command", found["sentences"])
+            elements.folded("In the words of the command", found["sentences"])
         else:
             _left(found["joints"])
-    for one in sorted(every, key=lambda one: _RANKS.index(one["status"])):
-        await _card(studio, one, pictures, refines=(one["effect"], one["joint"]) not in named)
-    with part("What else"):
+    ranked = sorted(every, key=lambda one: _RANKS.index(one["status"]))
+    for one in ranked:
+        refines = (one["effect"], one["joint"]) not in named
+        await _card(studio, one, pictures, refines, first=one is ranked[0])
+    with elements.part("What else"):
         if any(one["status"] != "perhaps" for one in every):
-            run_button(
-                studio, "Add all that is named",
-                lambda: commands.add(studio.project, "auto", None),
-                lambda step: studio.go("fall"), small=True,
-            )  # fmt: skip
-        _folded_table(
-            "Rivals that explain less", ("effect", "joint", "of the residual's variance"),
-            [(_title(r["effect"]), r["joint"] or "all", percent(r["gain"]))
-             for r in found["rivals"]],
-        )  # fmt: skip
-        _folded_table(
-            "What these logs cannot show", ("effect", "joint", "it looks like"),
-            [(_title(b["effect"]), b["joint"] or "all", _look_alikes(b["effect"]))
-             for b in found["blind_spots"]],
-        )  # fmt: skip
-        page_button(studio, step)
+            every_one = partial(commands.add, project, "auto", None)
+            then = _to_the_fall(studio)
+            elements.run_button(studio, "Add all that is named", every_one, then, small=True)
+        rivals = [(_at(rival), percent(rival["gain"])) for rival in found["rivals"]]
+        blind = [(_at(one), _words(one["effect"], "look_alikes")) for one in found["blind_spots"]]
+        elements.folded("Rivals that explain less", rivals, "effect", "of the residual's variance")
+        elements.folded("What these logs cannot show", blind, "effect", "it is mistaken for")
+        elements.page_button(studio, step)
 
 
-async def _card(studio: Studio, one: Found, pictures: Mapping[str, Picture], refines: bool) -> None:
+async def _card(
+    studio: Studio, one: Found, pictures: Mapping[str, Picture], refines: bool, first: bool
+) -> None:
     """One effect: what it is, how large, what it gains, why, and what to do with it."""
     effect, joint = one["effect"], one["joint"]
     which, status = _STATUS[one["status"]]
-    with part(f"{_title(effect)}: {f'joint {joint}' if joint else 'the whole robot'}"):
+    with elements.part(f"{_words(effect)}: {f'joint {joint}' if joint else 'the whole robot'}"):
         with ui.row().classes("items-center"):
-            light(which, f"{status}: {one['doubt']}" if one["doubt"] else status)
+            elements.light(which, f"{status}: {one['doubt']}" if one["doubt"] else status)
             ui.label(f"id {effect}").classes("studio-soft")
             if refines:
                 ui.label("refines a law of the model").classes("studio-soft")
@@ -117,48 +103,71 @@ async def _card(studio: Studio, one: Found, pictures: Mapping[str, Picture], ref
             ui.label("expected error of its joints on motion that was not fitted")
         for name, value in one["parameters"].items():
             ui.label(f"{name} = {_value(one, name, value)}")
-        told([one["evidence"]])
-        doubt_lines([one["objection"]] if one["objection"] else [])
+        ui.label(one["evidence"])
+        elements.doubt_lines([one["objection"]] if one["objection"] else [])
         if one["ties"]:
-            others = [_title(t["effect"]) + (f", joint {t['joint']}" if t["joint"] else "")
-                      for t in one["ties"]]  # fmt: skip
-            doubt_lines([f"these data do not tell it from: {'; '.join(others)}"])
-            go_button(studio, "The motion that tells them apart", "motion")
+            others = "; ".join(map(_at, one["ties"]))
+            elements.doubt_lines([f"these data do not tell it from: {others}"])
+            elements.go_button(studio, "The motion that tells them apart", "motion")
         _deeds(studio, effect, joint)
         await _ghost(studio, effect, joint)
-        for kind in ("evidence", "torque"):
-            if picture := pictures.get(f"{kind}_{effect}_{joint or 'robot'}"):
-                figures.draw(picture)
+        names = [f"{kind}_{effect}_{joint or 'robot'}" for kind in ("evidence", "torque")]
+        _evidence([pictures[name] for name in names if name in pictures], unfolded=first)
 
 
-def _value(one: Found, name: str, value: float) -> str:
+def _evidence(pictures: Sequence[Picture], unfolded: bool) -> None:
+    """Of the first effect at once, of others when they are asked for."""
+    if unfolded:
+        for picture in pictures:
+            figures.draw(picture)
+    elif pictures:
+        with ui.expansion("Evidence").classes("w-full studio-folded") as folded:
+            inside = ui.column().classes("w-full")
+
+        def opened() -> None:
+            inside.clear()
+            with inside:
+                _evidence(pictures, unfolded=True)
+
+        folded.on("show", opened)
+
+
+def _value(one: Found, name: str, value: float | None) -> str:
+    if value is None:
+        return "not known"
     sigma, unit = one["sigmas"].get(name) or 0.0, one["units"].get(name, "")
     interval = one["intervals"].get(name)
     spread = spread_text(value, sigma, None if interval is None else (interval[0], interval[1]))
     return f"{value:.4g}{spread} {'' if unit == '1' else unit}".replace("+-", "\u00b1")
 
 
-def _fall(before: float, after: float) -> str:
+def _fall(before: float | None, after: float | None) -> str:
+    if before is None or after is None:
+        return "it is not known from these logs"
     return " \u2192 ".join(printed(before, after))
 
 
 def _deeds(studio: Studio, effect: str, joint: str | None) -> None:
     """Preview, add, ban."""
-    asked = partial(lambda: commands.add(studio.project, effect, joint))
+    asked = partial(commands.add, studio.project, effect, joint)
     ready = tried(studio.project, effect, joint)
     if ready is None:
-        run_button(studio, "Preview", asked, current=False, small=True)
-        run_button(studio, "Add", asked, lambda step: studio.go("fall"), small=True)
+        elements.run_button(studio, "Preview", asked, current=False, small=True)
+        elements.run_button(studio, "Add", asked, _to_the_fall(studio), small=True)
     else:
         with ui.row().classes("items-center no-wrap w-full"):
             button = ui.button("Add", on_click=lambda: _taken(studio, ready.number))
-            busy_with(studio, button.props("no-caps unelevated"))
-            command_line(ready.words)
+            elements.busy_with(studio, button.props("no-caps unelevated"))
+            elements.command_line(ready.words)
     with ui.row():
         for ban in dict.fromkeys([f"{effect}@{joint}" if joint else effect, effect]):
             where = "this joint" if "@" in ban else "this robot"
             button = ui.button(f"Not on {where}", on_click=lambda _, ban=ban: _banned(studio, ban))
-            busy_with(studio, button.props("no-caps flat dense icon=block"))
+            elements.busy_with(studio, button.props("no-caps flat dense icon=block"))
+
+
+def _to_the_fall(studio: Studio) -> Callable[[Step], None]:
+    return lambda step: studio.go("fall")
 
 
 def tried(project: Project, effect: str, joint: str | None) -> Step | None:
@@ -190,7 +199,7 @@ def _bans(studio: Studio) -> None:
             button.props(
                 f"no-caps outline dense icon=close aria-label='take back the ban of {ban}'"
             )
-            busy_with(studio, button)
+            elements.busy_with(studio, button)
 
 
 async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
@@ -204,13 +213,15 @@ async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
     shown = joint if joint in falls else most
     logs = project.words("test") or project.words("train")
     models = [project.model, step.model]
-    told(f"joint {name}: {_fall(own['before'], own['after'])}" for name, own in falls.items())
+    elements.told(
+        f"joint {name}: {_fall(own['before'], own['after'])}" for name, own in falls.items()
+    )
 
     async def window(*ends: float) -> Picture:
         picture: Picture = await studio.view("torque_picture", models, logs, shown, *ends)
         return picture
 
-    plot = figures.draw(_named(await window(), models, _title(effect)), "ghost")
+    plot = figures.draw(_named(await window(), models, _words(effect)), "ghost")
     zooms(studio, plot, window)
 
 
@@ -221,32 +232,29 @@ def _named(picture: Picture, models: Sequence[str], effect: str) -> Picture:
     return dataclasses.replace(picture, title=title, caption=caption)
 
 
-def _left(joints: Mapping[str, Mapping[str, float]]) -> None:
+def _left(joints: Mapping[str, Mapping[str, float | None]]) -> None:
     """Where nothing is missing: what is left of each joint's torque."""
-    rows = [
-        (name, percent(own["error_before"]), percent(own["explained"]), percent(own["systematic"]),
-         percent(own["noise"]))
-        for name, own in joints.items()
-    ]  # fmt: skip
-    table(("joint", "error", "explained", "of physics", "noise (of the variance)"), rows)
+    names = ("error_before", "explained", "systematic", "noise")
+    rows = [(joint, *(percent(own[name]) for name in names)) for joint, own in joints.items()]
+    elements.table(("joint", "error", "explained", "of physics", "noise (of the variance)"), rows)
 
 
 def _by_hand(studio: Studio) -> None:
     """Any effect of the catalogue, found by its id or in plain words."""
-    with part("Any effect of the catalogue"):
+    with elements.part("Any effect of the catalogue"):
         names = {effect.id: f"{effect.title} ({effect.id})" for effect in CATALOGUE}
         chosen = studio.kept.setdefault("by hand", {"effect": "viscous", "joint": ""})
         manifest = studio.model(studio.made)["manifest"]
         joints = [joint["name"] for joint in manifest["joints"]]
         passive = (manifest["closure"] or {}).get("variables", ())
         joints += [name for name in passive if name not in joints]
-        about = ui.label(_about(chosen["effect"])).classes("studio-soft")
+        about = ui.label().classes("studio-soft")
         with ui.row().classes("items-end"):
             effect = ui.select(names, label="effect", value=chosen["effect"], with_input=True)
             joint = ui.select({"": "where it explains most", **{j: f"joint {j}" for j in joints}},
                               label="joint", value=chosen["joint"])  # fmt: skip
             ban = ui.button("Not on this robot", on_click=lambda: _banned(studio, word()))
-            busy_with(studio, ban.props("no-caps flat icon=block"))
+            elements.busy_with(studio, ban.props("no-caps flat icon=block"))
         effect.classes("w-96")
         joint.classes("w-56")
 
@@ -257,33 +265,25 @@ def _by_hand(studio: Studio) -> None:
             own, place = chosen["effect"], chosen["joint"]
             return f"{own}@{place}" if place else own
 
-        renew = run_button(studio, "Add it", asked, lambda step: studio.go("fall"), small=True)
+        renew = elements.run_button(studio, "Add it", asked, _to_the_fall(studio), small=True)
 
-        def changed(name: str, value: str | None) -> None:
-            chosen[name] = value or ("viscous" if name == "effect" else "")
-            about.text = _about(chosen["effect"])
+        def changed() -> None:
+            chosen["effect"], chosen["joint"] = effect.value or "viscous", joint.value or ""
+            parts = [_words(chosen["effect"], what) for what in ("equation", "signature")]
+            about.text = "; ".join(parts)
             renew()
 
-        effect.on_value_change(lambda e: changed("effect", e.value))
-        joint.on_value_change(lambda e: changed("joint", e.value))
+        effect.on_value_change(changed)
+        joint.on_value_change(changed)
+        changed()
 
 
-def _about(name: str) -> str:
+def _words(name: str, what: str = "title") -> str:
+    """What the catalogue says of an effect; the id of one that only the robot file defines."""
     effect = effect_named(name)
-    return "" if effect is None else f"{effect.equation}; {effect.signature}"
+    return name if effect is None else str(getattr(effect, what))
 
 
-def _title(name: str) -> str:
-    effect = effect_named(name)
-    return name if effect is None else effect.title
-
-
-def _look_alikes(name: str) -> str:
-    effect = effect_named(name)
-    return "" if effect is None else effect.look_alikes
-
-
-def _folded_table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
-    if rows:
-        with ui.expansion(f"{title} ({len(rows)})").classes("w-full studio-folded"):
-            table(heads, rows)
+def _at(one: Mapping[str, str | None]) -> str:
+    """An effect in words, and its joint."""
+    return f"{_words(str(one['effect']))}, joint {one['joint'] or 'all'}"

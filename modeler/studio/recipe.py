@@ -7,18 +7,21 @@ from the folder of the project, and make models of the same values in the folder
 import json
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from modeler.studio.commands import out_of
-from modeler.studio.project import Project, Step
+from modeler.studio.project import MAKING, Project, Step
 
 _ABOUT = ("compare", "diagnose")
 """Kinds of steps that say something about a model, and are told again."""
 
 _MANY = ("--holdout",)
 """Options that take all words up to the next option."""
+
+_WORDS = ("--method", "--derivatives")
+"""Options of a fit whose value is no number."""
 
 
 @dataclass(frozen=True)
@@ -111,31 +114,20 @@ def _shell_word(own: Recipe, word: str) -> str:
 # As a notebook.
 
 
-@dataclass
-class _Parsed:
-    """Words of a command: what stands by itself, and options with what follows them."""
-
-    plain: list[str] = field(default_factory=list)
-    options: dict[str, list[str]] = field(default_factory=dict)
-
-    def one(self, name: str) -> str | None:
-        """The value of an option."""
-        return self.options[name][-1] if name in self.options else None
-
-
-def _parsed(words: Sequence[str]) -> _Parsed:
-    found, many = _Parsed(), ""
+def _parsed(words: Sequence[str]) -> tuple[list[str], dict[str, list[str]]]:
+    """Words of a command: what stands by itself, and options with what follows each."""
+    plain: list[str] = []
+    options: dict[str, list[str]] = {}
+    taking: list[str] | None = None
     rest = iter(words[1:])
     for word in rest:
         if word.startswith("--"):
-            many = word if word in _MANY else ""
-            own = found.options.setdefault(word, [])
-            own += [] if many else [next(rest)]
-        elif many:
-            found.options[many].append(word)
+            own = options.setdefault(word, [])
+            taking = own if word in _MANY else None
+            own += [] if word in _MANY else [next(rest)]
         else:
-            found.plain.append(word)
-    return found
+            (plain if taking is None else taking).append(word)
+    return plain, options
 
 
 def notebook(own: Recipe) -> str:
@@ -185,62 +177,51 @@ def _logs(own: Recipe, words: Sequence[str]) -> str:
 
 
 def _code(own: Recipe, step: Step) -> Iterator[str]:
-    words = _parsed(step.words)
-    first, rest, held = words.plain[0], words.plain[1:], words.options.get("--holdout", [])
+    plain, options = _parsed(step.words)
+    out, held = out_of(step.words), _logs(own, options.get("--holdout", []))
+    first, made = _name(plain[0]), _name(out)
     if step.kind == "simulate":
-        yield from _simulated(words)
+        yield f"robot = modeler.open_robot({plain[0]!r})"
+        yield f"modeler.simulate(robot, {out!r}, {_simulated(options)})"
     elif step.kind == "fit":
-        yield from _fitted(own, words, _name(out_of(step.words)))
+        yield f"robot = modeler.open_robot({plain[0]!r})"
+        yield from _fitted(options)
+        more = {"mapping": options.get("--map"), "effects": options.get("--effects", [""])[-1]}
+        given = "".join(f", {name}={value!r}" for name, value in more.items() if value)
+        yield f"{made} = modeler.identify(robot, {_logs(own, plain[1:])}{given})"
     elif step.kind == "add":
-        effect, *logs = rest
-        made = out_of(step.words)
-        joint = words.one("--joint")
-        yield (
-            f"{_name(made)} = {_name(first)}.add({effect!r}, joint={joint!r}, "
-            f"logs={_logs(own, logs)}, held_out={_logs(own, held)})"
-        )
-        yield f"modeler.save({_name(made)}, {made!r})"
-        yield f"{_name(made)}.table('waterfall')"
+        joint = options.get("--joint", [None])[-1]
+        logs = f"logs={_logs(own, plain[2:])}, held_out={held}"
+        yield f"{made} = {first}.add({plain[1]!r}, joint={joint!r}, {logs})"
     elif step.kind == "diagnose":
-        bans = words.options.get("--without", [])
-        yield (
-            f"{_name(first)}.missing(held_out={_logs(own, held)}, logs={_logs(own, rest)}, "
-            f"without={bans!r})"
-        )
+        logs, bans = _logs(own, plain[1:]), options.get("--without", [])
+        yield f"{first}.missing(held_out={held}, logs={logs}, without={bans!r})"
     else:
-        yield f"{_name(first)}.compare({_logs(own, rest)})"
+        yield f"{first}.compare({_logs(own, plain[1:])})"
+    if step.kind in MAKING:
+        yield f"modeler.save({made}, {out!r})"
+        yield made
 
 
 def _name(model: str) -> str:
     return f"model_{Path(model).stem}"
 
 
-def _simulated(words: _Parsed) -> Iterator[str]:
+def _simulated(options: Mapping[str, list[str]]) -> str:
     names = {"--duration": "duration", "--seed": "seed", "--noise": "torque_noise"}
-    settings = [
-        f"{name}={float(value)!r}" if name != "seed" else f"seed={int(value)}"
-        for word, name in names.items()
-        if (value := words.one(word)) is not None
-    ]
-    out, hide = words.one("--out"), words.options.get("--hide", [])
-    yield f"robot = modeler.open_robot({words.plain[0]!r})"
-    yield f"modeler.simulate(robot, {out!r}, hide={hide!r}, {', '.join(settings)})"
+    settings = {name: options[word][-1] for word, name in names.items() if word in options}
+    given = [f"hide={options.get('--hide', [])!r}", *(f"{k}={v}" for k, v in settings.items())]
+    return ", ".join(given)
 
 
-def _fitted(own: Recipe, words: _Parsed, name: str) -> Iterator[str]:
-    numbers = {"--cutoff", "--parallel-cutoff", "--low-speed", "--essential-below"}
-    options = {
-        word[2:].replace("-", "_"): float(values[-1]) if word in numbers else values[-1]
-        for word, values in words.options.items()
-        if word not in ("--out", "--map", "--effects")
+def _fitted(options: Mapping[str, list[str]]) -> Iterator[str]:
+    """What of `modeler fit` the robot is told, as its table [fit] would."""
+    words = [word for word in options if word not in ("--out", "--map", "--effects")]
+    stated = {
+        word[2:].replace("-", "_"): options[word][-1]
+        if word in _WORDS
+        else float(options[word][-1])
+        for word in words
     }
-    yield f"robot = modeler.open_robot({words.plain[0]!r})"
-    if options:
-        yield f"robot = dataclasses.replace(robot, fit={{**robot.fit, **{options!r}}})"
-    more = [f"{key}={value!r}" for key, value in (
-        ("mapping", words.options.get("--map")), ("effects", words.one("--effects")),
-    ) if value]  # fmt: skip
-    given = ", ".join(["robot", _logs(own, words.plain[1:]), *more])
-    yield f"{name} = modeler.identify({given})"
-    yield f"modeler.save({name}, {words.one('--out')!r})"
-    yield name
+    if stated:
+        yield f"robot = dataclasses.replace(robot, fit={{**robot.fit, **{stated!r}}})"

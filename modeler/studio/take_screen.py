@@ -7,17 +7,7 @@ from pathlib import Path
 from nicegui import ui
 
 from modeler.core.errors import ModelerError
-from modeler.studio import commands, recipe
-from modeler.studio.elements import (
-    busy_with,
-    command_line,
-    go_button,
-    head,
-    page_button,
-    part,
-    run_button,
-    table,
-)
+from modeler.studio import commands, elements, recipe
 from modeler.studio.places import disk_use, size_text, spare
 from modeler.studio.project import Step
 from modeler.studio.studio import Studio
@@ -29,11 +19,13 @@ _LIKE = (".urdf", ".xml", ".mjcf", ".sdf")
 async def draw(studio: Studio) -> None:
     """Draws it."""
     project = studio.project
-    head("Take away", "Everything leaves as files; the script and the notebook do it all again.")
+    elements.head(
+        "Take away", "Everything leaves as files; the script and the notebook do it all again."
+    )
     step = project.step(project.current)
     if step is None:
         ui.label("There is no model yet: fit one first.")
-        go_button(studio, "To the fit", "fit")
+        elements.go_button(studio, "To the fit", "fit")
     else:
         _controller(studio)
         _simulators(studio)
@@ -62,10 +54,10 @@ def _called(studio: Studio) -> str:
 
 def _controller(studio: Studio) -> None:
     """The C folder."""
-    with part("C for the controller"):
+    with elements.part("C for the controller"):
         chosen = studio.kept.setdefault("take", {"precision": "double", "to": "urdf", "like": ""})
         precision = ui.toggle(["double", "single"], value=chosen["precision"]).props("no-caps")
-        renew = run_button(
+        renew = elements.run_button(
             studio, "Write C",
             lambda: commands.generate(studio.project, chosen["precision"]), small=True,
         )  # fmt: skip
@@ -86,12 +78,12 @@ def _written(studio: Studio, kind: str, name: Callable[[Step], str]) -> None:
         with ui.row().classes("items-center no-wrap w-full"):
             title = f"Download {name(step)}{'.zip' if place.is_dir() else ''}"
             _download(studio, title, name(step), lambda: place)
-            command_line(step.words)
+            elements.command_line(step.words)
 
 
 def _simulators(studio: Studio) -> None:
     """URDF, MJCF, SDF."""
-    with part("For simulators and planners"):
+    with elements.part("For simulators and planners"):
         chosen = studio.kept["take"]
         files = sorted(file.name for file in studio.folder.iterdir() if file.suffix in _LIKE)
         with ui.row().classes("items-end"):
@@ -99,7 +91,7 @@ def _simulators(studio: Studio) -> None:
             kinds = {"": "a file of its own", **{name: name for name in files}}
             like = ui.select(kinds, label="into the bytes of", value=chosen["like"])
             like.classes("w-64")
-        renew = run_button(
+        renew = elements.run_button(
             studio, "Export",
             lambda: commands.export(studio.project, chosen["to"], chosen["like"]), small=True,
         )  # fmt: skip
@@ -115,7 +107,7 @@ def _simulators(studio: Studio) -> None:
 
 def _files(studio: Studio, step: Step) -> None:
     """Model, robot, page."""
-    with part("Files of this model"):
+    with elements.part("Files of this model"):
         ui.label(
             "The model is one file that holds all that other commands need. The robot file has the "
             "effects that were added; values stand in it where the estimator ends in them."
@@ -125,7 +117,7 @@ def _files(studio: Studio, step: Step) -> None:
                       lambda: studio.folder / step.model)  # fmt: skip
             _download(studio, "Robot file", f"{_called(studio)}.toml",
                       lambda: str(studio.model(step)["robot_text"]).encode())  # fmt: skip
-        page_button(studio, step)
+        elements.page_button(studio, step)
 
 
 def _again(studio: Studio) -> None:
@@ -137,7 +129,7 @@ def _again(studio: Studio) -> None:
         robots = {name: studio.text(name) for name in copies if (studio.folder / name).is_file()}
         return recipe.recipe(studio.project, studio.folder, robots)
 
-    with part("All of it again"):
+    with elements.part("All of it again"):
         ui.label(
             "Both make the same values in an empty folder, and name the same effects. The logs are "
             "read where they lie."
@@ -146,15 +138,15 @@ def _again(studio: Studio) -> None:
             _download(studio, "Shell script", "steps.sh", lambda: recipe.script(own()).encode())
             _download(studio, "Notebook", "steps.ipynb", lambda: recipe.notebook(own()).encode())
         for step in own().steps:
-            command_line(step.words)
+            elements.command_line(step.words)
 
 
 def _disk(studio: Studio) -> None:
     """What the project uses, and what of it nobody needs."""
-    with part("Disk"):
+    with elements.part("Disk"):
         used = disk_use(studio.folder)
         rows = [(kind, size_text(size)) for kind, size in used.items() if size]
-        table(("of", "uses"), [*rows, ("all", size_text(sum(used.values())))])
+        elements.table(("of", "uses"), [*rows, ("all", size_text(sum(used.values())))])
         left = spare(studio.folder, studio.project)
         if not left.files:
             return
@@ -167,7 +159,7 @@ def _disk(studio: Studio) -> None:
 
         with ui.row().classes("items-center"):
             button = ui.button(f"Tidy: {size_text(left.size)}", on_click=tidied)
-            busy_with(studio, button.props("no-caps outline icon=delete_sweep"))
+            elements.busy_with(studio, button.props("no-caps outline icon=delete_sweep"))
             ui.label(
                 f"takes away {len(left.files)} files of {gone} steps that were set aside; logs, "
                 "pages and the way to the current model stay"

@@ -42,7 +42,6 @@ PROJECT = Project(
         commands.add(PROJECT, "spring", "1"),
         commands.add(PROJECT, "auto", None),
         commands.again(PROJECT, PROJECT.steps[0]),
-        commands.physical(PROJECT),
         commands.generate(PROJECT, "single"),
         commands.export(PROJECT, "mjcf"),
         commands.export(PROJECT, "urdf", "arm.urdf"),

@@ -1,5 +1,6 @@
 """A studio as a process, and windows of a real browser that look at it."""
 
+import json
 import os
 import re
 import shutil
@@ -13,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeler.studio.project import FILE, Project, project_from_text
+from modeler.studio.project import FILE, Project, Step, project_from_text
 from tests.browser.chromium import found
 
 _FLAGS = (
@@ -48,6 +49,11 @@ class Served:
         place = self.folder / FILE
         text = place.read_text(encoding="utf-8") if place.exists() else ""
         return project_from_text(text, str(place))
+
+    def result(self, step: Step) -> dict[str, Any]:
+        """What the JSON of a step says."""
+        found: dict[str, Any] = json.loads((self.folder / step.result).read_text(encoding="utf-8"))
+        return found
 
     def end(self, number: int = signal.SIGINT) -> int:
         """Its status, after a signal."""
