@@ -11,7 +11,7 @@ from urllib.parse import quote
 import uvicorn
 from fastapi import FastAPI, Response
 from fastapi.responses import FileResponse, HTMLResponse
-from nicegui import Client, app as nicegui_app, ui
+from nicegui import Client, app as nicegui_app, background_tasks, ui
 
 from modeler.core.errors import ModelerError
 from modeler.core.files import read_text, resource_dir
@@ -171,6 +171,7 @@ async def _page(client: Client, hub: Hub, screen: str) -> Studio:
         ui.timer(2.0, hub.follow)
     await client.connected()
     studio.redraw()
+    background_tasks.create(hub.viewer.warm())
     return studio
 
 
