@@ -14,7 +14,6 @@ import pytest
 
 from tests.studio.window import Served, Window, served
 
-
 COUNT = "window.clicks = 0; document.addEventListener('click', () => window.clicks++, true)"
 
 
@@ -121,6 +120,11 @@ def test_what_is_taken_away(studio, seat, tmp_path):
     assert b"<robot" in content
     name, content = downloaded(seat, "Robot file")
     assert b"load_friction" in content
+    assert not seat.complaints
+
+
+@pytest.mark.slow
+def test_the_script_of_the_demonstration_makes_the_same(studio, seat, tmp_path):
     name, content = downloaded(seat, "Shell script")
     assert name == "steps.sh" and content.startswith(b"#!/bin/sh")
     (tmp_path / name).write_bytes(content)
@@ -132,7 +136,6 @@ def test_what_is_taken_away(studio, seat, tmp_path):
         one, other = (values(place / step.model) for place in (studio.folder, fresh))
         assert one.keys() == other.keys()
         assert all(abs(one[key] - other[key]) <= 1e-12 * max(1.0, abs(one[key])) for key in one)
-    assert not seat.complaints
 
 
 def values(model: Path) -> dict[str, float]:
