@@ -280,8 +280,8 @@ class DataScreen:
                 ui.label(timeline.told(log)).classes("data-told")
                 count = len(self.result(file).get("doubts", ()))
                 doubts = f"{count} doubt{'s' * (count > 1)}" if count else "no doubts"
-                if self.checked(file) is not None:
-                    ui.label(doubts).classes("studio-soft")
+                doubts = doubts if self.checked(file) else ""
+                ui.label(doubts).classes("studio-soft")
             off = ui.button(icon="close", on_click=lambda: self._remove(file)).props(
                 "flat dense round"
             )
@@ -329,7 +329,7 @@ class DataScreen:
         failed: set[tuple[str, ...]] = studio.kept.setdefault("failed", set())
 
         def leave() -> None:  # nobody waits for this
-            if not self.live and hub.running is not None and hub.running.title == asked.title:
+            if not self.live and hub.running is not None and hub.gives_way:
                 hub.running.cancel()
 
         while self.live and hub.running is None and not studio.read_only:
@@ -342,9 +342,9 @@ class DataScreen:
             asked = left[0]
             studio.listeners.append(leave)
             try:
-                step = await hub.run(asked, keep=False)
+                step = await hub.run(asked, keep=False, aside=True)
             except ModelerError as error:
-                if not self.live:
+                if str(error).endswith(": cancelled") or not self.live:
                     return
                 failed.add(asked.words)
                 studio.show_error(str(error))

@@ -11,7 +11,7 @@ from modeler.core.table import percent
 from modeler.studio import commands, figures
 from modeler.studio.commands import Asked
 from modeler.studio.elements import go_button, head, part, run_button, table
-from modeler.studio.fails_screen import zooms
+from modeler.studio.fails_screen import asked, zooms
 from modeler.studio.project import ProjectLog, Step, Stretch
 from modeler.studio.studio import Studio
 
@@ -110,8 +110,8 @@ async def _logs(studio: Studio, kept: dict[str, Any]) -> None:
 
         async def residuals() -> None:
             kept["joint"], kept["channel"] = which.value, over.value
-            picture = await studio.view(
-                "residual_picture", [project.model], words, which.value, over.value, True,
+            picture = await asked(
+                studio, "residual_picture", [project.model], words, which.value, over.value, True,
                 kind="days",
             )  # fmt: skip
             if picture is not None:
@@ -138,9 +138,9 @@ async def _models(studio: Studio, kept: dict[str, Any]) -> None:
     if pair[0] == pair[1]:
         ui.label("Choose two different models.")
         return
-    asked = Asked("contest", ("compare", *pair, *logs), "compare two models")
-    run_button(studio, "Compare both", lambda: asked)
-    step = _last(studio, "contest", asked.words)
+    wanted = Asked("contest", ("compare", *pair, *logs), "compare two models")
+    run_button(studio, "Compare both", lambda: wanted)
+    step = _last(studio, "contest", wanted.words)
     if step is not None:
         _contest(studio, step)
     with part("Measured and predicted by both"):
@@ -156,8 +156,14 @@ async def _models(studio: Studio, kept: dict[str, Any]) -> None:
             kept["of models"] = which.value
 
             async def window(*ends: float) -> Any:
-                return await studio.view(
-                    "torque_picture", list(pair), logs, which.value, *ends, kind="days torque"
+                return await asked(
+                    studio,
+                    "torque_picture",
+                    list(pair),
+                    logs,
+                    which.value,
+                    *ends,
+                    kind="days torque",
                 )
 
             picture = await window()
@@ -207,7 +213,7 @@ async def _drift(studio: Studio, kept: dict[str, Any]) -> None:
     logs = [word for log in project.logs for word in _words(log)]
     maps = [word for own in project.mapping for word in ("--map", own)]
 
-    def asked() -> Asked:
+    def wanted() -> Asked:
         named = ["--name", kept["pattern"]] if kept.get("pattern") else []
         return Asked(
             "fleet",
@@ -216,7 +222,7 @@ async def _drift(studio: Studio, kept: dict[str, Any]) -> None:
             about=0,
         )
 
-    renew = run_button(studio, "Look for drift", asked)
+    renew = run_button(studio, "Look for drift", wanted)
 
     def typed(event: Any) -> None:
         kept["pattern"] = event.value.strip()

@@ -96,9 +96,12 @@ def run_button(
 
 def busy_with(studio: Studio, button: ui.button) -> ui.button:
     """A button that changes the project: while a command runs, or another window may, it rests."""
-    return button.bind_enabled_from(
-        studio.hub, "running", lambda running: running is None and not studio.read_only
-    )
+    hub = studio.hub
+
+    def free(running: object) -> bool:
+        return (running is None or hub.gives_way) and not studio.read_only
+
+    return button.bind_enabled_from(hub, "running", free)
 
 
 def light(which: Light, text: str = "") -> None:

@@ -185,19 +185,34 @@ class _Fails:
                     zooms(self.studio, plot, lambda *ends, name=joint: self._torque(name, *ends))
 
     async def _torque(self, joint: str, *ends: float) -> Any:
-        return await self.studio.view(
-            "torque_picture", [self.model], self.logs, joint, *ends, kind=f"torque {joint}"
+        return await asked(
+            self.studio,
+            "torque_picture",
+            [self.model],
+            self.logs,
+            joint,
+            *ends,
+            kind=f"torque {joint}",
         )
 
     async def _residual_drawn(self) -> None:
-        picture = await self.studio.view(
-            "residual_picture", [self.model], self.logs, self.kept["joint"], self.kept["channel"],
-            kind="residual",
+        picture = await asked(
+            self.studio, "residual_picture", [self.model], self.logs, self.kept["joint"],
+            self.kept["channel"], kind="residual",
         )  # fmt: skip
         if picture is not None:
             self.residual.clear()
             with self.residual:
                 figures.draw(picture)
+
+
+async def asked(studio: Studio, question: str, *arguments: Any, kind: str) -> Any:
+    """The answer of the viewer; None where it has none, whose line is shown then, or is stale."""
+    try:
+        return await studio.view(question, *arguments, kind=kind)
+    except ModelerError as error:
+        studio.show_error(str(error))
+        return None
 
 
 def zooms(studio: Studio, plot: Plotly, window: Any) -> None:

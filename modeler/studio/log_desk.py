@@ -11,7 +11,7 @@ from nicegui import ui
 
 from modeler.core.errors import ModelerError
 from modeler.core.figure import Curve, Panel, Picture
-from modeler.core.style import COLORS, Style
+from modeler.core.style import BLACK, BLUE, GREEN, ORANGE, PINK, VERMILLION, Style
 from modeler.studio import commands, figures, timeline
 from modeler.studio.elements import command_line, doubt_lines, folded, part, table
 from modeler.studio.log_mapping import Choice, as_mapped, kind_of, words_of
@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from modeler.studio.data_screen import DataScreen
 
 _POINTS = 1500  # of a curve, at most
-_ALL_POINTS = 30_000  # of all curves
+_ALL_POINTS = 14_000  # of all curves
+_COLORS = (BLUE, VERMILLION, GREEN, ORANGE, PINK, BLACK)  # SKY is what BLUE is in the dark
 _PANELS = {"q": "position", "qd": "speed", "tau": "torque", "current": "current"}
 _SPEEDS = {0.1: "0.1 x", 0.5: "0.5 x", 1.0: "1 x", 2.0: "2 x", 5.0: "5 x"}
 _ROOM = 0.02  # s beside a doubt that is left out too
@@ -112,8 +113,10 @@ class Desk:
         try:
             found = await self.studio.view(
                 "log_window", self.screen.path(self.file), [one.column for one in named.values()],
-                start, end, self.known.clock, "", points,
+                start, end, self.known.clock, "", points, kind="window",
             )  # fmt: skip
+            if found is None:
+                return  # another window was asked for
             self._raw = found
             self._show()
         except ModelerError as error:
@@ -138,8 +141,8 @@ class Desk:
                 continue
             time, values = raw[one.column]
             stated = self.known.units.get(one.column, "")
-            color = COLORS[joints.index(joint) % len(COLORS)]
-            dash = joints.index(joint) >= len(COLORS)
+            place = joints.index(joint)
+            color, dash = _COLORS[place % len(_COLORS)], place // len(_COLORS) % 2 == 1
             y = as_mapped(values, stated, one, own, joints)
             style = Style(color, width=1.2, dash=dash)
             rows[kind].append(Curve(f"joint {joint.name}", time, y, style))

@@ -150,8 +150,10 @@ def words_of(
             words.append(_word(f"{kind}<j>", pattern, joints))
             for joint in own:
                 del left[f"{kind}{joint}"]
-    singles = [_word(own, one, joints) for own, one in left.items()]
-    return tuple(sorted(singles, key=lambda word: not word.startswith("time=")) + words)
+    order = names_of(joints, KINDS)
+    known = sorted(left, key=lambda own: order.index(own) if own in order else len(order))
+    singles = [_word(own, left[own], joints) for own in known]
+    return (*singles[: "time" in left], *words, *singles["time" in left :])
 
 
 def _pattern(own: Mapping[str, Choice | None], joints: Sequence[JointSpec]) -> Choice | None:

@@ -27,7 +27,9 @@ _CHOSEN = "motion"
 
 async def draw(studio: Studio) -> None:
     """Draws it."""
-    head("Next motion", "What the robot should do next, within its limits, so that a log tells most.")
+    head(
+        "Next motion", "What the robot should do next, within its limits, so that a log tells most."
+    )
     project = studio.project
     if not project.robot:
         ui.label("There is no robot yet.")

@@ -154,6 +154,21 @@ class Roots:
                     with contextlib.suppress(ValueError):  # a NUL: it will not be started
                         self._check(text, (folder / file).resolve())
 
+    def check_links(self, folder: Path, names: Iterable[str]) -> None:
+        """Refuse a project whose own places are links that lead out: they are written over.
+
+        Args:
+            folder: of the project.
+            names: of files, and of folders with all that is in them.
+
+        Raises:
+            DataError: one is; says which.
+        """
+        for name in names:
+            for place in (folder / name, *_files(folder / name)):
+                if place.is_symlink():
+                    self._check(str(place), place.resolve())
+
     def listed(self, folder: Path | str, endings: Sequence[str] = LOG_ENDINGS) -> list[Entry]:
         """Folders, then files that end so; what is hidden or leads out is left out.
 

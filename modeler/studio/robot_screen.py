@@ -311,7 +311,7 @@ class _Desk:
         """A joint of the picture: its row."""
         self.tabs.value = "Table"
         words = ", ".join(map(json.dumps, (self.cells.html_id, joint)))
-        self.cells.client.run_javascript(f"setTimeout(() => focusRow({words}), 50)")
+        self.cells.client.run_javascript(f"focusRow({words})")
 
     def _show_cells(self, look: RobotLook, all_cells: bool) -> None:
         if look.table is None:
@@ -320,7 +320,6 @@ class _Desk:
         self._script(self.cells, columns=look.table.columns, rows=look.table.rows, all=all_cells,
                      wrong=look.wrong, line=look.error, reading=self.studio.read_only,
                      names=names, fixed=0)  # fmt: skip
-
 
     def _show_named(self, good: RobotLook, look: RobotLook, all_cells: bool) -> None:
         """The tables of limits and letters; `good` is the last text in which nothing was wrong."""

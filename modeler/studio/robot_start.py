@@ -3,7 +3,7 @@
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 
-from nicegui import ui
+from nicegui import background_tasks, ui
 
 from modeler.core.builtin import CONVENTIONS, TEMPLATES, builtin_names, builtin_text
 from modeler.core.errors import ModelerError
@@ -99,7 +99,10 @@ def _file(studio: Studio, taken: Taken) -> None:
         await _made(studio, words, f"convert {Path(file).name}", taken)
 
     ui.label("URDF, MJCF, SYMORO's .par, or a robot file").classes("studio-soft")
-    zone = drop_zone("originals", "drop it here, or choose it", came, studio.show_error)
+    zone = drop_zone(
+        "originals", "drop it here, or choose it",
+        lambda files: background_tasks.create(came(files)), studio.show_error,
+    )  # fmt: skip
     zone.props(remove="multiple").classes("w-full")
 
 

@@ -21,7 +21,8 @@ from modeler.core.files import read_text, write_atomically
 from modeler.core.json import JsonError, parse_json
 from modeler.studio import commands
 from modeler.studio.places import Roots
-from modeler.studio.project import FOLDERS, MAKING, ROBOT, Project, Step, Workspace
+from modeler.studio.project import FILE, FOLDERS, MAKING, ROBOT, Project, Step, Workspace
+from modeler.studio.robot_text import DRAFT
 from modeler.studio.running import Running
 from modeler.studio.viewer import Viewer
 
@@ -39,6 +40,7 @@ class Hub:
         workspace: the folder.
         viewer: the process that holds logs and predictions.
         running: the command that runs; None: none.
+        gives_way: whether it is cancelled as soon as another one is asked for.
         studios: of the windows, the first of which may change things.
         sheets: HTML of frames inside the page, by its digest.
         downloads: what may be taken away, by a key that nobody guesses, with its name.
@@ -50,8 +52,12 @@ class Hub:
         self, workspace: Workspace, allowed: tuple[Path, ...], screens: Mapping[str, Screen]
     ) -> None:
         self.workspace, self.allowed, self.screens = workspace, allowed, screens
+        self._roots = Roots((workspace.folder, *allowed))
+        own = (FILE, ROBOT, DRAFT, *(name for name in FOLDERS if name != "logs"))
+        self._roots.check_links(workspace.folder, own)
         self.viewer = Viewer(workspace.folder)
         self.running: Running | None = None
+        self.gives_way = False
         self.studios: list[Studio] = []
         self.sheets: OrderedDict[str, str] = OrderedDict()
         self.downloads: OrderedDict[str, tuple[Path | bytes, str]] = OrderedDict()
@@ -71,29 +77,32 @@ class Hub:
         for studio in self.studios:
             studio.told()
 
-    async def run(self, asked: commands.Asked, current: bool = True, keep: bool = True) -> Step:
+    async def run(
+        self, asked: commands.Asked, current: bool = True, keep: bool = True, aside: bool = False
+    ) -> Step:
         """Carries out a command, and keeps it as a step.
 
         Args:
             asked: command.
             current: True if a model that it makes is looked at from now on.
             keep: False for what is no step of the project.
+            aside: True for what nobody waits for: it is cancelled when another command comes.
 
         Raises:
             ModelerError: it failed or was cancelled; its line. Nothing is kept then.
         """
+        await self._way()
         if self.running is not None:
             raise ModelerError(
                 f"{asked.title}: {self.running.title} runs still; wait for it, or cancel it"
             )
         if not self.workspace.writable:
             self.workspace.save(self.project)  # says why not
-        Roots((self.workspace.folder, *self.allowed)).check_words(
-            self.workspace.folder, asked.words
-        )
+        self._roots.check_words(self.workspace.folder, asked.words)
         number, parent = self.project.next_number, asked.about
         more, result, pictures = commands.bookkeeping(asked.words, number)
         self._prepare(asked, number)
+        self.gives_way = aside
         self.running = Running([*asked.words, *more], self.workspace.folder, asked.title)
         self.tell()
         begun = time.perf_counter()
@@ -102,8 +111,8 @@ class Hub:
         finally:
             self.running = None
             self.tell()
-        if outcome.status != 0:
-            raise ModelerError(outcome.error)
+        if outcome.status != 0 or (aside and not self.gives_way):
+            raise ModelerError(outcome.error or f"{asked.title}: cancelled")
         step = Step(
             number, self.project.current if parent is None else parent, asked.kind, asked.words,
             asked.title, asked.model, result, pictures, round(time.perf_counter() - begun, 2),
@@ -115,6 +124,15 @@ class Hub:
             self.workspace.save(dataclasses.replace(self.project, steps=steps, current=now))
             self.refresh()
         return step
+
+    async def _way(self) -> None:
+        """What gives way ends."""
+        before = self.running
+        if before is not None and self.gives_way:
+            self.gives_way = False
+            before.cancel()
+            while self.running is before:
+                await asyncio.sleep(0.02)
 
     def _prepare(self, asked: commands.Asked, number: int) -> None:
         """Folders, and the robot as it is now if the command works on a copy of it."""
@@ -145,7 +163,12 @@ class Hub:
         Args:
             content: what it is; no address leads to any other file.
             name: that the browser gives it.
+
+        Raises:
+            DataError: there is no such file in the project.
         """
+        if isinstance(content, Path):
+            content = self._roots.inside(content)
         key = secrets.token_urlsafe(16)
         self.downloads[key] = content, name
         while len(self.downloads) > _MOST_DOWNLOADS:

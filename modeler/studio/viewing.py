@@ -221,7 +221,7 @@ def log_guess(place: str, robot: str = "") -> LogGuess:
         clock = next((part for part in seen.streams if part.clock), None)
         alike = [part.kind for part in seen.streams].count(clock.kind) > 1 if clock else False
         topic = clock.name if clock and alike else ""
-        return LogGuess(columns, found, ranged, count, topic, seen.doubts)
+        return LogGuess(columns, found, ranged, count, topic, () if part else seen.doubts)
 
     return _kept("guess", (_state(place), robot and _state(robot)), look, 60)
 

@@ -71,9 +71,11 @@ function showCells(id, { columns, rows, wrong, line, reading, all, names, fixed 
 const roomFor = (input) => { input.style.minWidth = `${Math.max(5, input.value.length + 2)}ch`; };
 
 // The cursor goes to the row of a joint.
-function focusRow(id, name) {
+function focusRow(id, name, tries = 20) {
   const line = [...document.querySelectorAll(`#${id} tbody tr`)].find((row) => row.dataset.rows.split(" ").includes(name));
-  line?.querySelector("input")?.focus();
+  const input = line?.querySelector("input");
+  input?.focus();
+  if (input !== document.activeElement && tries > 0) setTimeout(() => focusRow(id, name, tries - 1), 50); // hidden still
 }
 
 const cellAt = (host, row, column) => host.querySelector(`input[data-row="${row}"][data-column="${column}"]`);

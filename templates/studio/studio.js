@@ -90,6 +90,10 @@
     }
   };
 
+  // A picture that went away while it was being resized.
+  window.addEventListener("unhandledrejection", (event) => {
+    if (/displayed plot div/.test(event.reason?.message ?? event.reason)) event.preventDefault();
+  });
   window.addEventListener("studio-time", heard);
   document.addEventListener("DOMContentLoaded", () => {
     let waiting = 0;

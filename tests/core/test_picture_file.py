@@ -73,7 +73,7 @@ def test_a_file_that_is_not_there_or_no_json_is_refused(tmp_path) -> None:
     for place, text in ((tmp_path / "none.json", None), (tmp_path / "half.json", '{"schema": ')):
         if text is not None:
             place.write_text(text)
-        with pytest.raises(DataError, match="run .* again"):
+        with pytest.raises(DataError, match=r"run .* again"):
             pictures_from_json(place)
 
 

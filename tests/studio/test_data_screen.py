@@ -259,8 +259,8 @@ def test_what_cannot_be_read_is_told_in_place(
     pictured(w)
     # Names from files are text, wherever they stand.
     field(w, "column of q2").click()
-    w.page.get_by_role("option", name=evil.format(2), exact=True).click()
-    until(w, studio, lambda p: "q2=" in " ".join(p.mapping))
+    w.page.get_by_role("option", name=evil.format(3), exact=True).click()
+    until(w, studio, lambda p: f"q2={evil.format(3)}" in p.mapping)
     w.sees(evil.format(1))
     assert w.page.title() != "taken" and w.page.locator("img").count() == 0
     # A file that goes away while it is looked at: told, and all is as it was when it is back.
@@ -280,6 +280,7 @@ def test_what_cannot_be_read_is_told_in_place(
     w.page.wait_for_selector(".studio-screen")
     w.go("Data")
     pictured(w)
+    w.page.get_by_text("this window only reads").wait_for(state="hidden")  # the one before left
     w.click("take logs/broken.parquet off the list")
     until(w, studio, lambda p: [log.file for log in p.logs] == ["logs/good.parquet"])
     assert (studio.folder / "logs" / "broken.parquet").exists()

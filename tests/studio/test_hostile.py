@@ -71,16 +71,43 @@ def test_words_lead_nowhere_else(tmp_path: Path, words: tuple[str, ...], outside
     folder = tmp_path / "project"
     for name in ("project/models", "project/logs", "data", "other"):
         (tmp_path / name).mkdir(parents=True)
-    (folder / "models/out.json").symlink_to(tmp_path / ".profile")
-    (folder / "linked").symlink_to(tmp_path / "other")
     given = tuple(word.format(tmp_path) if "{0}" in word else word for word in words)
     hub = Hub(Workspace(folder), (tmp_path / "data",), {})
+    (folder / "models/out.json").symlink_to(tmp_path / ".profile")
+    (folder / "linked").symlink_to(tmp_path / "other")
     if not outside:
         Roots((folder, tmp_path / "data")).check_words(folder, given)
         return
     with pytest.raises(ModelerError, match=r"outside the folders that this studio may use; start"):
         asyncio.run(hub.run(Asked(given[0], given, "do harm")))
     assert not (tmp_path / ".profile").exists() and not list(folder.glob("results/*"))
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["robot.toml", "robot.draft.toml", "project.toml", "models", "robots/1.toml", "taken/3_c"],
+)
+def test_a_project_whose_places_are_links_is_not_opened(tmp_path: Path, name: str) -> None:
+    """They would be written over: a robot that is edited ended in somebody's profile."""
+    place = tmp_path / "project" / name
+    place.parent.mkdir(parents=True)
+    place.symlink_to(tmp_path / ".profile")
+    folder = tmp_path / "project"
+    with pytest.raises(DataError, match=r"outside the folders that this studio may use"):
+        Hub(Workspace(folder), (), {})
+    Hub(Workspace(folder), (tmp_path,), {}).close()  # --allow
+
+
+def test_no_file_outside_is_downloaded(tmp_path: Path) -> None:
+    (tmp_path / "secret").write_text("x")
+    (tmp_path / "p" / "sub").mkdir(parents=True)
+    (tmp_path / "p/own").write_text("x")
+    (tmp_path / "p/sub/link").symlink_to(tmp_path / "secret")
+    hub = Hub(Workspace(tmp_path / "p"), (), {})
+    assert hub.download(tmp_path / "p/own", "own").startswith("/download/")
+    for name in ("../secret", "sub/link", "none"):
+        with pytest.raises(DataError, match=r"outside|no such file"):
+            hub.download(tmp_path / "p" / name, "x")
 
 
 def test_a_notebook_holds_words_as_words(tmp_path: Path) -> None:

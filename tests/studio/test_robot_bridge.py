@@ -17,6 +17,7 @@ from modeler.report.robot_page import page_content, posture_json, robot_html
 from modeler.report.robot_skeleton import Skeleton, poses, skeleton_of
 from modeler.robot.read import robot_from_text
 from tests.browser.chromium import NAMES, found
+from tests.studio.window import until
 
 playwright = pytest.importorskip("playwright.sync_api", reason="NOT CHECKED: no playwright")
 
@@ -73,7 +74,7 @@ def opened(browser: Any, served: tuple[Path, int], text: str, parent: str = "loc
     page.on("pageerror", lambda error: page.complaints.append(str(error)))
     page.goto(f"http://{parent}:{port}/parent.html")
     frame = page.frame_locator("iframe").owner.element_handle().content_frame()
-    frame.wait_for_function("window.modelerShow && modelerShow.view.items.length > 0")
+    until(frame, "window.modelerShow && modelerShow.view.items.length > 0")
     return page, frame
 
 
@@ -89,19 +90,17 @@ def test_postures_are_taken_and_loops_follow(browser, served) -> None:
     drives = [robot.free[k] for k in robot.given]
     targets = dict(zip(drives, home.u[list(robot.given)] + [0.03, -0.05, 0.02], strict=True))
     page.evaluate(f"send({{modeler: 'posture', q: {json.dumps(targets)}}})")
-    frame.wait_for_function(
-        f"Math.abs(modelerShow.u[{robot.given[0]}] - {targets[drives[0]]}) < 1e-9"
-    )
+    until(frame, f"Math.abs(modelerShow.u[{robot.given[0]}] - {targets[drives[0]]}) < 1e-9")
     u = np.array(frame.evaluate("modelerShow.u"))
     np.testing.assert_allclose(u[list(robot.given)], list(targets.values()), atol=1e-9)
     assert max(gap.distance for gap in gaps_of(robot, u)) < 1e-8
     # Out of reach: the joints stop, with closed loops, and the way back is open.
     page.evaluate(f"send({{modeler: 'posture', q: {{'{drives[0]}': 9}}}})")
-    frame.wait_for_function("document.getElementById('message').textContent.startsWith('cannot')")
+    until(frame, "document.getElementById('message').textContent.startsWith('cannot')")
     u = np.array(frame.evaluate("modelerShow.u"))
     assert u[robot.given[0]] < 9 and max(gap.distance for gap in gaps_of(robot, u)) < 1e-7
     page.evaluate(f"send({{modeler: 'posture', q: {json.dumps(targets)}}})")
-    frame.wait_for_function("document.getElementById('message').textContent === ''")
+    until(frame, "document.getElementById('message').textContent === ''")
     assert page.complaints == []
     page.close()
 
@@ -110,12 +109,12 @@ def test_rows_are_lit_and_clicks_are_told(browser, served) -> None:
     page, frame = opened(browser, served, builtin_text("puma560"))
     before = frame.evaluate("document.getElementById('picture').toDataURL()")
     page.evaluate("send({modeler: 'light', rows: ['3', 'nobody']})")
-    frame.wait_for_function("modelerShow.view.lit.size === 1")
+    until(frame, "modelerShow.view.lit.size === 1")
     frame.evaluate(DRAWN)
     assert frame.evaluate("[...modelerShow.view.lit]") == [2]
     assert frame.evaluate("document.getElementById('picture').toDataURL()") != before
     page.evaluate("send({modeler: 'light', rows: []})")
-    frame.wait_for_function("modelerShow.view.lit.size === 0")
+    until(frame, "modelerShow.view.lit.size === 0")
     frame.evaluate(DRAWN)
     assert frame.evaluate("document.getElementById('picture').toDataURL()") == before
     at = frame.evaluate(
@@ -154,7 +153,7 @@ def test_another_robot_keeps_the_eye_and_the_joints(browser, served) -> None:
     assert frame.evaluate("[modelerShow.view.rotation, modelerShow.view.scale]") == eye
     # A joint that was moved stays where it is; a robot of another size comes into the window.
     page.evaluate("send({modeler: 'posture', q: {'2': 0.4}})")
-    frame.wait_for_function("modelerShow.u[1] === 0.4")
+    until(frame, "modelerShow.u[1] === 0.4")
     small = skeleton(builtin_text("five-bar"))
     for other, expected in ((skeleton(text), 0.4), (small, None)):
         content = json.dumps(page_content(other, home_posture(other)))

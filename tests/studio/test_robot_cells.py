@@ -64,7 +64,9 @@ def test_a_cell_changes_alone_and_back(name: str) -> None:
 
 
 def test_tables_in_one_line_and_with_comments() -> None:
-    text = 'name = "x"\n[mdh]\ncolumns = ["j", "theta"] # c\nrows = [["1", "q1"], ["2", "q2"]] # d\n'
+    text = (
+        'name = "x"\n[mdh]\ncolumns = ["j", "theta"] # c\nrows = [["1", "q1"], ["2", "q2"]] # d\n'
+    )
     assert with_row(text, 1, ["3", "q3"]).count("# d") == 1
     assert table_text(with_row(text, 0, ["3", "q3"])).rows[1] == ("3", "q3")
     assert table_text(without_row(text, 1)).rows == (("1", "q1"),)

@@ -5,6 +5,7 @@ import os
 import signal
 import time
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -215,7 +216,7 @@ def test_the_residual_over_a_channel_is_that_of_numpy(folder, channel: str) -> N
         [np.linspace(x.min(), x.max(), 13), np.quantile(x, np.linspace(0.0, 1.0, 13))]
     ))  # fmt: skip
     expected = []
-    for low, high in zip(edges[:-1], edges[1:], strict=True):
+    for low, high in pairwise(edges):
         own = (x >= low) & ((x < high) | ((high == edges[-1]) & (x <= high)))
         if own.sum() >= 8:
             expected.append((x[own].mean(), e[own].mean()))
@@ -296,7 +297,7 @@ def test_a_stale_question_is_dropped_and_the_loop_goes_on(folder) -> None:
             assert answers[0].joints == ("1", "2", "3")
             assert answers[1:-1] == [None] * 5 and answers[-1]["q1"][0][-1] >= 6.0
             assert beats > 20  # while the process started and predicted
-            with pytest.raises(ModelerError, match="none.parquet: cannot be read"):
+            with pytest.raises(ModelerError, match=r"none\.parquet: cannot be read"):
                 await viewer.ask("log_facts", "none.parquet")
         finally:
             heart.cancel()
@@ -310,7 +311,7 @@ def test_memory_that_runs_out_is_one_line(monkeypatch) -> None:
         raise MemoryError
 
     monkeypatch.setattr(viewing, "log_facts", hungry)
-    with pytest.raises(DataError, match="memory ran out .* shorter stretch"):
+    with pytest.raises(DataError, match=r"memory ran out .* shorter stretch"):
         answer("log_facts", ("a",))
 
     def broken(*arguments: Any) -> None:

@@ -1,18 +1,20 @@
 """A studio as a process, and windows of a real browser that look at it."""
 
+import json
 import os
 import re
 import shutil
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeler.studio.project import FILE, Project, project_from_text
+from modeler.studio.project import FILE, Project, Step, project_from_text
 from tests.browser.chromium import found
 
 _FLAGS = (
@@ -48,6 +50,11 @@ class Served:
         text = place.read_text(encoding="utf-8") if place.exists() else ""
         return project_from_text(text, str(place))
 
+    def result(self, step: Step) -> dict[str, Any]:
+        """What the JSON of a step says."""
+        found: dict[str, Any] = json.loads((self.folder / step.result).read_text(encoding="utf-8"))
+        return found
+
     def end(self, number: int = signal.SIGINT) -> int:
         """Its status, after a signal."""
         self.process.send_signal(number)
@@ -80,6 +87,15 @@ def served(folder: Path, *options: str) -> Iterator[Served]:
                 process.kill()
                 process.wait()
         process.stdout.close()
+
+
+def until(frame: Any, condition: str) -> None:
+    """Waits for a condition in a page whose policy lets nothing be evaluated by its scripts."""
+    end = time.monotonic() + PATIENCE / 1000.0
+    while not frame.evaluate(condition):
+        if time.monotonic() > end:
+            raise TimeoutError(condition)
+        time.sleep(0.03)
 
 
 class Window:

@@ -1,0 +1,235 @@
+"""All nine jobs in a row, as a person does them: an arm, a robot with loops, measured logs.
+
+With --regenerate the windows of the arm become the pictures of docs/studio.md and of the README.
+"""
+
+import io
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.studio.window import Served, Window, served
+
+DOCS = Path(__file__).resolve().parents[2] / "docs" / "studio"
+KEPT = {"robot": 900, "data": 1000, "fit": 900, "fails": 1400, "missing": 1250, "fall": 1150}
+"""Pictures, and the heights of their windows."""
+
+Kept = Callable[[str], None]
+
+
+class Person:
+    """Somebody who goes through the jobs and looks at each.
+
+    Attributes:
+        window: in which that is done.
+        studio: that is looked at.
+        keep: is told when a window is worth a picture.
+    """
+
+    def __init__(self, window: Window, studio: Served, keep: Kept) -> None:
+        self.window, self.studio, self.keep = window, studio, keep
+        self.page = window.page
+
+    def takes_a_built_in_robot(self, name: str) -> None:
+        self.window.click("Start from a table")
+        self.page.get_by_label("robot", exact=True).last.click()
+        self.page.get_by_role("option", name=name, exact=True).click()
+        self.window.click("Take it")
+        self.window.sees("Base parameters")
+
+    def drops(self, *logs: Path) -> None:
+        """Logs, the first of which is for training."""
+        self.window.go("2  Data")
+        for k, log in enumerate(logs, start=1):
+            self.page.locator("input[type=file]").first.set_input_files(str(log))
+            self.window.sees(f"logs/{log.name}")
+            self.until(lambda k=k: len(self.studio.project.logs) == k)
+        self.until(lambda: self.count("log") == len(logs))
+
+    def chooses(self, log: Path) -> None:
+        """A log where it lies."""
+        self.window.go("2  Data")
+        before = len(self.studio.project.logs)
+        self.window.click("Choose where it lies")
+        self.page.get_by_role("button", name=str(log.parent), exact=True).click()
+        self.page.get_by_role("checkbox", name=log.name).click()
+        self.window.click("Take", exact=True)
+        self.until(lambda: self.count("log") > before)
+
+    def count(self, kind: str) -> int:
+        return sum(step.kind == kind for step in self.studio.project.steps)
+
+    def until(self, holds: Callable[[], bool], seconds: float = 120.0) -> None:
+        for _ in range(int(5 * seconds)):
+            if holds():
+                return
+            self.page.wait_for_timeout(200)
+        raise TimeoutError
+
+    def runs(self, button: str, kind: str) -> None:
+        """A command by its button, until it is a step and the screen shows it."""
+        before = self.count(kind)
+        self.window.click(button, exact=True)
+        self.until(lambda: self.count(kind) > before)
+        self.window.idle()
+
+    def sees_a_curve(self) -> None:
+        self.page.locator(".js-plotly-plot .scatterlayer path.js-line").first.wait_for()
+
+    def derives(self) -> None:
+        self.window.go("1  Robot")
+        self.page.get_by_role("tab", name="Base parameters").click()
+        self.runs("Derive", "derive")
+        self.window.sees("proof: exact")
+        self.keep("robot")
+
+    def plays(self) -> None:
+        self.window.go("2  Data")
+        self.sees_a_curve()
+        self.page.wait_for_timeout(1500)  # the robot stands
+        self.keep("data")
+
+    def fits(self) -> None:
+        self.window.go("3  Fit")
+        self.runs("Fit", "fit")
+        self.window.sees("What it is worth")
+        self.keep("fit")
+
+    def sees_where_it_fails(self) -> None:
+        self.window.go("4  Where it fails")
+        self.sees_a_curve()
+        self.window.sees("What the residual follows")
+        self.page.locator(".js-plotly-plot .heatmaplayer").first.wait_for()
+        self.keep("fails")
+
+    def learns_what_is_missing(self) -> list[str]:
+        """Ids of the effects that can be added, with their joints."""
+        self.window.go("5  What is missing")
+        self.runs("Look", "diagnose")
+        self.window.sees("Verdict")
+        self.page.wait_for_timeout(1000)
+        self.keep("missing")
+        step = next(step for step in self.studio.project.steps if step.kind == "diagnose")
+        found = self.studio.result(step)
+        return [f"{one['effect']}@{one['joint']}" for one in found["effects"]]
+
+    def adds_it(self) -> None:
+        before = self.studio.project.current
+        self.runs("Preview", "add")
+        self.window.sees("Preview. ")
+        assert self.studio.project.current == before
+        self.window.click("Add", exact=True)
+        self.until(lambda: self.studio.project.current != before)
+
+    def watches_it_fall(self) -> None:
+        self.window.go("6  Watch it fall")
+        self.page.locator(".js-plotly-plot .bars").first.wait_for()
+        self.keep("fall")
+
+    def compares_days(self) -> None:
+        self.window.go("7  Days and machines")
+        self.runs("Compare", "compare")
+        self.window.sees("Residuals of both logs")
+        self.keep("days")
+
+    def asks_for_a_motion(self) -> None:
+        self.window.go("8  Next motion")
+        self.runs("Find the motion", "excite")
+        self.window.sees("Condition number")
+        self.sees_a_curve()
+        self.keep("motion")
+
+    def takes_c_away(self) -> None:
+        self.window.go("9  Take away")
+        self.runs("Write C", "generate")
+        with self.page.expect_download() as coming:
+            self.page.get_by_role("button", name="Download").first.click()
+        assert Path(coming.value.path()).stat().st_size > 1000
+        self.keep("take")
+
+
+def all_of(person: Person, motion: bool = True) -> list[str]:
+    """From the fit on; the effects that were named."""
+    person.derives()
+    person.plays()
+    person.fits()
+    person.sees_where_it_fails()
+    named = person.learns_what_is_missing()
+    if named:
+        person.adds_it()
+        person.watches_it_fall()
+    person.compares_days()
+    if motion:
+        person.asks_for_a_motion()
+    person.takes_c_away()
+    assert person.window.complaints == []
+    return named
+
+
+def simulated(folder: Path, robot: str, hidden: str) -> list[Path]:
+    """Two runs of a machine with an effect that its robot file lacks."""
+    found = [folder / f"{name}.parquet" for name in ("one", "other")]
+    for seed, place in enumerate(found, start=11):
+        words = ["simulate", robot, "--duration", "8", "--seed", str(seed), "--noise", "0.005"]
+        line = [sys.executable, "-m", "modeler.cli", *words, "--hide", hidden, "--out", str(place)]
+        subprocess.run(line, check=True, stdout=subprocess.DEVNULL)
+    return found
+
+
+def in_few_colours(picture: bytes) -> bytes:
+    """A PNG of a quarter of the bytes, which differs to no eye."""
+    from PIL import Image
+
+    whole = io.BytesIO()
+    small = Image.open(io.BytesIO(picture)).convert("RGB").quantize(192)
+    small.save(whole, "PNG", optimize=True)
+    return whole.getvalue()
+
+
+@pytest.mark.slow
+def test_an_arm_with_a_hidden_effect(tmp_path, window, regenerate: bool) -> None:
+    with served(tmp_path / "arm") as studio:
+        seat = window(accept_downloads=True)
+
+        def keep(name: str) -> None:
+            if regenerate and name in KEPT:
+                seat.page.set_viewport_size({"width": 1280, "height": KEPT[name]})
+                seat.page.wait_for_timeout(1200)
+                DOCS.mkdir(exist_ok=True)
+                (DOCS / f"{name}.png").write_bytes(in_few_colours(seat.page.screenshot()))
+
+        person = Person(seat.open(studio), studio, keep)
+        seat.click("Try the demo")
+        seat.page.wait_for_url("**/data")
+        person.until(lambda: person.count("log") == 2)
+        assert all_of(person) == ["load_friction@2"]
+        assert all((DOCS / f"{name}.png").is_file() for name in KEPT), "run `make regenerate`"
+
+
+@pytest.mark.slow
+def test_a_robot_with_loops(tmp_path, window) -> None:
+    logs = simulated(tmp_path, "orthoglide-2003", "passive_friction@31:Fv=0.3,Fs=1.0")
+    with served(tmp_path / "orthoglide") as studio:
+        person = Person(window(accept_downloads=True).open(studio), studio, lambda name: None)
+        person.takes_a_built_in_robot("orthoglide-2003")
+        person.drops(*logs)
+        assert all_of(person, motion=False)[0] == "passive_friction@31"
+
+
+@pytest.mark.slow
+@pytest.mark.measured
+def test_measured_logs(tmp_path, window, measured_folder: Path) -> None:
+    folder = measured_folder / "emps"
+    with served(tmp_path / "emps", "--allow", str(folder)) as studio:
+        person = Person(window(accept_downloads=True).open(studio), studio, lambda name: None)
+        person.takes_a_built_in_robot("emps")
+        person.chooses(folder / "train.parquet")
+        person.chooses(folder / "pulses.parquet")
+        all_of(person)
+        assert studio.project.logs[0].file == str(folder / "train.parquet")
+        fit = next(step for step in studio.project.steps if step.kind == "fit")
+        values = {one["name"]: one["value"] for one in studio.result(fit)["parameters"]}
+        assert values["Fs1"] == pytest.approx(20.0, rel=0.05)  # as published, N

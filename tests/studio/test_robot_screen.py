@@ -1,0 +1,251 @@
+"""The screens "robot" and "next motion", driven in a browser as a person does."""
+
+import json
+import signal
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from modeler.core.builtin import builtin_text
+from modeler.report import posture_json, show
+from modeler.report.robot_closing import gaps_of
+from modeler.robot import robot_from_text
+from modeler.studio.project import Project, project_text
+from tests.studio.window import Window, served, until
+
+GERMAN = "Achse\t\u03b8 [deg]\td [mm]\ta [mm]\t\u03b1 [deg]\n" + "\n".join([
+    "1\t0\t290\t0\t-90", "2\t-90\t0\t270,5\t0", "3\t0\t0\t70,5\t-90",
+    "4\t0\t302\t0\t90", "5\t0\t0\t0\t-90", "6\t180\t72\t0\t0",
+])  # fmt: skip
+STANDING = "document.querySelector('iframe.studio-robot').standing"
+
+
+def project(folder: Path, robot: str) -> Path:
+    folder.mkdir()
+    (folder / "robot.toml").write_text(builtin_text(robot), encoding="utf-8")
+    (folder / "project.toml").write_text(project_text(Project(robot="robot.toml")))
+    return folder
+
+
+def inside(window: Window) -> Any:
+    """The page in the frame of the robot, drawn."""
+    window.page.wait_for_selector("iframe.studio-robot")
+    window.page.wait_for_function(f"{STANDING} !== undefined")
+    frame = window.page.query_selector("iframe.studio-robot").content_frame()
+    until(frame, "window.modelerShow && modelerShow.view.items.length > 0")
+    return frame
+
+
+def picture(frame: Any) -> str:
+    frame.evaluate("new Promise((d) => requestAnimationFrame(() => requestAnimationFrame(d)))")
+    return str(frame.evaluate("document.getElementById('picture').toDataURL()"))
+
+
+def cell(window: Window, row: int, column: str) -> Any:
+    name = f"row {row}, column {column}"
+    return window.page.get_by_role("textbox", name=name, exact=True)
+
+
+def poses_are_those_of(window: Window, place: Path) -> None:
+    """What the frame told last is what `modeler show --json` says of the file."""
+    shown = show(robot_from_text(place.read_text(encoding="utf-8"), "robot.toml"))
+    told = window.page.evaluate(f"{STANDING}.frames")
+    for frame in posture_json(shown.skeleton, shown.posture)["frames"]:
+        np.testing.assert_allclose(told[frame["name"]], frame["pose"], atol=1e-9)
+
+
+def test_a_pasted_table_is_edited_and_nothing_is_lost(window, tmp_path) -> None:
+    folder = tmp_path / "arm"
+    file, draft = folder / "robot.toml", folder / "robot.draft.toml"
+    with served(folder) as studio:
+        w = window().open(studio)
+        w.click("Start from a table")
+        w.page.get_by_role("textbox", name="table").fill(GERMAN)
+        w.click("Take this table")
+        frame = inside(w)
+        w.sees("taken as a table of convention classical")
+        assert cell(w, 2, "a").input_value() == "270.5 mm"
+        poses_are_those_of(w, file)
+        frame.evaluate("modelerShow.view.turn(0.4, 0.1), 0")
+        before, eye = picture(frame), frame.evaluate("modelerShow.view.rotation")
+        # An edit moves the skeleton; the eye stays.
+        w.page.evaluate(f"{STANDING.rpartition('.')[0]}.standing = undefined")
+        cell(w, 2, "a").fill("400 mm")
+        w.page.wait_for_function(f"{STANDING} !== undefined")
+        poses_are_those_of(w, file)
+        assert '"400 mm"' in file.read_text() and picture(frame) != before
+        assert frame.evaluate("modelerShow.view.rotation") == eye
+        # A mistake is at its cell; picture and file stay, and so does what was typed.
+        good, seen = file.read_text(), frame.evaluate("modelerShow.poses()")
+        cell(w, 2, "a").fill("400 m m")
+        w.page.wait_for_selector("td.wrong")
+        assert w.page.locator("td.wrong input").input_value() == "400 m m"
+        w.sees('[mdh], row "2", column a: got "400 m m"')
+        cell(w, 5, "alpha").focus()  # lights its row
+        until(frame, "[...modelerShow.view.lit].join() === '4'")
+        assert file.read_text() == good and frame.evaluate("modelerShow.poses()") == seen
+        studio.end(signal.SIGKILL)
+        assert '"400 m m"' in draft.read_text()
+    with served(folder) as studio:
+        w = window().open(studio)
+        frame = inside(w)
+        w.page.wait_for_selector("td.wrong")
+        assert cell(w, 2, "a").input_value() == "400 m m"
+        poses_are_those_of(w, file)
+        # By keyboard: another value, a row more, back again.
+        cell(w, 2, "a").fill("0.3")
+        w.page.wait_for_selector("td.wrong", state="detached")
+        w.page.keyboard.press("ArrowDown")
+        assert w.page.evaluate("document.activeElement.ariaLabel") == "row 3, column a"
+        cell(w, 6, "d").press("Control+Enter")
+        assert cell(w, 7, "theta").input_value() == "q7"
+        cell(w, 7, "theta").press("Control+z")
+        cell(w, 7, "theta").wait_for(state="detached")
+        cell(w, 2, "a").press("Control+z")
+        w.page.wait_for_selector("td.wrong")
+        cell(w, 2, "a").press("Control+y")
+        w.page.wait_for_selector("td.wrong", state="detached")
+        assert "0.3," in file.read_text() and not draft.exists()
+        # A block from a spreadsheet goes into the cells from the one that has the cursor.
+        block = json.dumps("0,25\t45\u00b0\r\n0,5\t0\r\n")
+        cell(w, 1, "a").evaluate(
+            "(input) => { const data = new DataTransfer(); "
+            f"data.setData('text/plain', {block}); input.dispatchEvent("
+            "new ClipboardEvent('paste', {clipboardData: data, bubbles: true, cancelable: true})); }"
+        )
+        w.page.wait_for_function("document.querySelector('.studio-cells input[data-row=\"1\"]"
+                                 "[data-column=\"3\"]').value === '0.5'")  # fmt: skip
+        assert cell(w, 1, "alpha").input_value() == "45 deg"
+        # A file of another program, dropped.
+        w.click("Another robot or table")
+        urdf = tmp_path / "two.urdf"
+        urdf.write_text(URDF, encoding="utf-8")
+        with w.page.expect_file_chooser() as chooser:
+            w.page.locator(".q-uploader input[type=file]").last.evaluate("(i) => i.click()")
+        chooser.value.set_files(urdf)
+        w.page.wait_for_function("document.querySelectorAll('.studio-cells tbody tr').length > 2")
+        w.page.get_by_text("two", exact=True).first.wait_for()
+        assert 'name = "two"' in file.read_text()
+        assert w.complaints == []
+
+
+URDF = """<robot name="two">
+<link name="base"/>
+<link name="one"><inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="end"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="waist" type="revolute"><parent link="base"/><child link="one"/><axis xyz="0 0 1"/>
+<limit lower="-1" upper="1" effort="9" velocity="2"/></joint>
+<joint name="elbow" type="revolute"><parent link="one"/><child link="end"/><origin xyz="0.3 0 0" rpy="1.5707963267948966 0 0"/>
+<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="9" velocity="2"/></joint>
+</robot>"""
+
+
+def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_path) -> None:
+    folder = project(tmp_path / "orthoglide", "orthoglide-2003")
+    with served(folder) as studio:
+        w = window().open(studio)
+        w.go("Robot")
+        frame = inside(w)
+        robot = robot_from_text(builtin_text("orthoglide-2003"), "robot.toml")
+        skeleton = show(robot).skeleton
+        slider = frame.locator(".joint input[type=range]").first
+        slider.evaluate("(s) => { s.value = 0.24; s.dispatchEvent(new Event('input')); }")
+        u = np.array(frame.evaluate("modelerShow.u"))
+        assert u[skeleton.given[0]] == pytest.approx(0.24)
+        assert max(gap.distance for gap in gaps_of(skeleton, u)) < 1e-8
+        assert frame.locator("#state").text_content() == " \u00b7 loops closed"
+        limits = robot.limits["11"]
+        ends = slider.evaluate("(s) => [+s.min, +s.max]")
+        assert ends == [limits.lower, limits.upper]
+        w.page.get_by_role("tab", name="Base parameters").click()
+        w.click("Derive")
+        w.page.wait_for_selector(".studio-relations > li")
+        frame = inside(w)
+        step = studio.project.steps[-1]
+        found = json.loads((folder / step.result).read_text())
+        assert w.page.locator(".studio-relations > li").count() == len(found["base"]) == 43
+        w.sees("43 base parameters (")
+        rows = [row.joint.name for row in skeleton.rows]
+        # Each by the mouse or by the keyboard: exactly the rows of its terms, and all its terms.
+        for k in (0, 7, 20, 42):
+            item, entry = w.page.locator(".studio-relations > li").nth(k), found["base"][k]
+            if k % 2:
+                item.focus()
+            else:
+                item.hover()
+            names = {
+                row for term in entry["terms"] for row in rows if term["parameter"].endswith(row)
+                and term["parameter"][: -len(row)].isalpha()
+            }  # fmt: skip
+            places = sorted(rows.index(name) for name in names)
+            until(
+            frame,
+                f"JSON.stringify([...modelerShow.view.lit].sort((a, b) => a - b)) === '{places}'"
+                .replace(", ", ",")
+            )  # fmt: skip
+            terms = item.locator(".studio-terms")
+            assert terms.is_visible()
+            for term in entry["terms"]:
+                assert term["parameter"] in terms.inner_text()
+        # Of an earlier table, once an effect is taken away.
+        w.page.get_by_role("tab", name="Effects").click()
+        w.page.get_by_role("checkbox", name="offset of joint 12").click()
+        w.page.wait_for_function(
+            "document.querySelector('[aria-label=\"offset of joint 12\"]').ariaChecked === 'false'"
+        )
+        w.page.get_by_role("tab", name="Base parameters").click()
+        w.sees("of an earlier table: derive again")
+        now = robot_from_text((folder / "robot.toml").read_text(), "robot.toml")
+        assert not now.has_effect("offset", "12") and now.has_effect("offset", "13")
+        w.page.get_by_role("tab", name="Limits").click()
+        cell(w, 2, "lower").fill("0.15")
+        cell(w, 2, "lower").press("Tab")
+        until(frame, "+document.querySelectorAll('.joint input')[2].min === 0.15")
+        # A joint that is clicked in the picture is the row with the cursor.
+        at = frame.evaluate(
+            "(() => { const v = modelerShow.view, row = modelerShow.robot.rows.findIndex("
+            "(r) => r.name === '12'); for (let y = 0; y < v.height; y += 2) for (let x = 0; x < v.width; x += 2)"
+            "if (v.rowAt(x, y) === row && v.rowAt(x + 1, y + 1) === row) return {x, y}; })()"
+        )
+        frame.locator("#picture").click(position=at)
+        w.page.wait_for_function("document.activeElement.ariaLabel === 'row 2, column j'")
+        assert w.complaints == []
+
+
+def test_the_next_motion_is_found_played_and_downloaded(window, tmp_path) -> None:
+    folder = project(tmp_path / "arm", "demo-arm")
+    with served(folder) as studio:
+        w = window().open(studio)
+        w.go("Next motion")
+        w.page.get_by_label("duration, s").fill("2")
+        w.page.get_by_text("modeler excite robots/1.toml --duration 2 --out").first.wait_for()
+        w.click("Find the motion")
+        frame = inside(w)
+        step = studio.project.steps[-1]
+        found = json.loads((folder / step.result).read_text())
+        w.sees(f"Condition number {found['condition_scaled']:.4g}")
+        w.page.wait_for_selector(".js-plotly-plot .scatterlayer")
+        motion = np.loadtxt(folder / "motions" / "1.csv", delimiter=",", skiprows=1)
+        w.click("play the motion")
+        w.page.wait_for_function("document.querySelector('.timeline-cursor')")
+        w.page.wait_for_function(
+            "document.querySelector('.timeline-cursor span').textContent === '2.000 s'"
+        )
+        np.testing.assert_allclose(frame.evaluate("modelerShow.u"), motion[-1, 1:4], atol=1e-5)
+        assert frame.evaluate("modelerShow.view.filled(modelerShow.poses()) > 0")
+        with w.page.expect_download() as download:
+            w.click("Download CSV")
+        assert (
+            Path(download.value.path()).read_bytes() == (folder / "motions" / "1.csv").read_bytes()
+        )
+        with w.page.expect_download() as download:
+            w.click("Download Parquet")
+        import pyarrow.parquet as pq
+
+        table = pq.read_table(download.value.path())
+        np.testing.assert_allclose(
+            np.column_stack([table[n] for n in ("time", "q1", "q2", "q3")]), motion[:, :4]
+        )
+        assert w.complaints == []
