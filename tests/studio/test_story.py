@@ -124,6 +124,22 @@ def test_what_is_taken_away(studio, seat, tmp_path):
 
 
 @pytest.mark.slow
+def test_the_report_page_opens_in_a_tab(studio, seat):
+    seat.page.get_by_role("button", name="9  Take away").click()
+    seat.click("Report page")
+    link = seat.page.get_by_role("link", name="Open the report page")
+    link.wait_for()
+    with seat.page.context.expect_page() as coming:
+        link.click()
+    coming.value.wait_for_load_state()
+    assert coming.value.title() == "demo-arm: effects added"
+    coming.value.close()
+    kept = studio.project.path()[-1]
+    assert studio.project.steps[-1].words != kept.words  # it wrote no model over that one
+    assert studio.project.steps[-1].parent == kept.number
+
+
+@pytest.mark.slow
 def test_the_script_of_the_demonstration_makes_the_same(studio, seat, tmp_path):
     name, content = downloaded(seat, "Shell script")
     assert name == "steps.sh" and content.startswith(b"#!/bin/sh")
