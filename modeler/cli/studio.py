@@ -51,8 +51,8 @@ def _open(address: str) -> None:
     """In the browser, where there is one with windows."""
     import webbrowser
 
-    far = "SSH_CONNECTION" in os.environ
-    if far and not {"DISPLAY", "WAYLAND_DISPLAY"} & set(os.environ):
+    far, screens = "SSH_CONNECTION", ("DISPLAY", "WAYLAND_DISPLAY")
+    if far in os.environ and not any(name in os.environ for name in screens):
         return  # what it would find is a browser of this terminal
     if not webbrowser.open(address):
         note("no browser was found; open the address in one")
