@@ -94,7 +94,7 @@ def field(w: Window, label: str) -> Any:
 
 def until(w: Window, served_: Served, holds: Callable[[Any], bool]) -> Any:
     """The project, as soon as its file says so."""
-    for _ in range(200):
+    for _ in range(1200):
         if holds(served_.project):
             return served_.project
         w.page.wait_for_timeout(50)

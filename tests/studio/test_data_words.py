@@ -132,7 +132,7 @@ def drawn_log(rng: np.random.Generator) -> ProjectLog:
         start, end = np.sort(rng.uniform(0.0, 10.0, 2)).round(2)
         role = str(rng.choice(["train", "test", "out", "in"]))
         held = Stretch(float(start), float(end))
-        log = timeline.let_in(log, held) if role == "in" else timeline.painted(log, held, role)  # type: ignore[arg-type]
+        log = timeline.painted(log, held, role)
     return log
 
 
@@ -151,7 +151,7 @@ def test_every_instant_has_one_role(seed: int) -> None:
     held = Stretch(float(start), float(end))
     own = inside((held,), times)
     for role in ("train", "test"):
-        now = timeline.painted(log, held, role)  # type: ignore[arg-type]
+        now = timeline.painted(log, held, role)
         assert inside(getattr(now, role), times)[own].all()
         assert not inside(now.out, times)[own].any()
         np.testing.assert_array_equal(inside(now.train, times)[~own], train[~own])
@@ -159,7 +159,7 @@ def test_every_instant_has_one_role(seed: int) -> None:
     left = timeline.painted(log, held, "out")
     np.testing.assert_array_equal(inside(left.out, times), out | own)
     assert left.train == log.train
-    np.testing.assert_array_equal(inside(timeline.let_in(left, held).out, times), out & ~own)
+    np.testing.assert_array_equal(inside(timeline.painted(left, held, "in").out, times), out & ~own)
 
 
 def test_first_roles() -> None:
