@@ -14,7 +14,8 @@ import pytest
 from tests.studio.window import Served, Window, served
 
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "studio"
-KEPT = ("robot", "data", "fit", "fails", "missing", "fall")
+KEPT = {"robot": 900, "data": 1000, "fit": 900, "fails": 1400, "missing": 1250, "fall": 1150}
+"""Pictures, and the heights of their windows."""
 
 Kept = Callable[[str], None]
 
@@ -53,7 +54,7 @@ class Person:
         self.window.go("2  Data")
         before = len(self.studio.project.logs)
         self.window.click("Choose where it lies")
-        self.page.get_by_role("button", name=str(log.parent)).click()
+        self.page.get_by_role("button", name=str(log.parent), exact=True).click()
         self.page.get_by_role("checkbox", name=log.name).click()
         self.window.click("Take", exact=True)
         self.until(lambda: self.count("log") > before)
@@ -195,7 +196,8 @@ def test_an_arm_with_a_hidden_effect(tmp_path, window, regenerate: bool) -> None
 
         def keep(name: str) -> None:
             if regenerate and name in KEPT:
-                seat.page.wait_for_timeout(800)
+                seat.page.set_viewport_size({"width": 1280, "height": KEPT[name]})
+                seat.page.wait_for_timeout(1200)
                 DOCS.mkdir(exist_ok=True)
                 (DOCS / f"{name}.png").write_bytes(in_few_colours(seat.page.screenshot()))
 
