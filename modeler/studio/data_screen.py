@@ -72,6 +72,7 @@ class DataScreen:
         joints: of the robot; as many as the logs have positions where there is none yet.
         stated: [log] of the robot file.
         logs: what is known of them, by file.
+        desk: of the log that is looked at.
     """
 
     def __init__(self, studio: Studio) -> None:
@@ -80,7 +81,7 @@ class DataScreen:
         self.stated: Mapping[str, Any] = {}
         self.logs: dict[str, Known] = {}
         self._rows: dict[str, Element] = {}
-        self._desk: Desk | None = None
+        self.desk: Desk | None = None
         studio.kept["data"] = self
 
     @property
@@ -296,8 +297,8 @@ class DataScreen:
             self.studio.kept["log"] = file
             self._detail.clear()
             with self._detail:
-                self._desk = Desk(self, file)
-                await self._desk.draw()
+                self.desk = desk = Desk(self, file)
+                await desk.draw()
 
     # What `modeler log` says.
 
@@ -344,8 +345,8 @@ class DataScreen:
                 studio.listeners.remove(leave)
             if self.live:
                 self.row(left[0].words[1])
-                if self._desk is not None and self._desk.file == left[0].words[1]:
-                    self._desk.judged()
+                if self.desk is not None and self.desk.file == left[0].words[1]:
+                    self.desk.judged()
 
     def _unseen(self, words: tuple[str, ...]) -> bool:
         file, step = words[1], self._checked(words[1])

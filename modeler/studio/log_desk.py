@@ -81,6 +81,8 @@ class Desk:
         self._say()
         self.judged()
         await self._curves()
+        if not self.screen.live or self.screen.desk is not self:
+            return  # another log was opened meanwhile
         with self._robot:
             if self.studio.project.robot:
                 self._line.frame = (await robot_frame(self.studio, alone=True)).id
@@ -192,7 +194,9 @@ class Desk:
             ]
             with ui.row().classes("gap-1") as self._roles:
                 for role, name in timeline.ROLES.items():
-                    _small(name, lambda _, role=role: self._paint(role)).props("outline")
+                    _small(name, lambda _, role=role: self._paint(role)).props(
+                        "outline", remove="flat"
+                    )
                 _small("let in again", lambda: self._paint("in"))
                 _small("zoom to it", lambda: self._look(_ends(self.brush)))
         with ui.row().classes("items-center gap-2"):
@@ -311,7 +315,7 @@ class Desk:
                 doubt_lines([line])
             if marks:
                 _small("why", lambda: self._why(marks[0]))
-                _small("leave out", lambda: self._leave(marks)).props("outline")
+                _small("leave out", lambda: self._leave(marks)).props("outline", remove="flat")
 
     def _leave(self, marks: Sequence[Mapping[str, Any]]) -> None:
         log = self.log

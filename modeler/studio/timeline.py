@@ -102,17 +102,15 @@ def spans_of(log: ProjectLog) -> list[dict[str, Any]]:
 def told(log: ProjectLog) -> str:
     """What its stretches are for, in words."""
     roles = {name: getattr(log, role) for role, name in ROLES.items()}
-    said = [f"{name} {', '.join(map(_words, parts))}" for name, parts in roles.items() if parts]
+    said = [f"{name}: {', '.join(map(_words, parts))}" for name, parts in roles.items() if parts]
     return "; ".join(said) or "not used"
 
 
 def _words(part: Stretch) -> str:
     start, end = (f"{side:.6g} s" if math.isfinite(side) else "" for side in vars(part).values())
-    return (
-        f"{start} to {end}"
-        if start and end
-        else f"from {start} on" * bool(start) or (f"up to {end}" if end else "all of it")
-    )
+    if start and end:
+        return f"{start} to {end}"
+    return f"from {start} on" if start else f"up to {end}" if end else "all of it"
 
 
 class Timeline(Element, component=resource_dir("templates") / "studio" / "parts" / "timeline.js"):
