@@ -221,7 +221,7 @@ def log_guess(place: str, robot: str = "") -> LogGuess:
             if column.numeric
         }
         count = 1 if seen.positions is None else len(seen.positions.names)
-        found, ranged = guess_from(seen.suggested, seen.plain, joints or anybody(count), columns)
+        found, ranged = guess_from(seen.suggested, joints or anybody(count), columns)
         clock = next((part for part in seen.streams if part.clock), None)
         alike = [part.kind for part in seen.streams].count(clock.kind) > 1 if clock else False
         topic = clock.name if clock and alike else ""

@@ -55,6 +55,8 @@ def test_words_say_what_was_chosen(robot: tuple[JointSpec, ...], seed: int) -> N
 def test_patterns_are_found_and_what_is_so_is_not_said() -> None:
     plain = {f"q{j.name}": Choice(f"pos_{k}", "deg", -1) for k, j in enumerate(FIVE)}
     assert words_of(plain, {}, FIVE) == ("q<j>=-pos_{n-1}:deg",)
+    late = {f"q{j.name}": Choice(f"c{k + 12}") for k, j in enumerate(FIVE)}
+    assert words_of(late, {}, FIVE) == ("q<j>=c{n+11}",)
     own = {f"q{j.name}": Choice(f"q{j.name}") for j in FIVE}
     assert words_of(own, own, FIVE) == ()
     assert words_of(own | {"q2": Choice("q2", "deg")}, own, FIVE) == ("q2=q2:deg",)
