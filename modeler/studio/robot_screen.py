@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -116,12 +117,12 @@ class _Desk:
                 'be pasted. Angles in rad or "90 deg", lengths in m or "40 mm".'
             )
             self.letters = ui.element("div").classes("studio-scroll")
-            self._heard(self.letters, cell=self._letter, block=self._letter_block)
+            self._heard(self.letters, cell=self._letter, block=partial(self._each, self._letter))
         with panel("Effects"):
             self.effects = ui.element("div").classes("studio-scroll")
         with panel("Limits"):
             self.ranges = ui.element("div").classes("studio-scroll")
-            self._heard(self.ranges, cell=self._limit, block=self._limit_block)
+            self._heard(self.ranges, cell=self._limit, block=partial(self._each, self._limit))
             _told(
                 "Of simulated and exciting motions, and of the sliders: rad or m, rad/s or "
                 "m/s, and so on. An empty row has the limits that every joint has."
@@ -206,43 +207,34 @@ class _Desk:
         await self.change(changed, all_cells=True)
 
     async def _row(self, row: int, what: str) -> None:
-        table = table_text(self.kept.text)
-        if table is None:
-            return
-        if what == "remove":
-            await self.change(without_row(self.kept.text, row), all_cells=True)
-            return
-        cells = _new_row(table, self.kept.text, row)
-        await self.change(with_row(self.kept.text, row, cells), all_cells=True)
+        text, table = self.kept.text, table_text(self.kept.text)
+        if table is not None and what == "add":
+            text = with_row(text, row, _new_row(table, text, row))
+        elif table is not None:
+            text = without_row(text, row)
+        await self.change(text, all_cells=True)
 
     async def _letter(self, row: int, column: int, text: str) -> None:
-        if self.look is not None and column == 1:
+        if self.look is not None and column == 1 and row < len(self.look.symbols):
             await self.change(with_symbol(self.kept.text, self.look.symbols[row][0], text))
 
-    async def _letter_block(self, row: int, column: int, text: str) -> None:
-        changed = self.kept.text
-        for k, cells in enumerate(pasted_cells(text), row):
-            if self.look is not None and k < len(self.look.symbols):
-                changed = with_symbol(changed, self.look.symbols[k][0], cells[-1])
-        await self.change(changed, all_cells=True)
-
     async def _limit(self, row: int, column: int, text: str) -> None:
-        if self.look is None or column == 0:
+        if self.look is None or not 0 < column < len(_LIMITS) or row >= len(self.look.joints):
             return
-        joint = self.look.joints[row].name
-        cells = self.limits.setdefault(joint, list(self.look.joints[row].limits))
+        joint = self.look.joints[row]
+        cells = self.limits.setdefault(joint.name, list(joint.limits))
         cells[column - 1] = text.strip()
         if all(cells) or not any(cells):
-            await self.change(with_limits(self.kept.text, joint, cells))
-            del self.limits[joint]
+            del self.limits[joint.name]
+            await self.change(with_limits(self.kept.text, joint.name, cells))
         else:
-            self._tell(f"[limits], joint {joint}: write all four, or none")
+            self._tell(f"[limits], joint {joint.name}: write all four, or none")
 
-    async def _limit_block(self, row: int, column: int, text: str) -> None:
+    async def _each(self, edit: Any, row: int, column: int, text: str) -> None:
+        """A block from the clipboard, cell by cell."""
         for k, cells in enumerate(pasted_cells(text), row):
             for i, cell in enumerate(cells, column):
-                if self.look is not None and k < len(self.look.joints) and i < len(_LIMITS):
-                    await self._limit(k, i, cell)
+                await edit(k, i, cell)
 
     async def _effect(self, effect: str, joint: str, wanted: bool) -> None:
         everyone = () if self.look is None else self.look.everyone
@@ -278,8 +270,9 @@ class _Desk:
         self._show_cells(look, all_cells)
         self._show_named(self.look or look, look, all_cells)
         if look.content is None:
-            if self.frame is None:
-                await self._last_good()
+            place = self.studio.folder / ROBOT
+            if self.frame is None and place.exists():
+                await self._picture(read_text(place))  # the last one that was right
             return
         self.title.text = look.name
         notes = (*self.studio.kept.get("robot notes", ()), *look.notes)
@@ -291,15 +284,9 @@ class _Desk:
             await self._picture(self.kept.text)
         else:
             self.frame.replace(look.content)
-        if before is None or before.joints != look.joints:
+        if all_cells or before is None or before.joints != look.joints:
             self._show_effects(look)
         self._stale()
-
-    async def _last_good(self) -> None:
-        """The picture of the robot file, where the text beside it is not right."""
-        place = self.studio.folder / ROBOT
-        if place.exists():
-            await self._picture(read_text(place))
 
     async def _picture(self, text: str) -> None:
         html = await self.studio.view("robot_page", text)
@@ -324,7 +311,7 @@ class _Desk:
     def _show_named(self, good: RobotLook, look: RobotLook, all_cells: bool) -> None:
         """The tables of limits and letters; `good` is the last text in which nothing was wrong."""
         joints = [joint.name for joint in good.joints]
-        limits = [(f"{j.name} [{j.unit}]", *j.limits) for j in good.joints]
+        limits = [(f"{j.name} [{j.unit}]", *self.limits.get(j.name, j.limits)) for j in good.joints]
         letters = [name for name, _ in good.symbols]
         uses: list[list[str]] = [[] for _ in letters]
         for element, table, columns, rows, keys, names in (
