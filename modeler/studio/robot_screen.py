@@ -8,7 +8,6 @@ from typing import Any
 from nicegui import ui
 
 from modeler.core.errors import ModelerError
-from modeler.core.files import read_text
 from modeler.robot import (
     TableText,
     convention_of,
@@ -28,9 +27,9 @@ from modeler.studio.commands import Asked, robot_copy
 from modeler.studio.elements import head, run_button
 from modeler.studio.project import ROBOT, Step
 from modeler.studio.robot_frame import RobotFrame
-from modeler.studio.robot_text import RobotText, keep, opened_text
+from modeler.studio.robot_text import DRAFT, RobotText, keep
 from modeler.studio.robot_views import BASIC_EFFECTS, RobotLook
-from modeler.studio.studio import Studio
+from modeler.studio.studio import READ_ONLY, Studio
 
 _PAUSE = 0.2  # s after the last stroke in the text
 _LIMITS = ("joint", "lower", "upper", "speed", "acceleration")
@@ -39,7 +38,9 @@ _LIMITS = ("joint", "lower", "upper", "speed", "acceleration")
 async def draw(studio: Studio) -> None:
     """Draws it."""
     kept = studio.kept.get("robot")
-    now = opened_text(studio.folder, studio.project.robot)
+    names = (DRAFT, studio.project.robot)
+    last = next((n for n in names if n and (studio.folder / n).exists()), "")
+    now = studio.text(last) if last else ""
     if not isinstance(kept, RobotText) or studio.read_only:
         kept = studio.kept["robot"] = RobotText(now)
     elif now:
@@ -153,10 +154,12 @@ class _Desk:
 
     async def take(self, text: str, notes: tuple[str, ...]) -> None:
         """A robot that came from elsewhere."""
-        self.kept.change(text)
-        self.studio.kept["robot notes"] = notes
-        look: RobotLook = await self.studio.view("robot_look", text)
         try:
+            if self.studio.read_only:
+                raise ModelerError(READ_ONLY)
+            self.kept.change(text)
+            self.studio.kept["robot notes"] = notes
+            look: RobotLook = await self.studio.view("robot_look", text)
             keep(self.studio.folder, text, not look.error)
         except ModelerError as error:
             self.studio.show_error(str(error))
@@ -249,7 +252,8 @@ class _Desk:
         """Looks at the text: a new picture and a robot file, or what is wrong and where."""
         text = self.kept.text
         try:
-            look: RobotLook | None = await self.studio.view("robot_look", text, kind="robot")
+            kind = f"robot {id(self)}"
+            look: RobotLook | None = await self.studio.view("robot_look", text, kind=kind)
             if look is None or text != self.kept.text:
                 return  # a newer one is looked at
             if not self.studio.read_only:
@@ -270,9 +274,8 @@ class _Desk:
         self._show_cells(look, all_cells)
         self._show_named(self.look or look, look, all_cells)
         if look.content is None:
-            place = self.studio.folder / ROBOT
-            if self.frame is None and place.exists():
-                await self._picture(read_text(place))  # the last one that was right
+            if self.frame is None and (self.studio.folder / ROBOT).exists():
+                await self._picture(self.studio.text(ROBOT))  # the last one that was right
             return
         self.title.text = look.name
         notes = (*self.studio.kept.get("robot notes", ()), *look.notes)
@@ -367,11 +370,9 @@ class _Desk:
             self.step_shown = _last(studio)
             if self.step_shown is None:
                 return
-            step, folder = self.step_shown, studio.folder
+            step = self.step_shown
             try:
-                html, told = await studio.view(
-                    "relations_of", str(folder / step.result), str(folder / step.words[1])
-                )
+                html, told = await studio.view("relations_of", step.result, step.words[1])
             except ModelerError as error:
                 ui.label(str(error)).classes("studio-error")
                 return
@@ -381,8 +382,8 @@ class _Desk:
 
     def _stale(self) -> None:
         step = self.step_shown
-        place = self.studio.folder / step.words[1] if step else None
-        old = place is not None and place.exists() and read_text(place) != self.kept.text
+        there = step is not None and (self.studio.folder / step.words[1]).exists()
+        old = there and step is not None and self.studio.text(step.words[1]) != self.kept.text
         self.stale.set_visibility(old)
 
 
