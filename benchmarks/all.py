@@ -8,6 +8,7 @@ from benchmarks import (
     least_squares,
     loops,
     memory,
+    pictures,
     regressor,
     start,
     streams,
@@ -23,5 +24,6 @@ LINES = (
     *least_squares.LINES,
     *loops.LINES,
     *streams.LINES,
+    *pictures.LINES,
     *answers.LINES,
 )

@@ -1,6 +1,7 @@
 """The process that holds logs and predictions and answers small questions about them."""
 
 import asyncio
+import contextlib
 import multiprocessing
 import os
 from collections.abc import Callable
@@ -9,7 +10,7 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 from typing import Any
 
-from modeler.core.errors import DataError, short_of_memory
+from modeler.core.errors import DataError, ModelerError, short_of_memory
 from modeler.core.jobs import attend
 
 
@@ -57,6 +58,12 @@ class Viewer:
                     "the process that draws logs ended in the middle of its work, twice, as when "
                     "memory runs out; close other programs, or look at a shorter stretch"
                 ) from None
+
+    async def warm(self) -> None:
+        """Starts the process, before it is needed."""
+        if self._pool is None:
+            with contextlib.suppress(ModelerError):
+                await self.ask("robot_joints", "")
 
     async def _answered(self, function: str, arguments: tuple[Any, ...]) -> Any:
         if self._pool is None:

@@ -9,7 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from modeler.api import load, simulate
 from modeler.core.builtin import builtin_text
+from modeler.robot import robot_from_text, with_parameters
 from modeler.studio.project import FOLDERS, Project, ProjectLog, Step, Stretch, Workspace
 from tests.studio.window import Served, Window, served
 
@@ -166,6 +168,7 @@ def test_the_robot_plays_along_and_its_joints_are_clicked(look) -> None:
     assert own.complaints == []
 
 
+@pytest.mark.slow
 def test_days_models_and_drift_are_compared(look, studio) -> None:
     own = look()
     page = own.page
@@ -188,6 +191,40 @@ def test_days_models_and_drift_are_compared(look, studio) -> None:
     drawn(own, "Changes")
     assert studio.project.steps[-1].words[0] == "fleet"
     assert own.complaints == []
+
+
+@pytest.mark.slow
+def test_what_drifted_is_named_with_its_picture(window: Callable[..., Window], tmp_path) -> None:
+    """Two machines on five days; from the third on, joint 2 of r2 rubs by half as much again."""
+    robot = load("two-link")
+    motion = {"duration": 6.0, "rate": 200.0, "parameter_seed": 4}
+    truth = simulate(robot, **motion, seed=1).truth.parameters
+    worn = robot_from_text(
+        with_parameters(robot.text, {**truth, "Fs2": 1.5 * truth["Fs2"]}), "worn"
+    )
+    logs = []
+    for m, machine in enumerate(("r1", "r2")):
+        (tmp_path / "logs" / machine).mkdir(parents=True)
+        for day in range(1, 6):
+            logs.append(f"logs/{machine}/2026-03-{day:02d}.parquet")
+            own = worn if machine == "r2" and day >= 3 else robot
+            simulate(own, tmp_path / logs[-1], **motion, seed=10 * m + day)
+    (tmp_path / "robot.toml").write_text(robot.text)
+    whole = tuple(ProjectLog(log, train=(Stretch(),)) for log in logs)
+    Workspace(tmp_path).save(Project("robot.toml", logs=whole))
+    with served(tmp_path) as studio:
+        own = window().open(studio)
+        own.go("Days and machines")
+        own.page.get_by_role("tab", name="What drifted").click()
+        own.page.get_by_label("how paths end").fill("{machine}/{period}.parquet")
+        own.click("Look for drift")
+        row = own.page.locator("tr", has_text="Fs2").first
+        row.wait_for()
+        told = row.inner_text()
+        assert "r2" in told and "jump" in told and "2026-03-03" in told and "sigma" in told
+        drawn(own, "Fs2 [N m]")
+        assert "--name" in studio.project.steps[-1].words
+        assert own.complaints == []
 
 
 def test_a_log_that_went_away_is_told_in_place(look, studio) -> None:
