@@ -60,7 +60,7 @@ PACKAGES: dict[str, set[str]] = {
     "papers": {"numpy", "sympy"},
     "report": {"numpy", "scipy", "matplotlib", "jinja2"},
     "api": {"numpy", "sklearn"},
-    "studio": {"numpy", "nicegui", "fastapi", "starlette", "uvicorn", "python_multipart"},
+    "studio": {"numpy", "nicegui", "fastapi", "starlette", "uvicorn"},
     "cli": {"numpy", "rich"},
 }
 

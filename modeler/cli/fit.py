@@ -32,7 +32,7 @@ from modeler.core.table import aligned
 from modeler.estimation import OF_TRIANGLES, IdentifiedModel, save_model, side_by_side
 from modeler.observation import Log, Observation, Processing, check_apart
 from modeler.report import after_fit, estimators_page, remarks_of, table_of, values_of
-from modeler.robot import INERTIAL, read_robot, robot_from_text, with_parameters
+from modeler.robot import read_robot, with_fitted
 
 
 def run_fit(args: argparse.Namespace) -> Json:
@@ -175,15 +175,7 @@ def _written(
         draw_page(args.report, lambda: page)
         draw_pictures(args.picture, page.pictures)
     if args.robot_out is not None:
-        robot = robot_from_text(model.robot_text, "robot of the model")
-        # Of inertial parameters only those that the robot file may state.
-        stateable = {
-            f"{prefix}{joint.name}": prefix in robot.inertial(joint.name)
-            for joint in robot.moving
-            for prefix in INERTIAL
-        }
-        stated = {name: x for name, x in model.fit.standard.items() if stateable.get(name, True)}
-        text = with_parameters(model.robot_text, stated) if stated else model.robot_text
+        text = with_fitted(model.robot_text, model.fit.standard)
         write_atomically(Path(args.robot_out), text)
         say(f"written: {args.robot_out}")
     say(verdict)

@@ -87,6 +87,18 @@ def with_parameters(text: str, values: Mapping[str, float]) -> str:
     return _with_numbers(text, "parameters", {**before, **values})
 
 
+def with_fitted(text: str, values: Mapping[str, float]) -> str:
+    """The robot file with fitted values, of inertial parameters only those that it may state."""
+    robot = robot_from_text(text, "robot of the model")
+    stateable = {
+        f"{prefix}{joint.name}": prefix in robot.inertial(joint.name)
+        for joint in robot.moving
+        for prefix in INERTIAL
+    }
+    stated = {name: value for name, value in values.items() if stateable.get(name, True)}
+    return with_parameters(text, stated) if stated else text
+
+
 def with_reference(text: str, values: Mapping[str, float]) -> str:
     """The robot file with another table [reference]."""
     return _with_numbers(text, "reference", values)

@@ -1,4 +1,4 @@
-"""A table of a paper or a spreadsheet, as it comes from the clipboard, as the table of a robot file.
+"""A table of a paper or a spreadsheet, from the clipboard, as the table of a robot file.
 
 Rows are lines; cells stand between tabs, semicolons or bars, or blanks. The first line may have
 headings: letters with or without an index (`alpha_i-1`, `a(j)`, Greek or spelt), units behind them
@@ -19,6 +19,7 @@ from modeler.core.expression import FUNCTIONS
 from modeler.core.toml_cells import listed
 from modeler.robot.conventions import ANGLES, CONVENTIONS, STEPS
 from modeler.robot.robot_text import columns_and_rows
+from modeler.robot.start import PLAIN
 from modeler.robot.table_text import names_in, quoted_cell, with_columns
 
 _FULL_TURN = 6.3  # rad: a larger angle is in degrees
@@ -328,12 +329,11 @@ def pasted_robot(table: PastedTable, name: str) -> str:
         for row in table.rows
     ]
     lines = columns_and_rows(table.columns, cells)
-    words = {"\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta", "\u2192": "->"}
     values = {
         "name": name, "title": f"{name}, a table that was pasted",
         "symbols": "\n".join(symbol_line(symbol) for symbol in table.symbols),
         "table": stated + "\n".join(lines).rstrip(), "limits": "",
-        "step": STEPS[table.convention].translate(str.maketrans(words)).replace("; ", "\n# "),
+        "step": STEPS[table.convention].translate(PLAIN).replace("; ", "\n# "),
     }  # fmt: skip
     return string.Template(template_text("serial")).substitute(values)
 

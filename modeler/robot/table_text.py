@@ -235,7 +235,7 @@ def _arrays(text: str) -> tuple[_Array, _Array] | None:
         begin, end = _section(text)
     except RobotError:
         return None
-    found = {}
+    found = dict[str, _Array]()
     for key in _KEY.finditer(text, begin, end):
         array = _array(text, key.end())
         if array is not None:

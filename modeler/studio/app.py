@@ -4,6 +4,7 @@ import io
 import socket
 import zipfile
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from pathlib import Path
 from urllib.parse import quote
 
@@ -67,8 +68,8 @@ def serve(
     Raises:
         ModelerError: the folder cannot be used, or the port is taken.
     """
-    with folder_lock(folder) as own, socket.socket() as door:
-        workspace = Workspace(folder, writable=own)
+    with ExitStack() as held, socket.socket() as door:
+        workspace = Workspace(folder, writable=held.enter_context(folder_lock(folder)))
         try:
             door.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # one that ended may linger
             door.bind(("127.0.0.1", port))
@@ -79,6 +80,7 @@ def serve(
             ) from None
         screens = {name: draw for name, (_, draw) in JOBS.items()}
         hub = Hub(workspace, (folder, *allow), {"start": start_screen.draw, **screens})
+        hub.own = lambda: held.enter_context(folder_lock(folder))
         inner = FastAPI(openapi_url=None)
         _routes(inner, hub)
         _pages(hub, demo)
@@ -165,6 +167,8 @@ async def _page(client: Client, hub: Hub, screen: str) -> Studio:
     _navigation(studio)
     _status(studio)
     studio.room = ui.element("main").classes("studio-room")
+    if not hub.workspace.writable:
+        ui.timer(2.0, hub.follow)
     await client.connected()
     studio.redraw()
     background_tasks.create(hub.viewer.warm())
@@ -272,8 +276,7 @@ def _cancel(studio: Studio) -> None:
 
 def _take_over(studio: Studio) -> None:
     """This window may change things from now on, the others only read."""
-    hub = studio.hub
-    if hub.workspace.writable and studio in hub.studios:
-        hub.studios.remove(studio)
-        hub.studios.insert(0, studio)
-        hub.refresh()
+    try:
+        studio.hub.give_to(studio)
+    except ModelerError as error:
+        studio.show_error(str(error))

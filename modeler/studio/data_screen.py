@@ -105,6 +105,7 @@ class DataScreen:
             choose.on_click(lambda: Chooser(studio, LOG_ENDINGS, self._came))
             choose.props("no-caps outline")
         if not studio.project.logs:
+            background_tasks.create(studio.view("forget"), name="start the viewer")
             ui.label(
                 "CSV, text, Excel, Parquet, MAT, HDF5, NumPy, MCAP and ROS bags, with the names "
                 "and units that your logger wrote."

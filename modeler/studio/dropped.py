@@ -20,7 +20,6 @@ from urllib.parse import unquote
 from fastapi import FastAPI, Request
 from fastapi.responses import JSONResponse
 from nicegui import ui
-from python_multipart.multipart import MultipartParser, parse_options_header
 from starlette.requests import ClientDisconnect
 
 from modeler.core.builtin import LOG_ENDINGS
@@ -29,6 +28,9 @@ from modeler.studio.places import BEGUN, ROBOT_ENDINGS, size_text
 
 KINDS = {"logs": LOG_ENDINGS, "originals": ROBOT_ENDINGS}
 """Folders of the project that files may be dropped into, and how their names end."""
+
+NAME = "x-name"
+"""Header of a request that says the name of its file, quoted as in an address."""
 
 _AT_ONCE = 2**20
 _LONGEST = 120  # bytes of a name
@@ -88,118 +90,45 @@ class _Drop:
             self._beside.unlink()
 
 
-class _Form:
-    """The form in which a browser sends files.
-
-    Attributes:
-        whole: files that are there as a whole, not yet under their names.
-        ended: whether the form came to its end.
-    """
-
-    def __init__(self, folder: Path, boundary: bytes, endings: tuple[str, ...]) -> None:
-        self.whole: list[_Drop] = []
-        self.ended = False
-        self._folder, self._endings = folder, endings
-        self._open: _Drop | None = None
-        self._header, self._value, self._about = b"", b"", b""
-        names = ("part_begin", "part_data", "part_end", "header_field", "header_value",
-                 "header_end", "headers_finished", "end")  # fmt: skip
-        calls: Any = {f"on_{name}": getattr(self, f"_{name}") for name in names}
-        self._parser = MultipartParser(boundary, calls)
-
-    def write(self, data: bytes) -> None:
-        """What came next."""
-        self._parser.write(data)
-
-    def drop(self) -> None:
-        """All that came."""
-        for each in (*self.whole, self._open):
-            if each is not None:
-                each.drop()
-
-    def _part_begin(self) -> None:
-        self._header, self._value, self._about = b"", b"", b""
-
-    def _header_field(self, data: bytes, start: int, end: int) -> None:
-        self._header += data[start:end]
-
-    def _header_value(self, data: bytes, start: int, end: int) -> None:
-        self._value += data[start:end]
-
-    def _header_end(self) -> None:
-        if self._header.lower() == b"content-disposition":
-            self._about = self._value
-        self._header = self._value = b""
-
-    def _headers_finished(self) -> None:
-        name = parse_options_header(self._about)[1].get(b"filename")
-        if name is None:
-            return  # a field of the form, no file
-        told = unquote(name.decode(errors="replace"))
-        if not told.lower().endswith(self._endings):
-            raise DataError(
-                f"{safe_name(told)}: cannot be taken; expected {', '.join(self._endings)}"
-            )
-        self._open = _Drop(self._folder, safe_name(told))
-
-    def _part_data(self, data: bytes, start: int, end: int) -> None:
-        if self._open is not None:
-            self._open.write(data[start:end])
-
-    def _part_end(self) -> None:
-        if self._open is not None:
-            self.whole.append(self._open)
-            self._open = None
-
-    def _end(self) -> None:
-        self.ended = True
-
-
 async def receive(
-    folder: Path, kind: str, content_type: str, size: int | None, stream: AsyncIterator[bytes]
-) -> list[str]:
-    """Takes what a browser sends; the files, relative to the folder of the project.
+    folder: Path, kind: str, name: str, size: int | None, stream: AsyncIterator[bytes]
+) -> str:
+    """Takes a file that a browser sends; where it is, relative to the folder of the project.
 
     Args:
         folder: of the project.
         kind: of `KINDS`.
-        content_type: of the request.
-        size: bytes that it says it has, if it does.
-        stream: its body.
+        name: that the file has there.
+        size: bytes that are to come, if it is said.
+        stream: they.
 
     Raises:
-        DataError: it is no form of files of that kind.
-        ModelerError: the disk is full, or the connection ended; nothing of it is left.
+        DataError: it is no file of that kind, or the connection ended; nothing of it is left.
+        ModelerError: the disk is full; nothing of it is left.
     """
-    form_kind, options = parse_options_header(content_type)
-    if form_kind != b"multipart/form-data" or not options.get(b"boundary"):
-        raise DataError("upload: got no form with files; drop them on the page")
-    place = folder / kind
-    form: _Form | None = None
+    if not name.lower().endswith(KINDS[kind]):
+        raise DataError(f"{safe_name(name)}: cannot be taken; expected {', '.join(KINDS[kind])}")
+    place, begun = folder / kind, None
     try:
         place.mkdir(exist_ok=True)
         free = shutil.disk_usage(place).free
         if size is not None and size + _SPARE > free:
             raise OSError(errno.ENOSPC, f"{size_text(size)} to come, {size_text(free)} free")
-        form = _Form(place, options[b"boundary"], KINDS[kind])
+        begun = _Drop(place, safe_name(name))
         async for piece in _pieces(stream):
-            await asyncio.to_thread(form.write, piece)
-        if not form.ended:
-            raise DataError("upload: ended before its end; drop the file again")
-        return [f"{kind}/{each.keep()}" for each in form.whole]
+            await asyncio.to_thread(begun.write, piece)
+        return f"{kind}/{begun.keep()}"
     except BaseException as error:
-        if form is not None:
-            form.drop()
+        if begun is not None:
+            begun.drop()
         if isinstance(error, ClientDisconnect):
-            raise DataError("upload: the connection ended; drop the file again") from None
+            raise DataError(f"{name}: the connection ended; drop the file again") from None
         if isinstance(error, OSError):
             what = error.strerror or error
             raise ModelerError(
-                f"upload: cannot be kept in {place} ({what}); make room, or choose the file where "
-                "it lies"
+                f"{safe_name(name)}: cannot be kept in {place} ({what}); make room, or choose the "
+                "file where it lies"
             ) from error
-        if isinstance(error, ValueError):  # of the parser
-            raise DataError("upload: got a broken form; drop the file again") from None
         raise
 
 
@@ -233,11 +162,11 @@ def add_route(app: FastAPI, folder: Path, writable: Callable[[], bool]) -> None:
                 raise DataError("upload: this studio only reads; the project is open elsewhere")
             said = request.headers.get("content-length", "")
             size = int(said) if said.isdecimal() else None
-            content_type = request.headers.get("content-type", "")
-            files = await receive(folder, kind, content_type, size, request.stream())
+            name = unquote(request.headers.get(NAME, ""))
+            file = await receive(folder, kind, name, size, request.stream())
         except ModelerError as error:
             return JSONResponse({"error": str(error)}, 400)
-        return JSONResponse({"files": files})
+        return JSONResponse({"file": file})
 
 
 def drop_zone(
@@ -253,12 +182,14 @@ def drop_zone(
     """
     zone = ui.upload(multiple=True, auto_upload=True, label=label)
     endings = ",".join(KINDS[kind])
-    zone.props(f'url="/drop/{kind}" accept="{endings}" flat bordered')
+    zone.props(f'url="/drop/{kind}" accept="{endings}" flat bordered send-raw')
+    named = f"[{{name: '{NAME}', value: encodeURIComponent(files[0].name)}}]"
+    zone.props(f':headers="files => {named}"')
 
     def answered(event: Any) -> None:
         answer = event.args if isinstance(event.args, dict) else {}
-        if files := answer.get("files"):
-            taken([str(file) for file in files])
+        if file := answer.get("file"):
+            taken([str(file)])
         elif "error" in answer:
             told(str(answer["error"]))
 

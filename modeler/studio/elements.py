@@ -171,20 +171,13 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], faint: Sequence[b
 def page_button(studio: Studio, step: Step) -> None:
     """The page of a step, self-contained: written when it is asked for, shown in a tab."""
     written = studio.project.about("page", step.number)
-    if written is None:
+    if written is None or not (studio.folder / written.model).is_file():
         run_button(studio, "Report page", lambda: commands.again(studio.project, step), small=True)
         return
     with ui.row().classes("items-center no-wrap w-full"):
-        link = ui.link("Open the report page", "#", new_tab=True)
-        link.on("click.prevent", lambda: _opened(studio, written.model))
+        address = studio.hub.sheet(studio.text(written.model), REPORTS)
+        ui.link("Open the report page", address, new_tab=True)
         command_line(written.words)
-
-
-def _opened(studio: Studio, page: str) -> None:
-    try:
-        ui.navigate.to(studio.hub.sheet(studio.text(page), REPORTS), new_tab=True)
-    except ModelerError as error:
-        studio.show_error(str(error))
 
 
 def go_button(studio: Studio, title: str, screen: str) -> None:

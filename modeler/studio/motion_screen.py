@@ -1,4 +1,4 @@
-"""The screen "next motion": the motion that tells most, or tells two effects apart, to be driven."""
+"""The screen "next motion": the one that tells most, or tells two effects apart."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -22,7 +22,7 @@ _SECONDS = 10.0
 _ALL = ""  # the question that has no two effects
 _USED = ("lower", "upper", "speed", "acceleration", "torque")
 _CHOSEN = "motion"
-"""What this window asks for: `{"between": "a@1,b@2", "duration": 10.0}`. Other screens may set it."""
+"""What this window asks for, `{"between": "a@1,b@2", "duration": 10.0}`; others may set it."""
 
 
 async def draw(studio: Studio) -> None:
@@ -67,11 +67,11 @@ def excite(project: Project, between: str, duration: float) -> Asked:
 
 
 def questions(result: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """What a diagnosis leaves open between two effects: the words of `--between`, and a sentence."""
+    """What a diagnosis leaves open between two effects: words of `--between`, and a sentence."""
     seen = set()
     for effect in result.get("effects", ()):
         for tie in effect.get("ties", ()):
-            pair = [f"{e['effect']}@{e['joint']}" for e in (effect, tie) if e["joint"] is not None]
+            pair = [f"{e['effect']}@{e['joint']}" for e in (effect, tie) if e["joint"]]
             if len(pair) == 2 and pair[0] != pair[1] and frozenset(pair) not in seen:
                 seen.add(frozenset(pair))
                 one, other = (e.replace("_", " ").replace("@", " on joint ") for e in pair)
@@ -155,8 +155,9 @@ def _between(told: Mapping[str, Any] | None) -> list[str]:
     """How well two effects are told apart along the motion."""
     if not told:
         return []
-    shares = (tuple(e[key] for e in told.values()) for key in ("left", "left_random", "gain"))
-    return excitation.Separation(tuple(told), *shares).lines()
+    (one, a), (other, b) = told.items()
+    shares = ((a[key], b[key]) for key in ("left", "left_random", "gain"))
+    return excitation.Separation((one, other), *shares).lines()
 
 
 async def _shown(studio: Studio, step: Step, look: MotionLook) -> None:

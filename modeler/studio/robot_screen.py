@@ -326,7 +326,7 @@ class _Desk:
         joints = [joint.name for joint in good.joints]
         limits = [(f"{j.name} [{j.unit}]", *j.limits) for j in good.joints]
         letters = [name for name, _ in good.symbols]
-        uses = [[] for _ in letters]
+        uses: list[list[str]] = [[] for _ in letters]
         for element, table, columns, rows, keys, names in (
             (self.ranges, "limits", _LIMITS, limits, joints, [[name] for name in joints]),
             (self.letters, "symbols", ("letter", "value"), good.symbols, letters, uses),

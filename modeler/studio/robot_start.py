@@ -1,4 +1,4 @@
-"""Where a robot comes from: a pasted table, a template, a file of another program, a built-in one."""
+"""Where a robot comes from: a pasted table, a template, another program, the built-in ones."""
 
 from collections.abc import Awaitable, Callable
 from pathlib import Path

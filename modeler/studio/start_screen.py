@@ -10,7 +10,7 @@ from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
 from modeler.studio import commands
 from modeler.studio.project import ROBOT, ProjectLog, Stretch
-from modeler.studio.studio import Hub, Studio
+from modeler.studio.studio import READ_ONLY, Hub, Studio
 
 _RUNS = (("logs/train.parquet", 1), ("logs/held_out.parquet", 2))
 
@@ -50,6 +50,8 @@ def _door(title: str, icon: str, text: str, act: Callable[[], object]) -> None:
 async def begin(studio: Studio) -> None:
     """The demonstration; what is wrong is told in the window."""
     try:
+        if studio.read_only:
+            raise ModelerError(READ_ONLY)
         await begin_demo(studio.hub)
     except ModelerError as error:
         studio.show_error(str(error))

@@ -3,6 +3,7 @@
 from __future__ import annotations  # a hub has studios, and each studio its hub
 
 import asyncio
+import contextlib
 import dataclasses
 import hashlib
 import secrets
@@ -44,6 +45,7 @@ class Hub:
         studios: of the windows, the first of which may change things.
         sheets: HTML of frames inside the page, by its digest.
         downloads: what may be taken away, by a key that nobody guesses, with its name.
+        own: takes the folder, where another process has let go of it.
         allowed: folders whose files may be chosen where they lie.
         screens: by name.
     """
@@ -57,6 +59,7 @@ class Hub:
         self._roots.check_links(workspace.folder, own)
         self.viewer = Viewer(workspace.folder)
         self.running: Running | None = None
+        self.own: Callable[[], bool] = lambda: False
         self.gives_way = False
         self.studios: list[Studio] = []
         self.sheets: OrderedDict[str, str] = OrderedDict()
@@ -71,6 +74,33 @@ class Hub:
         """Every window shows the project anew."""
         for studio in self.studios:
             studio.redraw()
+
+    def follow(self) -> None:
+        """What another process has written since, where this one only reads."""
+        before = self.project
+        if not self.workspace.writable:
+            with contextlib.suppress(ModelerError):  # edited by hand, and not done
+                self.workspace.reread()
+        if self.project != before:
+            self.refresh()
+
+    def give_to(self, studio: Studio) -> None:
+        """That window may change things, all others only read.
+
+        Raises:
+            ModelerError: another process has the folder open.
+        """
+        if not self.workspace.writable and not self.own():
+            raise ModelerError(
+                f"{self.workspace.folder}: another studio has it open; end that with Ctrl-C where "
+                "it was started, then take over"
+            )
+        if not self.workspace.writable:
+            self.workspace.writable = True
+            self.workspace.reread()
+        self.studios.remove(studio)
+        self.studios.insert(0, studio)
+        self.refresh()
 
     def tell(self) -> None:
         """Every window shows how far the command is."""

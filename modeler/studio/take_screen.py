@@ -7,9 +7,9 @@ from pathlib import Path
 from nicegui import ui
 
 from modeler.core.errors import ModelerError
+from modeler.robot import with_fitted
 from modeler.studio import commands, elements, recipe
 from modeler.studio.places import disk_use, size_text, spare
-from modeler.studio.project import Step
 from modeler.studio.studio import Studio
 
 _FORMATS = {"urdf": "URDF", "mjcf": "MJCF (MuJoCo)", "sdf": "SDF (Gazebo)"}
@@ -22,14 +22,13 @@ async def draw(studio: Studio) -> None:
     elements.head(
         "Take away", "Everything leaves as files; the script and the notebook do it all again."
     )
-    step = project.step(project.current)
-    if step is None:
+    if not project.model:
         ui.label("There is no model yet: fit one first.")
         elements.go_button(studio, "To the fit", "fit")
     else:
-        _controller(studio)
-        _simulators(studio)
-        _files(studio, step)
+        name = re.sub(r"[^\w.-]", "_", str(studio.model(studio.made)["robot"]))
+        _commanded(studio, name)
+        _files(studio, name)
         _again(studio)
     _disk(studio)
 
@@ -46,78 +45,58 @@ def _download(studio: Studio, title: str, name: str, content: Callable[[], Path 
     ui.button(title, on_click=pressed).props("no-caps outline icon=download")
 
 
-def _called(studio: Studio) -> str:
-    """The robot's name, as a file may be called."""
-    name = str(studio.model(studio.made)["robot"])
-    return re.sub(r"[^\w.-]", "_", name)
-
-
-def _controller(studio: Studio) -> None:
-    """The C folder."""
+def _commanded(studio: Studio, name: str) -> None:
+    """C and files for simulators, which commands write."""
+    chosen = studio.kept.setdefault("take", {"precision": "double", "to": "urdf", "like": ""})
+    files = sorted(file.name for file in studio.folder.iterdir() if file.suffix in _LIKE)
+    kinds = {"": "a file of its own", **{name: name for name in files}}
     with elements.part("C for the controller"):
-        chosen = studio.kept.setdefault("take", {"precision": "double", "to": "urdf", "like": ""})
-        precision = ui.toggle(["double", "single"], value=chosen["precision"]).props("no-caps")
+        precision = ui.toggle(["double", "single"]).bind_value(chosen, "precision")
         renew = elements.run_button(
-            studio, "Write C",
-            lambda: commands.generate(studio.project, chosen["precision"]), small=True,
-        )  # fmt: skip
+            studio, "Write C", lambda: commands.generate(studio.project, chosen["precision"])
+        )
+        precision.props("no-caps").on_value_change(renew)
+        _written(studio, "generate", f"{name}_c")
+    with elements.part("For simulators and planners"):
+        with ui.row().classes("items-end"):
+            to = ui.select(_FORMATS, label="format").bind_value(chosen, "to").classes("w-48")
+            like = ui.select(kinds, label="into the bytes of").bind_value(chosen, "like")
+        renew = elements.run_button(
+            studio, "Export", lambda: commands.export(studio.project, chosen["to"], chosen["like"])
+        )
+        to.on_value_change(renew)
+        like.classes("w-64").on_value_change(renew)
+        _written(studio, "export", name)
 
-        def changed(value: str) -> None:
-            chosen["precision"] = value
-            renew()
 
-        precision.on_value_change(lambda e: changed(e.value))
-        _written(studio, "generate", lambda step: f"{_called(studio)}_c")
-
-
-def _written(studio: Studio, kind: str, name: Callable[[Step], str]) -> None:
+def _written(studio: Studio, kind: str, name: str) -> None:
     """What the last command of that kind wrote of this model, to be downloaded."""
     step = studio.project.about(kind)
     if step is not None:
-        place = studio.folder / step.model
+        place, name = studio.folder / step.model, name + Path(step.model).suffix
         with ui.row().classes("items-center no-wrap w-full"):
-            title = f"Download {name(step)}{'.zip' if place.is_dir() else ''}"
-            _download(studio, title, name(step), lambda: place)
+            title = f"Download {name}{'.zip' if place.is_dir() else ''}"
+            _download(studio, title, name, lambda: place)
             elements.command_line(step.words)
 
 
-def _simulators(studio: Studio) -> None:
-    """URDF, MJCF, SDF."""
-    with elements.part("For simulators and planners"):
-        chosen = studio.kept["take"]
-        files = sorted(file.name for file in studio.folder.iterdir() if file.suffix in _LIKE)
-        with ui.row().classes("items-end"):
-            to = ui.select(_FORMATS, label="format", value=chosen["to"]).classes("w-48")
-            kinds = {"": "a file of its own", **{name: name for name in files}}
-            like = ui.select(kinds, label="into the bytes of", value=chosen["like"])
-            like.classes("w-64")
-        renew = elements.run_button(
-            studio, "Export",
-            lambda: commands.export(studio.project, chosen["to"], chosen["like"]), small=True,
-        )  # fmt: skip
-
-        def changed(name: str, value: str) -> None:
-            chosen[name] = value
-            renew()
-
-        to.on_value_change(lambda e: changed("to", e.value))
-        like.on_value_change(lambda e: changed("like", e.value))
-        _written(studio, "export", lambda step: _called(studio) + Path(step.model).suffix)
-
-
-def _files(studio: Studio, step: Step) -> None:
+def _files(studio: Studio, name: str) -> None:
     """Model, robot, page."""
+    place = studio.folder / studio.made.model
     with elements.part("Files of this model"):
         ui.label(
             "The model is one file that holds all that other commands need. The robot file has the "
             "effects that were added; values stand in it where the estimator ends in them."
         ).classes("studio-soft")
         with ui.row():
-            _download(studio, "Model", f"{_called(studio)}.model.json",
-                      lambda: studio.folder / step.model)  # fmt: skip
-            _download(studio, "Robot file", f"{_called(studio)}.toml",
-                      lambda: str(studio.model(step)["robot_text"]).encode())  # fmt: skip
-        elements.page_button(studio, step)
+            _download(studio, "Model", f"{name}.model.json", lambda: place)
+            _download(studio, "Robot file", f"{name}.toml", lambda: _robot(studio))
+        elements.page_button(studio, studio.made)
+
+
+def _robot(studio: Studio) -> bytes:
+    model = studio.model(studio.made)
+    return with_fitted(model["robot_text"], model["fit"]["standard"]).encode()
 
 
 def _again(studio: Studio) -> None:

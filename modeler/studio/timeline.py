@@ -39,7 +39,7 @@ def painted(log: ProjectLog, stretch: Stretch, role: Role) -> ProjectLog:
     """The log with a stretch in a role; what it was left out of lets it go, but for "out"."""
     if role == "out":  # taken out of what it is; what it is comes back when it is let in again
         return dataclasses.replace(log, out=united([*log.out, stretch]))
-    others = {
+    others: dict[str, Any] = {
         name: tuple(left for part in getattr(log, name) for left in part.without([stretch]))
         for name in ROLES
     }

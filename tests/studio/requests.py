@@ -73,18 +73,3 @@ def websocket_status(studio: Served, headers: Mapping[str, str]) -> int:
     with socket.create_connection(("127.0.0.1", port_of(studio)), timeout=20) as line:
         line.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
         return int(re.match(rb"HTTP/1\.1 (\d+)", line.recv(4096))[1])
-
-
-def form(files: Mapping[str, bytes], boundary: str = "edge") -> bytes:
-    """Files as a browser sends them."""
-    parts = [
-        f'--{boundary}\r\nContent-Disposition: form-data; name="f"; filename="{name}"\r\n'
-        "Content-Type: application/octet-stream\r\n\r\n".encode()
-        + data
-        + b"\r\n"
-        for name, data in files.items()
-    ]
-    return b"".join(parts) + f"--{boundary}--\r\n".encode()
-
-
-FORM = "multipart/form-data; boundary=edge"

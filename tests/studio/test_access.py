@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from modeler.studio.access import Guard
-from tests.studio.requests import FORM, ask, form, let_in, port_of, websocket_status
+from tests.studio.requests import ask, let_in, port_of, websocket_status
 from tests.studio.window import Served, served
 
 SECRET = "what nobody may read"
@@ -114,8 +114,8 @@ FOREIGN = [
 def test_foreign_pages_are_refused_even_with_the_cookie(studio, cookie, headers) -> None:
     """CSRF, and sockets opened by other pages: their browser sends the cookie where it may."""
     sent = {name: value.format(port_of(studio)) for name, value in headers.items()}
-    data = form({"forged.csv": b"a\n1\n"})
-    answer = ask(studio, "/drop/logs", "POST", data, content_type=FORM, cookie=cookie, **sent)
+    forged = {"x_name": "forged.csv", "cookie": cookie, **sent}
+    answer = ask(studio, "/drop/logs", "POST", b"a\n1\n", **forged)
     assert answer.status == 403 and "asked by another page" in answer.text
     assert ask(studio, "/", cookie=cookie, **sent).status == 403
     assert not list(studio.folder.glob("logs/forged*"))

@@ -12,6 +12,7 @@ import threading
 from collections.abc import AsyncIterator, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from urllib.parse import quote
 
 import pytest
 from hypothesis import given, strategies as st
@@ -19,7 +20,7 @@ from hypothesis import given, strategies as st
 from modeler.core.errors import ModelerError
 from modeler.studio import dropped
 from modeler.studio.dropped import KINDS, receive, safe_name
-from tests.studio.requests import FORM, Answer, ask, form, let_in, port_of
+from tests.studio.requests import Answer, ask, let_in, port_of
 from tests.studio.window import Served, served
 
 
@@ -34,9 +35,16 @@ def cookie(studio: Served) -> str:
     return let_in(studio)
 
 
-def drop(studio: Served, cookie: str, files: dict[str, bytes], kind: str = "logs") -> Answer:
-    data = form(files)
-    return ask(studio, f"/drop/{kind}", "POST", data, content_type=FORM, cookie=cookie)
+def drop(studio: Served, cookie: str, name: str, data: bytes, kind: str = "logs") -> Answer:
+    return ask(studio, f"/drop/{kind}", "POST", data, x_name=quote(name), cookie=cookie)
+
+
+def begun(studio: Served, cookie: str) -> bytes:
+    """A file of which a part comes."""
+    return (
+        f"POST /drop/logs HTTP/1.1\r\nHost: 127.0.0.1:{port_of(studio)}\r\nCookie: {cookie}\r\n"
+        "X-Name: half.csv\r\nContent-Length: 90000000\r\n\r\n"
+    ).encode() + b"x" * 3_000_000
 
 
 def there(studio: Served) -> set[str]:
@@ -77,51 +85,41 @@ def test_thirty_at_once_all_of_one_name(studio: Served, cookie: str) -> None:
     rng = random.Random()
     contents = {rng.randbytes(rng.randrange(200_000)) + b"%d" % i for i in range(30)}
     with ThreadPoolExecutor(30) as pool:
-        answers = list(pool.map(lambda data: drop(studio, cookie, {"same.csv": data}), contents))
+        answers = list(pool.map(lambda data: drop(studio, cookie, "same.csv", data), contents))
     assert all(answer.status == 200 for answer in answers), answers
     kept = list((studio.folder / "logs").glob("same*.csv"))
     assert len(kept) == 30 and {path.read_bytes() for path in kept} == contents
-    assert {f"logs/{path.name}" for path in kept} == {
-        file for answer in answers for file in json.loads(answer.body)["files"]
-    }
+    told = {json.loads(answer.body)["file"] for answer in answers}
+    assert told == {f"logs/{path.name}" for path in kept}
 
 
-def test_several_in_one_form_and_none_over_another(studio: Served, cookie: str) -> None:
+def test_none_is_written_over_another(studio: Served, cookie: str) -> None:
     for _ in range(2):
-        files = {"a.csv": b"t\n1\n", "a%22b.CSV": b"", "b.parquet": bytes(range(256)) * 9}
-        assert drop(studio, cookie, files).status == 200
-    assert {"a.csv", "a-2.csv", "a_b.CSV", "a_b-2.CSV", "b.parquet", "b-2.parquet"} <= there(studio)
-    assert (studio.folder / "logs/b-2.parquet").read_bytes() == bytes(range(256)) * 9
+        for name in ("a.csv", 'a"b.CSV', "\u00fc.csv"):
+            assert drop(studio, cookie, name, name.encode()).status == 200
+    assert {"a.csv", "a-2.csv", "a_b.CSV", "a_b-2.CSV", "\u00fc-2.csv"} <= there(studio)
+    assert (studio.folder / "logs/\u00fc-2.csv").read_bytes() == "\u00fc.csv".encode()
 
 
 @pytest.mark.parametrize(
-    ("path", "kind", "data", "told"),
+    ("kind", "name", "told"),
     [
-        ("logs", FORM, form({"x.exe": b"MZ"}), "x.exe: cannot be taken; expected .csv, "),
-        ("logs", FORM, form({"a2.csv": b"1", "numpy.py": b"x"}), "numpy.py: cannot be taken"),
-        ("originals", FORM, form({"a.csv": b"x"}), "expected .toml, .par, .urdf"),
-        ("models", FORM, form({"a.json": b"x"}), "got models; expected one of logs, originals"),
-        ("logs", FORM, form({"cut.csv": b"x"})[:-9], "ended before its end; drop the file again"),
-        ("logs", FORM, b"no form at all", "got a broken form"),
-        ("logs", "text/plain", b"x", "got no form with files"),
-        ("logs", "multipart/form-data", b"x", "got no form with files"),
+        ("logs", "x.exe", "x.exe: cannot be taken; expected .csv, "),
+        ("logs", "numpy.py", "numpy.py: cannot be taken"), ("logs", "", "cannot be taken"),
+        ("originals", "a.csv", "expected .toml, .par, .urdf"),
+        ("models", "a.json", "got models; expected one of logs, originals"),
     ],
-)
-def test_what_cannot_be_taken_is_one_line(studio, cookie, path, kind, data, told) -> None:
-    before = there(studio) if (studio.folder / "logs").exists() else set()
-    answer = ask(studio, f"/drop/{path}", "POST", data, content_type=kind, cookie=cookie)
+)  # fmt: skip
+def test_what_cannot_be_taken_is_one_line(studio, cookie, kind, name, told) -> None:
+    answer = drop(studio, cookie, name, b"x", kind)
     assert answer.status == 400 and told in answer.text and answer.text.count("error") == 1
-    assert (there(studio) if (studio.folder / "logs").exists() else set()) == before
+    assert not list(studio.folder.rglob("*numpy*")) and not list(studio.folder.rglob("*.exe"))
 
 
 def test_a_connection_that_ends_leaves_nothing(studio: Served, cookie: str) -> None:
-    head = (
-        f"POST /drop/logs HTTP/1.1\r\nHost: 127.0.0.1:{port_of(studio)}\r\nCookie: {cookie}\r\n"
-        f"Content-Type: {FORM}\r\nContent-Length: 90000000\r\n\r\n"
-    )
     before = there(studio)
     with socket.create_connection(("127.0.0.1", port_of(studio))) as line:
-        line.sendall(head.encode() + form({"half.csv": b"x" * 3_000_000})[:-20])
+        line.sendall(begun(studio, cookie))
         wait_until(lambda: there(studio) > before)
     wait_until(lambda: there(studio) == before)
 
@@ -140,13 +138,9 @@ def test_a_large_log_is_never_in_memory(studio: Served, cookie: str, size: int) 
     """Megabytes, not known before: in pieces."""
     before = peak(studio)
     block = bytes(range(256)) * 4096
-    whole = form({"large.mcap": b"@"})
-    head, _, end = whole.partition(b"@")
-    length = str(len(head) + len(end) + size * len(block))
-    body = (head, *(block for _ in range(size)), end)
-    answer = ask(
-        studio, "/drop/logs", "POST", body, content_type=FORM, content_length=length, cookie=cookie
-    )
+    given = {"content_length": str(size * len(block)), "x_name": "large.mcap", "cookie": cookie}
+    body = (block for _ in range(size))
+    answer = ask(studio, "/drop/logs", "POST", body, **given)
     assert answer.status == 200, answer.text
     (kept,) = (studio.folder / "logs").glob("large*")
     try:
@@ -161,23 +155,21 @@ def test_a_large_log_is_never_in_memory(studio: Served, cookie: str, size: int) 
 
 def test_a_studio_that_only_reads_takes_nothing(studio: Served) -> None:
     with served(studio.folder) as second:
-        answer = drop(second, let_in(second), {"second.csv": b"1"})
+        answer = drop(second, let_in(second), "second.csv", b"1")
         assert answer.status == 400 and "this studio only reads" in answer.text
     assert "second.csv" not in there(studio)
 
 
 def test_killed_while_receiving_is_swept_away_by_the_next(tmp_path: Path) -> None:
-    with served(tmp_path / "p") as one:
-        head = (
-            f"POST /drop/logs HTTP/1.1\r\nHost: 127.0.0.1:{port_of(one)}\r\n"
-            f"Cookie: {let_in(one)}\r\nContent-Type: {FORM}\r\nContent-Length: 90000000\r\n\r\n"
-        )
-        with socket.create_connection(("127.0.0.1", port_of(one))) as line:
-            line.sendall(head.encode() + form({"half.csv": b"x" * 3_000_000})[:-20])
-            wait_until(lambda: (one.folder / "logs").exists() and there(one))
-            one.end(signal.SIGKILL)
+    with (
+        served(tmp_path / "p") as one,
+        socket.create_connection(("127.0.0.1", port_of(one))) as line,
+    ):
+        line.sendall(begun(one, let_in(one)))
+        wait_until(lambda: (one.folder / "logs").exists() and there(one))
+        one.end(signal.SIGKILL)
     with served(tmp_path / "p") as two:
-        assert there(two) == set() and drop(two, let_in(two), {"a.csv": b"1"}).status == 200
+        assert there(two) == set() and drop(two, let_in(two), "a.csv", b"1").status == 200
 
 
 # A full disk.
@@ -188,21 +180,21 @@ async def stream(data: bytes) -> AsyncIterator[bytes]:
         yield data[start : start + 65_536]
 
 
-def received(folder: Path, files: dict[str, bytes], size: int | None = None) -> list[str]:
-    return asyncio.run(receive(folder, "logs", FORM, size, stream(form(files))))
+def received(folder: Path, data: bytes, size: int | None = None) -> str:
+    return asyncio.run(receive(folder, "logs", "large.csv", size, stream(data)))
 
 
-def test_a_full_disk_is_one_line_and_leaves_nothing(tmp_path: Path, monkeypatch) -> None:
+def test_a_full_disk_is_one_line_and_leaves_nothing(tmp_path: Path) -> None:
     """The limit of a file's size stands for it: it needs no rights, and fails in the same place."""
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (8 * 2**20, before[1]))
     try:
-        with pytest.raises(ModelerError, match=r"cannot be kept in .*logs \(.*\); make room"):
-            received(tmp_path, {"small.csv": b"1", "large.csv": b"x" * 9 * 2**20})
+        with pytest.raises(ModelerError, match=r"large.csv: cannot be kept in .*logs \(.*\); make"):
+            received(tmp_path, b"x" * 9 * 2**20)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
     assert not list((tmp_path / "logs").iterdir())
-    assert received(tmp_path, {"small.csv": b"1"}) == ["logs/small.csv"]
+    assert received(tmp_path, b"1") == "logs/large.csv"
 
 
 def test_a_disk_that_is_full_in_the_middle(tmp_path: Path, monkeypatch) -> None:
@@ -211,11 +203,29 @@ def test_a_disk_that_is_full_in_the_middle(tmp_path: Path, monkeypatch) -> None:
 
     monkeypatch.setattr(dropped._Drop, "write", full)
     with pytest.raises(ModelerError, match="No space left on device"):
-        received(tmp_path, {"large.csv": b"x"})
+        received(tmp_path, b"x")
     assert not list((tmp_path / "logs").iterdir())
 
 
 def test_what_cannot_fit_is_refused_before_it_comes(tmp_path: Path) -> None:
     with pytest.raises(ModelerError, match=r"1e\+03 TB to come|1000 TB to come"):
-        received(tmp_path, {"large.csv": b"x"}, 10**15)
+        received(tmp_path, b"x", 10**15)
     assert not list((tmp_path / "logs").iterdir())
+
+
+# As a person does it.
+
+
+def test_files_are_dropped_in_a_browser(studio: Served, tmp_path: Path, window) -> None:
+    """Thirty at once; each is a log of the project."""
+    names = [f"run {k} \u00e4%.csv" for k in range(30)]
+    for k, name in enumerate(names):
+        lines = "".join(f"{i / 100},{i * k},0,0\n" for i in range(200))
+        (tmp_path / name).write_text(f"time,q1,qd1,tau1\n{lines}")
+    page = window().open(studio)
+    page.go("Data")
+    page.page.locator("input[type=file]").first.set_input_files([tmp_path / n for n in names])
+    wait_until(lambda: len(studio.project.logs) >= 30)
+    kept = {log.file for log in studio.project.logs}
+    assert {f"logs/run {k} \u00e4_.csv" for k in range(30)} <= kept
+    assert not page.complaints

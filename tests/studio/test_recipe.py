@@ -20,7 +20,7 @@ from modeler.studio.project import Project, ProjectLog, Step, Stretch, Workspace
 from modeler.studio.studio import Hub
 
 LOGS = (
-    ProjectLog("logs/day one.csv", (Stretch(0.0, 5.0), Stretch(6.0)), out=(Stretch(2.0, 2.5),)),
+    ProjectLog("logs/day one.csv", (Stretch(0.0, 4.0), Stretch(4.5)), out=(Stretch(2.0, 2.5),)),
     ProjectLog("logs/b.csv", test=(Stretch(end=6.0),)),
 )
 PROJECT = Project(
@@ -72,7 +72,7 @@ def test_a_step_is_known_again_but_for_its_number():
 
 def write_log(path: Path, seed: int) -> None:
     """A log of an arm with friction that its model lacks, in degrees, under other names."""
-    run = simulate(load("two-link"), duration=8.0, rate=250.0, seed=seed, hide=["load_friction@1"])
+    run = simulate(load("two-link"), duration=7.0, rate=250.0, seed=seed, hide=["load_friction@1"])
     columns = {"time": run.time}
     for j in range(2):
         columns |= {f"angle_{j + 1}": np.degrees(run.q[:, j]), f"tau{j + 1}": run.tau[:, j]}
@@ -145,6 +145,7 @@ def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
     assert before == {p: p.stat().st_mtime_ns for p in worked.folder.rglob("*") if p.is_file()}
 
 
+@pytest.mark.slow
 def test_the_notebook_makes_the_same_in_an_empty_folder(worked, tmp_path):
     book = json.loads(recipe.notebook(retold(worked)))
     assert (book["nbformat"], book["nbformat_minor"]) == (4, 5)

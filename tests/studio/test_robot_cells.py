@@ -70,7 +70,8 @@ def test_tables_in_one_line_and_with_comments() -> None:
     assert with_row(text, 1, ["3", "q3"]).count("# d") == 1
     assert table_text(with_row(text, 0, ["3", "q3"])).rows[1] == ("3", "q3")
     assert table_text(without_row(text, 1)).rows == (("1", "q1"),)
-    text = '[mdh]\ncolumns = ["j"]\nrows = [\n  ["1"], # the first, "not a cell", [nor] this\n  ["2"]\n]\n'
+    rows = '  ["1"], # the first, "not a cell", [nor] this\n  ["2"]\n'
+    text = f'[mdh]\ncolumns = ["j"]\nrows = [\n{rows}]\n'
     assert table_text(text).rows == (("1",), ("2",))
     assert "the first" in with_row(text, 0, ["9"]) and table_text(with_row(text, 1, ["9"])).rows[2:]
     assert table_text(without_row(text, 0)).rows == (("2",),)

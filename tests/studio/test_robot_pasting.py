@@ -104,7 +104,8 @@ def test_letters_of_a_book_become_symbols() -> None:
     [
         "j\ta(j)\t\u03c3j\t\u03b1j\tdj\t\u03b8j\trj\n1\t0\t0\t0\t0\t\u03b81\t0,2\n2\t1\t1\t\u03c0/2\t0\t0\tr2",
         "j;a;sigma;alpha;d;theta;r\n1;0;0;0;0;q1;0.2\n2;1;P;90 deg;0;0;q2",
-        "| j | sigma | alpha | d | theta | r |\n|---|---|---|---|---|---|\n| 1 | R | 0 | 0 | q1* | 0.2 |\n"
+        "| j | sigma | alpha | d | theta | r |\n|---|---|---|---|---|---|\n"
+        "| 1 | R | 0 | 0 | q1* | 0.2 |\n"
         "| 2 | P | 90 | 0 | 0 | q2* |",
         "$j$ & $\\sigma_j$ & $\\alpha_j$ & $d_j$ & $\\theta_j$ & $r_j$ \\\\\n"
         "1 & 0 & 0 & 0 & $\\theta_1$ & 0.2 \\\\\n2 & 1 & $\\pi/2$ & 0 & 0 & $r_2$ \\\\",
@@ -160,7 +161,8 @@ def test_what_cannot_be_a_table_is_told(text: str, line: str | None) -> None:
         return
     with pytest.raises(RobotError) as told:
         pasted_table(text)
-    assert str(told.value).startswith(line) and "; expected " in str(told.value) or "twice" in line
+    assert str(told.value).startswith(line)
+    assert "; expected " in str(told.value) or "twice" in line
 
 
 def test_nothing_in_a_table_is_evaluated() -> None:

@@ -113,7 +113,7 @@ def test_a_pasted_table_is_edited_and_nothing_is_lost(window, tmp_path) -> None:
         cell(w, 1, "a").evaluate(
             "(input) => { const data = new DataTransfer(); "
             f"data.setData('text/plain', {block}); input.dispatchEvent("
-            "new ClipboardEvent('paste', {clipboardData: data, bubbles: true, cancelable: true})); }"
+            "new ClipboardEvent('paste', {clipboardData: data, cancelable: true})); }"
         )
         w.page.wait_for_function("document.querySelector('.studio-cells input[data-row=\"1\"]"
                                  "[data-column=\"3\"]').value === '0.5'")  # fmt: skip
@@ -133,11 +133,14 @@ def test_a_pasted_table_is_edited_and_nothing_is_lost(window, tmp_path) -> None:
 
 URDF = """<robot name="two">
 <link name="base"/>
-<link name="one"><inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
-<link name="end"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="one"><inertial>
+<mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<link name="end"><inertial>
+<mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
 <joint name="waist" type="revolute"><parent link="base"/><child link="one"/><axis xyz="0 0 1"/>
 <limit lower="-1" upper="1" effort="9" velocity="2"/></joint>
-<joint name="elbow" type="revolute"><parent link="one"/><child link="end"/><origin xyz="0.3 0 0" rpy="1.5707963267948966 0 0"/>
+<joint name="elbow" type="revolute"><parent link="one"/><child link="end"/>
+<origin xyz="0.3 0 0" rpy="1.5707963267948966 0 0"/>
 <axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="9" velocity="2"/></joint>
 </robot>"""
 
@@ -206,7 +209,8 @@ def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_pat
         # A joint that is clicked in the picture is the row with the cursor.
         at = frame.evaluate(
             "(() => { const v = modelerShow.view, row = modelerShow.robot.rows.findIndex("
-            "(r) => r.name === '12'); for (let y = 0; y < v.height; y += 2) for (let x = 0; x < v.width; x += 2)"
+            "(r) => r.name === '12');"
+            "for (let y = 0; y < v.height; y += 2) for (let x = 0; x < v.width; x += 2)"
             "if (v.rowAt(x, y) === row && v.rowAt(x + 1, y + 1) === row) return {x, y}; })()"
         )
         frame.locator("#picture").click(position=at)
@@ -214,6 +218,7 @@ def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_pat
         assert w.complaints == []
 
 
+@pytest.mark.slow
 def test_the_next_motion_is_found_played_and_downloaded(window, tmp_path) -> None:
     folder = project(tmp_path / "arm", "demo-arm")
     with served(folder) as studio:

@@ -14,7 +14,6 @@ import pytest
 
 from tests.studio.window import Served, Window, served
 
-
 COUNT = "window.clicks = 0; document.addEventListener('click', () => window.clicks++, true)"
 
 
@@ -121,6 +120,27 @@ def test_what_is_taken_away(studio, seat, tmp_path):
     assert b"<robot" in content
     name, content = downloaded(seat, "Robot file")
     assert b"load_friction" in content
+    assert not seat.complaints
+
+
+@pytest.mark.slow
+def test_the_report_page_opens_in_a_tab(studio, seat):
+    seat.page.get_by_role("button", name="9  Take away").click()
+    seat.click("Report page")
+    link = seat.page.get_by_role("link", name="Open the report page")
+    link.wait_for()
+    with seat.page.context.expect_page() as coming:
+        link.click()
+    coming.value.wait_for_load_state()
+    assert coming.value.title() == "demo-arm: effects added"
+    coming.value.close()
+    kept = studio.project.path()[-1]
+    assert studio.project.steps[-1].words != kept.words  # it wrote no model over that one
+    assert studio.project.steps[-1].parent == kept.number
+
+
+@pytest.mark.slow
+def test_the_script_of_the_demonstration_makes_the_same(studio, seat, tmp_path):
     name, content = downloaded(seat, "Shell script")
     assert name == "steps.sh" and content.startswith(b"#!/bin/sh")
     (tmp_path / name).write_bytes(content)
@@ -132,7 +152,6 @@ def test_what_is_taken_away(studio, seat, tmp_path):
         one, other = (values(place / step.model) for place in (studio.folder, fresh))
         assert one.keys() == other.keys()
         assert all(abs(one[key] - other[key]) <= 1e-12 * max(1.0, abs(one[key])) for key in one)
-    assert not seat.complaints
 
 
 def values(model: Path) -> dict[str, float]:

@@ -1,0 +1,48 @@
+"""Two windows on one folder: one writes, the other reads and follows; either may take over."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.studio.window import served
+
+
+def test_a_second_window_reads_until_it_takes_over(tmp_path: Path, window) -> None:
+    with served(tmp_path / "arm") as studio:
+        first, second = window().open(studio), window().open(studio)
+        second.sees("this window only reads")
+        second.click("Try the demo")
+        second.sees("this window only reads: another one has the project open; go on there")
+        assert studio.project.steps == ()
+        second.click("Take over")
+        first.sees("this window only reads")
+        second.page.get_by_role("button", name="Take over").wait_for(state="hidden")
+        second.click("Try the demo")
+        second.page.wait_for_url("**/data")
+        first.go("3  Fit")  # it follows what the other did
+        first.sees("modeler fit")
+        second.page.close()
+        first.page.get_by_role("button", name="Take over").wait_for(state="hidden")
+
+
+@pytest.mark.slow
+def test_a_second_studio_reads_and_follows_and_takes_over_when_the_first_ends(
+    tmp_path: Path, window
+) -> None:
+    folder = tmp_path / "arm"
+    with served(folder) as one, served(folder) as other:
+        writer, reader = window().open(one), window().open(other)
+        reader.sees("this window only reads")
+        reader.click("Take over")
+        reader.sees("another studio has it open; end that with Ctrl-C")
+        writer.click("Try the demo")
+        writer.page.wait_for_url("**/data")
+        reader.go("3  Fit")
+        reader.sees("modeler fit")
+        steps = one.project.steps
+        one.end()
+        reader.click("Take over")
+        reader.page.get_by_role("button", name="Take over").wait_for(state="hidden")
+        reader.click("Fit", exact=True)
+        reader.sees("What it is worth")
+        assert other.project.steps[: len(steps)] == steps and other.project.current
