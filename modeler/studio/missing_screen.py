@@ -65,7 +65,7 @@ async def _diagnosis(studio: Studio, step: Step) -> None:
         pictures = {p.name: p for p in pictures_from_json(studio.folder / step.pictures)}
     with elements.part(f"Verdict: {found['verdict']}"):
         elements.told(found["sentences"] if not every else found["sentences"][:1])
-        elements.doubt_lines(found["data"])
+        elements.doubt_lines(found["data"] if every else ())  # else the sentences say it
         if every:
             elements.folded("In the words of the command", found["sentences"])
         else:
