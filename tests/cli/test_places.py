@@ -53,6 +53,7 @@ READING = {  # what each command reads; outputs come after it
     "completion": "completion bash",
     "studio": "studio arm",
     "fleet": "fleet arm.toml a.parquet b.csv@0:4 --map names.toml",
+    "studio": "studio folder",
 }
 
 
