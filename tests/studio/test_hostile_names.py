@@ -100,6 +100,8 @@ def test_a_report_that_somebody_wrote_reaches_nothing(hostile: Path, window) -> 
             "Content-Security-Policy", "x-none"
         )  # what a page of ours forbids itself
         report.write_text(free + REACHING, encoding="utf-8")
+        page.go("Watch it fall")
+        page.go("Take away")
         with page.page.context.expect_page() as opened:
             page.page.get_by_text("Open the report page").first.click()
         shown = opened.value
