@@ -262,8 +262,9 @@ class DataScreen:
         known, place, result = self.logs[file], self._rows[file], self.result(file)
         place.clear()
         with place:
-            name = ui.button(file, on_click=lambda: self.open(file)).classes("data-name")
-            name.props("flat dense no-caps align=left")
+            short = Path(file).name if Path(file).is_absolute() else file
+            name = ui.button(short, on_click=lambda: self.open(file)).tooltip(self.path(file))
+            name.props("flat dense no-caps align=left").classes("data-name")
             if known.error:
                 ui.label(known.error).classes("studio-error").props("role=alert")
             else:

@@ -191,8 +191,11 @@ def plays(w: Window, run: dict[str, np.ndarray]) -> None:
     page = w.page
     page.wait_for_function("document.querySelector('iframe.studio-robot')?.ready")
     page.evaluate(
-        """() => { const frame = document.querySelector('iframe.studio-robot'), tell = window.toRobot;
-             window.posed = []; window.toRobot = (id, m) => { posed.push([id === frame.id, m]); tell(id, m); }; }"""
+        """() => {
+          const frame = document.querySelector('iframe.studio-robot'), tell = window.toRobot;
+          window.posed = [];
+          window.toRobot = (id, m) => { posed.push([id === frame.id, m]); tell(id, m); };
+        }"""
     )
     line = page.locator(".timeline-active")
     line.scroll_into_view_if_needed()
@@ -287,6 +290,7 @@ def test_what_cannot_be_read_is_told_in_place(
     assert [c for c in w.complaints if "400" not in c] == []
 
 
+@pytest.mark.slow
 def test_logs_of_other_names_are_each_taken_by_their_own_guess(
     window: Callable[..., Window], studio: Served, measured: dict[str, np.ndarray], tmp_path: Path
 ) -> None:
@@ -309,6 +313,7 @@ def test_logs_of_other_names_are_each_taken_by_their_own_guess(
     )
 
 
+@pytest.mark.slow
 def test_many_files_at_once_and_a_robot_to_start_from(
     window: Callable[..., Window], measured: dict[str, np.ndarray], tmp_path: Path
 ) -> None:
