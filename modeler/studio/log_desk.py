@@ -261,7 +261,8 @@ class Desk:
         try:
             for own, one in chosen.items():
                 as_mapped(np.empty(0), "", one, own, joints)  # says which units cannot be
-            words = (*screen.settings, *words_of(chosen, screen.under(self.guess), joints))
+            words = words_of(chosen, screen.under(self.guess), joints)
+            words = (*screen.kept(self.guess), *words)
             changed = self.studio.change(mapping=words)
         except ModelerError as error:
             self.studio.show_error(str(error))
