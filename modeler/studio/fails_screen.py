@@ -85,6 +85,11 @@ class _Fails:
 
     async def draw(self) -> None:
         """Verdict, torques, map, residual."""
+        with ui.column().classes("w-full gap-4") as self.body:
+            await self._parts()
+        await self._joint_drawn()
+
+    async def _parts(self) -> None:
         with ui.row().classes("w-full fails-top"):
             with part("Verdict").classes("fails-said"):
                 self._verdict()
@@ -104,7 +109,6 @@ class _Fails:
                 self.channel = ui.select(choice, value=self.kept["channel"], label="residual over")
                 self.channel.classes("w-64").on_value_change(self._channel_chosen)
                 self.residual = ui.column().classes("w-full")
-        await self._joint_drawn()
 
     async def _robot(self) -> RobotFrame | None:
         """In 3-D, its joints to be clicked; None where it cannot be drawn."""
@@ -135,7 +139,11 @@ class _Fails:
         rows = zip(self.found.joints, self.found.errors, self.found.sentences, strict=True)
         with ui.element("div").classes("fails-verdict").props("role=listbox aria-label=joints"):
             for joint, error, sentence in rows:
-                row = ui.element("button").classes("fails-joint").props("type=button role=option")
+                row = (
+                    ui.element("button")
+                    .classes("fails-joint")
+                    .props(f'type=button role=option data-rows="{joint}"')
+                )
                 row.on("click", lambda _, name=joint: self._pick(name))
                 self.rows[joint] = row
                 with row:
@@ -169,6 +177,7 @@ class _Fails:
             here = joint == self.kept["joint"]
             row.classes(add="fails-here" if here else "", remove="" if here else "fails-here")
             row.props(f"aria-selected={'true' if here else 'false'}")
+        self.body.props(f'data-rows="{self.kept["joint"]}"')  # lit wherever the mouse is
         if self.robot is not None:
             self.robot.light([self.kept["joint"]])
         await self._torques_drawn()

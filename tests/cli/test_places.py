@@ -52,6 +52,7 @@ READING = {  # what each command reads; outputs come after it
     "show": "show arm.toml",
     "completion": "completion bash",
     "fleet": "fleet arm.toml a.parquet b.csv@0:4 --map names.toml",
+    "studio": "studio folder",
 }
 
 
