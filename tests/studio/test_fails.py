@@ -11,7 +11,8 @@ import pytest
 
 from modeler.api import load, simulate
 from modeler.core.builtin import builtin_text
-from modeler.robot import robot_from_text, with_parameters
+from modeler.robot import robot_from_text
+from modeler.robot.edit import with_parameters
 from modeler.studio.project import FOLDERS, Project, ProjectLog, Step, Stretch, Workspace
 from tests.studio.window import Served, Window, served
 
