@@ -2,7 +2,7 @@
 
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TypeVar
 
@@ -20,12 +20,12 @@ _TOKEN = re.compile(
 )
 
 
-@dataclass(frozen=True)
+@dataclass
 class _Array:
     """A TOML array: where it stands, its arrays, and where its other entries stand."""
 
     start: int
-    end: int
+    end: int = 0
     arrays: "list[_Array]" = field(default_factory=list)
     cells: list[tuple[int, int]] = field(default_factory=list)
 
@@ -73,13 +73,11 @@ def with_cell(text: str, row: int, column: int, cell: str) -> str:
     start, end = _at(array.cells, column, "column")
     name = "" if row < 0 else _bare(text[slice(*_at(columns.cells, column, "column"))])
     new = quoted_cell(cell, row < 0 or name in _names(text))
-    behind = re.match(r",?[ ]*", text[end:])
-    comma, room = (behind[0][:1] if behind else ""), len(behind[0]) - 1 if behind else 0
-    if comma == ",":
-        last = column == len(array.cells) - 1
-        pad = " " * max(0 if last else 1, room + (end - start) - len(new))
-        after = end + 1 + room
-        return _sure(text, text[:start] + new + "," + pad + text[after:])
+    behind = re.match(r",( *)", text[end:])
+    if behind is not None:
+        width = end - start + len(behind[1])
+        new = f"{new},{' ' * max(1, width - len(new))}"
+        end += behind.end()
     return _sure(text, text[:start] + new + text[end:])
 
 
@@ -147,12 +145,10 @@ def with_columns(text: str, columns: Sequence[str], rows: Sequence[Sequence[str]
     ]
     head, *lines = aligned([[f'"{c}"' for c in columns], *quoted])
     body = "".join(f"          [{line}],\n" for line in lines)
-    parts = sorted(
-        [(columns_.start, columns_.end, f"[{head}]"), (rows_.start, rows_.end, f"[\n{body}]")],
-        reverse=True,
-    )
-    for start, end, new in parts:
-        text = text[:start] + new + text[end:]
+    for array, new in sorted(
+        ((columns_, f"[{head}]"), (rows_, f"[\n{body}]")), key=lambda one: -one[0].start
+    ):
+        text = text[: array.start] + new + text[array.end :]
     return _sure("", text)
 
 
@@ -252,31 +248,19 @@ def _table(text: str) -> tuple[_Array, _Array]:
 
 def _array(text: str, start: int) -> _Array | None:
     """The array that begins there; None if it does not end."""
-    tokens = _tokens(text, start + 1)
-    return _rest(tokens, _Array(start, start))
-
-
-def _rest(tokens: "Iterator[re.Match[str]]", own: _Array) -> _Array | None:
-    for token in tokens:
+    open_: list[_Array] = []
+    for token in _TOKEN.finditer(text, start):
         if token.lastgroup == "open":
-            inner = _rest(tokens, _Array(token.start(), token.start()))
-            if inner is None:
-                return None
-            own.arrays.append(inner)
-        elif token.lastgroup == "close":
-            return _Array(own.start, token.end(), own.arrays, own.cells)
+            open_.append(_Array(token.start()))
         elif token.lastgroup == "cell":
-            own.cells.append(token.span())
+            open_[-1].cells.append(token.span())
+        elif token.lastgroup == "close":
+            own = open_.pop()
+            own.end = token.end()
+            if not open_:
+                return own
+            open_[-1].arrays.append(own)
     return None
-
-
-def _tokens(text: str, start: int) -> "Iterator[re.Match[str]]":
-    while start < len(text):
-        token = _TOKEN.match(text, start)
-        if token is None:
-            return
-        start = token.end()
-        yield token
 
 
 def _at(items: "Sequence[_Entry]", number: int, what: str) -> "_Entry":

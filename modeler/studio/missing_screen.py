@@ -2,7 +2,7 @@
 
 import contextlib
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -65,7 +65,7 @@ async def _diagnosis(studio: Studio, step: Step) -> None:
         pictures = {p.name: p for p in pictures_from_json(studio.folder / step.pictures)}
     with elements.part(f"Verdict: {found['verdict']}"):
         elements.told(found["sentences"] if not every else found["sentences"][:1])
-        elements.doubt_lines(found["data"])
+        elements.doubt_lines(found["data"] if every else ())  # else the sentences say it
         if every:
             elements.folded("In the words of the command", found["sentences"])
         else:
@@ -77,7 +77,7 @@ async def _diagnosis(studio: Studio, step: Step) -> None:
     with elements.part("What else"):
         if any(one["status"] != "perhaps" for one in every):
             every_one = partial(commands.add, project, "auto", None)
-            then = _to_the_fall(studio)
+            then = partial(_taken, studio)
             elements.run_button(studio, "Add all that is named", every_one, then, small=True)
         rivals = [(_at(rival), percent(rival["gain"])) for rival in found["rivals"]]
         blind = [(_at(one), _words(one["effect"], "look_alikes")) for one in found["blind_spots"]]
@@ -116,20 +116,19 @@ async def _card(
 
 
 def _evidence(pictures: Sequence[Picture], unfolded: bool) -> None:
-    """Of the first effect at once, of others when they are asked for."""
+    """Of the first effect at once, of others when they are asked for: closed they have no size."""
+    with ui.expansion("Evidence", value=unfolded).classes("w-full studio-folded") as folded:
+        inside = ui.column().classes("w-full")
+
+    def opened() -> None:
+        inside.clear()
+        with inside:
+            for picture in pictures:
+                figures.draw(picture)
+
+    folded.on("show", opened)
     if unfolded:
-        for picture in pictures:
-            figures.draw(picture)
-    elif pictures:
-        with ui.expansion("Evidence").classes("w-full studio-folded") as folded:
-            inside = ui.column().classes("w-full")
-
-        def opened() -> None:
-            inside.clear()
-            with inside:
-                _evidence(pictures, unfolded=True)
-
-        folded.on("show", opened)
+        opened()
 
 
 def _value(one: Found, name: str, value: float | None) -> str:
@@ -153,10 +152,10 @@ def _deeds(studio: Studio, effect: str, joint: str | None) -> None:
     ready = tried(studio.project, effect, joint)
     if ready is None:
         elements.run_button(studio, "Preview", asked, current=False, small=True)
-        elements.run_button(studio, "Add", asked, _to_the_fall(studio), small=True)
+        elements.run_button(studio, "Add", asked, partial(_taken, studio), small=True)
     else:
         with ui.row().classes("items-center no-wrap w-full"):
-            button = ui.button("Add", on_click=lambda: _taken(studio, ready.number))
+            button = ui.button("Add", on_click=lambda: _taken(studio, ready))
             elements.busy_with(studio, button.props("no-caps unelevated"))
             elements.command_line(ready.words)
     with ui.row():
@@ -166,10 +165,6 @@ def _deeds(studio: Studio, effect: str, joint: str | None) -> None:
             elements.busy_with(studio, button.props("no-caps flat dense icon=block"))
 
 
-def _to_the_fall(studio: Studio) -> Callable[[Step], None]:
-    return lambda step: studio.go("fall")
-
-
 def tried(project: Project, effect: str, joint: str | None) -> Step | None:
     """The step that has added an effect to the current model, as it would be added now."""
     asked = commands.add(project, effect, joint)
@@ -177,8 +172,9 @@ def tried(project: Project, effect: str, joint: str | None) -> Step | None:
     return next((step for step in reversed(own) if commands.as_it_was(asked, step)), None)
 
 
-def _taken(studio: Studio, number: int) -> None:
-    if studio.change(current=number):
+def _taken(studio: Studio, step: Step) -> None:
+    """The model of a step is the current one, and one sees the error fall."""
+    if studio.project.current == step.number or studio.change(current=step.number):
         studio.go("fall")
 
 
@@ -265,7 +261,7 @@ def _by_hand(studio: Studio) -> None:
             own, place = chosen["effect"], chosen["joint"]
             return f"{own}@{place}" if place else own
 
-        renew = elements.run_button(studio, "Add it", asked, _to_the_fall(studio), small=True)
+        renew = elements.run_button(studio, "Add it", asked, partial(_taken, studio), small=True)
 
         def changed() -> None:
             chosen["effect"], chosen["joint"] = effect.value or "viscous", joint.value or ""

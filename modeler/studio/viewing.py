@@ -134,10 +134,14 @@ def log_facts(place: str, words: Sequence[str] = (), robot: str = "") -> LogFact
         words: of the mapping, as of `--map`.
         robot: robot file, whose [log] lies under them.
     """
-    log = _log(place, words, robot)
-    names = tuple(log.values)
-    ends = float(log.time[0]), float(log.time[-1])
-    return LogFacts(log.rows, *ends, names, log.units, log.source is not None)
+
+    def look() -> LogFacts:
+        log = _log(place, words, robot)
+        names, ends = tuple(log.values), (float(log.time[0]), float(log.time[-1]))
+        return LogFacts(log.rows, *ends, names, log.units, log.source is not None)
+
+    key = (_state(place), tuple(words), robot and _state(robot))
+    return _kept("facts", key, look, 200)
 
 
 def log_window(
@@ -217,13 +221,13 @@ def log_guess(place: str, robot: str = "") -> LogGuess:
             if column.numeric
         }
         count = 1 if seen.positions is None else len(seen.positions.names)
-        found, ranged = guess_from(seen.suggested, seen.plain, joints or anybody(count), columns)
+        found, ranged = guess_from(seen.suggested, joints or anybody(count), columns)
         clock = next((part for part in seen.streams if part.clock), None)
         alike = [part.kind for part in seen.streams].count(clock.kind) > 1 if clock else False
         topic = clock.name if clock and alike else ""
         return LogGuess(columns, found, ranged, count, topic, () if part else seen.doubts)
 
-    return _kept("guess", (_state(place), robot and _state(robot)), look, 60)
+    return _kept("guess", (_state(place), robot and _state(robot)), look, 200)
 
 
 def _rows(log: _Log, start: float, end: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:

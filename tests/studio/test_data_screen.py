@@ -94,7 +94,7 @@ def field(w: Window, label: str) -> Any:
 
 def until(w: Window, served_: Served, holds: Callable[[Any], bool]) -> Any:
     """The project, as soon as its file says so."""
-    for _ in range(200):
+    for _ in range(1200):
         if holds(served_.project):
             return served_.project
         w.page.wait_for_timeout(50)
@@ -150,7 +150,7 @@ def test_three_formats_from_the_drop_to_the_fit(
     until(w, studio, lambda p: "q2=Winkel_1:deg" in p.mapping)
     page.locator(".mapping-chip", has_text="Winkel_2").drag_to(page.locator("[data-own=q2]"))
     until(w, studio, lambda p: "q2=Winkel_2:deg" in p.mapping)
-    field(w, "unit of q1").click()
+    page.locator(".mapping-all").first.click()
     page.get_by_role("option", name="deg", exact=True).click()
     until(w, studio, lambda p: p.mapping == found.mapping)
 

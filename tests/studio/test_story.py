@@ -160,6 +160,19 @@ def values(model: Path) -> dict[str, float]:
     return {one["name"]: one["value"] for one in fit["parameters"]}
 
 
+def test_a_result_that_is_gone_is_told_in_place(studio, seat):
+    step = studio.project.path()[-1]
+    place, aside = (studio.folder / f"{step.result}{end}" for end in ("", ".aside"))
+    place.rename(aside)
+    try:
+        seat.page.get_by_role("button", name="3  Fit").click()
+        seat.sees(f"{step.result}: cannot be read (No such file or directory); put the file back")
+    finally:
+        aside.rename(place)
+    seat.page.get_by_role("button", name="3  Fit").click()
+    seat.sees("What it is worth")
+
+
 def test_no_address_but_that_of_what_was_made(studio, seat):
     for path in ("/download/x", "/download/..%2f..%2frobot.toml", "/download/robot.toml"):
         answer = seat.page.request.get(studio.root + path)
