@@ -9,7 +9,7 @@ from nicegui.elements.plotly import Plotly
 from modeler.core.errors import ModelerError
 from modeler.core.table import percent
 from modeler.studio import commands, figures
-from modeler.studio.elements import go_button, head, light, part, run_button
+from modeler.studio.elements import go_button, head, light, part, run_button, told
 from modeler.studio.robot_frame import RobotFrame, robot_frame
 from modeler.studio.studio import Studio
 from modeler.studio.timeline import Timeline
@@ -60,7 +60,9 @@ async def draw(studio: Studio) -> None:
         found: Verdict = await studio.view("verdict", project.model, logs)
     finally:
         waiting.delete()
-    await _Fails(studio, project.model, logs, found, kept).draw()
+    if found.joints:
+        await _Fails(studio, project.model, logs, found, kept).draw()
+    told(found.unjudged)
 
 
 def class_of(error: float) -> Any:
