@@ -667,7 +667,7 @@ _COMPLETION = Command(
 )  # fmt: skip
 
 FAMILIES: dict[str, tuple[Command, ...]] = {
-    "in the browser": (_STUDIO,),
+    "workbench": (_STUDIO,),
     "describe": (_NEW, _CONVERT, _SHOW, _HOME, _DERIVE),
     "measure": (_EXCITE, _SIMULATE, _LOG),
     "identify": (_FIT, _COMPARE),

@@ -32,15 +32,15 @@ def run_studio(args: argparse.Namespace) -> None:
     allowed = [Path.cwd(), *(Path(place).resolve() for place in args.allow)]
 
     def told(address: str, once: str) -> None:
-        say(f"studio of {folder}: {address}")
-        port = urlsplit(address).port
-        say(f"over SSH: ssh -L {port}:127.0.0.1:{port} HOST, and the same address; Ctrl-C ends it")
-        flush_stdout()
         before = os.umask(0o077)  # who has the token is let in
         try:
             args.tell({"address": address, "folder": str(folder), "pid": os.getpid()})
         finally:
             os.umask(before)
+        say(f"studio of {folder}: {address}")
+        port = urlsplit(address).port
+        say(f"over SSH: ssh -L {port}:127.0.0.1:{port} HOST, and the same address; Ctrl-C ends it")
+        flush_stdout()
         if not args.no_open:
             threading.Thread(target=_open, args=[once], daemon=True).start()
 
@@ -51,8 +51,8 @@ def _open(address: str) -> None:
     """In the browser, where there is one with windows."""
     import webbrowser
 
-    far = "SSH_CONNECTION" in os.environ
-    if far and not {"DISPLAY", "WAYLAND_DISPLAY"} & set(os.environ):
+    far, screens = "SSH_CONNECTION", ("DISPLAY", "WAYLAND_DISPLAY")
+    if far in os.environ and not any(name in os.environ for name in screens):
         return  # what it would find is a browser of this terminal
     if not webbrowser.open(address):
         note("no browser was found; open the address in one")

@@ -22,6 +22,7 @@ from .inspect import (
 from .log_table import LogTable as LogTable
 from .mapping import (
     LogMap as LogMap,
+    MappedColumn as MappedColumn,
     find_unit as find_unit,
     map_from_table as map_from_table,
     map_from_words as map_from_words,

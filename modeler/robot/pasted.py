@@ -8,19 +8,17 @@ headings: letters with or without an index (`alpha_i-1`, `a(j)`, Greek or spelt)
 import csv
 import io
 import re
-import string
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from modeler.core.builtin import template_text
 from modeler.core.errors import RobotError
 from modeler.core.expression import FUNCTIONS
 from modeler.core.toml_cells import listed
-from modeler.robot.conventions import ANGLES, CONVENTIONS, STEPS
-from modeler.robot.robot_text import columns_and_rows
-from modeler.robot.start import PLAIN
-from modeler.robot.table_text import names_in, quoted_cell, with_columns
+from modeler.robot.conventions import ANGLES, CONVENTIONS
+from modeler.robot.edit import with_limits
+from modeler.robot.start import template_robot
+from modeler.robot.table_text import with_table
 
 _FULL_TURN = 6.3  # rad: a larger angle is in degrees
 _LONGEST = 20.0  # m: a larger length is in mm
@@ -34,18 +32,10 @@ _SIGNS = str.maketrans({
     **{chr(0x2080 + k): str(k) for k in range(10)},
 })  # fmt: skip
 _WORDS = {
-    "j": "j i k joint link axis n no nr row frame # gelenk achse",
-    "a": "a ant antecedent",
-    "parent": "parent",
-    "mu": "mu",
-    "sigma": "sigma type kind",
-    "gamma": "gamma",
-    "b": "b",
-    "alpha": "alpha twist",
-    "d": "d",
-    "theta": "theta th angle",
-    "r": "r",
-}
+    "j": "j i k joint link axis n no nr row frame # gelenk achse", "a": "a ant antecedent",
+    "parent": "parent", "mu": "mu", "sigma": "sigma type kind", "gamma": "gamma", "b": "b",
+    "alpha": "alpha twist", "d": "d", "theta": "theta th angle", "r": "r",
+}  # fmt: skip
 _LETTER = {word: letter for letter, words in _WORDS.items() for word in words.split()}
 _UNITS = {
     "deg": "deg", "degree": "deg", "degrees": "deg", "grad": "deg", "\u00b0": "deg", "rad": "rad",
@@ -63,7 +53,8 @@ _GUESSED = {
     "classical": {4: "theta d a alpha", 5: "j theta d a alpha", 6: "j sigma theta d a alpha"},
 }  # fmt: skip
 """Columns of a table without headings, by how many it has."""
-_NAME = re.compile(r"[A-Za-z]\w*")
+_GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
+_UNIT = re.compile(r"\d\s*(deg|mm|cm|m|in)\b|pi\b")
 
 
 @dataclass(frozen=True)
@@ -130,8 +121,14 @@ def pasted_table(text: str, convention: str = "") -> PastedTable:
                 f"headings among {listed(CONVENTIONS[convention].values())}"
             )
         notes.append(f"no headings: taken as {' '.join(columns)}")
-    columns = [_own_letter(column, convention) for column in columns]
-    _check(columns, body, convention)
+    if convention == "khalil":
+        columns = ["a" if column == "parent" else column for column in columns]
+    allowed = [*CONVENTIONS[convention].values()]
+    if wrong := [c for c in columns if c not in allowed or columns.count(c) > 1]:
+        raise RobotError(
+            f"pasted table, headings: got {listed(columns)}; expected each once, of a table of "
+            f"convention {convention}: {listed(allowed)}; {wrong[0]} is wrong or stands twice"
+        )
     return _table(columns, units, body, convention, notes, named)
 
 
@@ -178,28 +175,6 @@ def _whose(heads: Sequence[tuple[str, str, str]], body: Sequence[Sequence[str]])
     return "classical" if letters.index("theta") < letters.index("alpha") else "craig"
 
 
-def _own_letter(column: str, convention: str) -> str:
-    """`parent` of Khalil's is a."""
-    return "a" if convention == "khalil" and column == "parent" else column
-
-
-def _check(columns: Sequence[str], body: Sequence[Sequence[str]], convention: str) -> None:
-    allowed = [*CONVENTIONS[convention].values()]
-    for column in columns:
-        if column not in allowed:
-            raise RobotError(
-                f"pasted table, headings: got {column}; expected letters of a table of "
-                f"convention {convention}: {listed(allowed)}"
-            )
-        if columns.count(column) > 1:
-            raise RobotError(f"pasted table, headings: {column} stands twice; remove one")
-    for number, row in enumerate(body, start=1):
-        if len(row) != len(columns):
-            raise RobotError(
-                f"pasted table, line {number}: got {len(row)} cells, expected {len(columns)}"
-            )
-
-
 def _table(
     columns: list[str], units: list[str], body: Sequence[Sequence[str]], convention: str,
     notes: list[str], headed: bool,
@@ -216,28 +191,19 @@ def _table(
             unit_of[kind] = _unit_by_size(kind, CONVENTIONS[convention][kind], rows, notes)
     for row in rows:
         _with_variable(row)
-        for kind in _GEOMETRY:
-            if kind in row:
-                row[kind] = _measured(row[kind], unit_of.get(kind, ""), row["j"])
-    used = [c for c in CONVENTIONS[convention] if c in ("j", *kinds) or _needed(c, rows)]
-    cells = [tuple(row.get(column) or _default(column, row) for column in used) for row in rows]
-    symbols = _symbols(cells, [row["j"] for row in rows])
-    letters = tuple(CONVENTIONS[convention][column] for column in used)
-    return PastedTable(convention, letters, tuple(cells), symbols, tuple(notes), headed)
-
-
-_GEOMETRY = ("gamma", "b", "alpha", "d", "theta", "r")
-
-
-def _needed(column: str, rows: Sequence[dict[str, str]]) -> bool:
-    """A column that was not pasted, but that a row uses."""
-    return any(row.get(column, "") not in ("", "0") for row in rows)
-
-
-def _default(column: str, row: dict[str, str]) -> str:
-    if column == "mu":
-        return "0" if row.get("sigma") == "2" else "1"
-    return "0"
+        row |= {k: _measured(row[k], unit_of.get(k, "")) for k in _GEOMETRY if k in row}
+        row["mu"] = row.get("mu") or ("0" if row["sigma"] == "2" else "1")
+    letters = CONVENTIONS[convention]
+    used = ["j", *(c for c in letters if c in kinds or any(row.get(c, "0") != "0" for row in rows))]
+    used = [c for c in dict.fromkeys(used) if c != "mu" or "mu" in kinds]
+    cells = tuple(tuple(row.get(column) or "0" for column in used) for row in rows)
+    names = {row["j"] for row in rows}
+    known = {*FUNCTIONS, "pi", "deg", "mm", "cm", "m", "in", *names, *(f"q{n}" for n in names)}
+    found = (n for row in cells for cell in row[1:] for n in re.findall(r"[A-Za-z]\w*", cell))
+    symbols = tuple(dict.fromkeys(name for name in found if name not in known))
+    return PastedTable(
+        convention, tuple(letters[c] for c in used), cells, symbols, tuple(notes), headed
+    )
 
 
 def _plain(cell: str) -> str:
@@ -276,10 +242,10 @@ def _with_variable(row: dict[str, str]) -> None:
 def _unit_by_size(kind: str, letter: str, rows: Sequence[dict[str, str]], notes: list[str]) -> str:
     """The unit of a column without one, where its numbers are too large for rad or m."""
     cells = [row.get(kind, "") for row in rows]
-    if any(re.search(r"\d\s*(deg|mm|cm|m|in)\b|pi", cell) for cell in cells):
+    if any(_UNIT.search(cell) for cell in cells):
         return ""
-    sizes = [abs(float(n.replace(" ", ""))) for cell in cells for n in _numbers(cell)]
-    most = max(sizes, default=0.0)
+    numbers = r"(?<![\w.])\d+(?:\.\d*)?(?:[eE][+-]?\d+)?(?![\w.])"
+    most = max((float(n) for cell in cells for n in re.findall(numbers, cell)), default=0.0)
     if kind in ANGLES and most > _FULL_TURN:
         notes.append(f"column {letter}: taken in degrees, for {most:g} rad is more than a turn")
         return "deg"
@@ -289,13 +255,9 @@ def _unit_by_size(kind: str, letter: str, rows: Sequence[dict[str, str]], notes:
     return ""
 
 
-def _numbers(cell: str) -> list[str]:
-    return re.findall(r"(?<![\w.])[+-]?\s*\d+(?:\.\d*)?(?:[eE][+-]?\d+)?(?![\w.])", cell)
-
-
-def _measured(cell: str, unit: str, name: str) -> str:
+def _measured(cell: str, unit: str) -> str:
     """The numbers of a cell with the unit of their column."""
-    if not cell or unit in ("", "rad", "m") or re.search(r"\d\s*(deg|mm|cm|m|in)\b|pi\b", cell):
+    if unit in ("", "rad", "m") or _UNIT.search(cell):
         return cell
 
     def with_unit(found: "re.Match[str]") -> str:
@@ -305,13 +267,6 @@ def _measured(cell: str, unit: str, name: str) -> str:
     return re.sub(terms, with_unit, cell)
 
 
-def _symbols(rows: Sequence[Sequence[str]], names: Sequence[str]) -> tuple[str, ...]:
-    """Names that are neither variables, functions nor units."""
-    known = {*FUNCTIONS, "pi", "deg", "mm", "cm", "m", "in", *(f"q{name}" for name in names)}
-    used = (name for row in rows for cell in row[1:] for name in _NAME.findall(cell))
-    return tuple(dict.fromkeys(n for n in used if n not in known and n not in names))
-
-
 def pasted_robot(table: PastedTable, name: str) -> str:
     """A robot file with that table, which derives as it is.
 
@@ -319,23 +274,8 @@ def pasted_robot(table: PastedTable, name: str) -> str:
         table: pasted.
         name: of the robot.
     """
-    stated = f'convention = "{table.convention}"\n' if table.convention != "khalil" else ""
-    names = names_in(table.convention)
-    cells = [
-        [
-            quoted_cell(cell, column in names)
-            for cell, column in zip(row, table.columns, strict=True)
-        ]
-        for row in table.rows
-    ]
-    lines = columns_and_rows(table.columns, cells)
-    values = {
-        "name": name, "title": f"{name}, a table that was pasted",
-        "symbols": "\n".join(symbol_line(symbol) for symbol in table.symbols),
-        "table": stated + "\n".join(lines).rstrip(), "limits": "",
-        "step": STEPS[table.convention].translate(PLAIN).replace("; ", "\n# "),
-    }  # fmt: skip
-    return string.Template(template_text("serial")).substitute(values)
+    begun = template_robot(name, joints="P", convention=table.convention)
+    return with_pasted(with_limits(begun, "1", ("",) * 4), table)
 
 
 def symbol_line(name: str) -> str:
@@ -351,7 +291,7 @@ def with_pasted(text: str, table: PastedTable) -> str:
     Raises:
         RobotError: the file has no table that can be replaced.
     """
-    changed = with_columns(text, table.columns, table.rows, table.convention)
+    changed = with_table(text, table.columns, table.rows, table.convention)
     known = tomllib.loads(changed).get("symbols", {})
     missing = [symbol_line(name) for name in table.symbols if name not in known]
     if not missing:
@@ -366,9 +306,5 @@ def with_pasted(text: str, table: PastedTable) -> str:
 
 def pasted_cells(text: str) -> list[list[str]]:
     """A block of cells from the clipboard, for a part of a table: as they are, but readable."""
-    return [[_plain(cell) for cell in row] for row in _block(text.translate(_SIGNS))]
-
-
-def _block(text: str) -> list[list[str]]:
-    rows = csv.reader(io.StringIO(text.strip("\r\n")), delimiter="\t")
-    return [[" ".join(cell.split()) for cell in row] for row in rows]
+    lines = io.StringIO(text.translate(_SIGNS).strip("\r\n"))
+    return [[_plain(cell) for cell in row] for row in csv.reader(lines, delimiter="\t")]

@@ -22,8 +22,7 @@ _TITLES = {
     "parallelogram": "an arm with a parallelogram",
     "parallel": "a planar parallel robot of three legs",
 }
-PLAIN = str.maketrans({"\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta", "\u2192": "->"})
-"""Letters of books as a robot file has them."""
+_WORDS = str.maketrans({"\u03b1": "alpha", "\u03b3": "gamma", "\u03b8": "theta", "\u2192": "->"})
 _ALPHA = ("0", "-pi/2", "0", "pi/2", "-pi/2", "pi/2")  # shoulder, elbow, wrist
 
 
@@ -176,5 +175,5 @@ def _serial(kinds: str, convention: str) -> dict[str, str]:
     return {
         "symbols": "\n".join(symbols), "limits": "\n".join(limits),
         "table": f"{stated}columns = [{head}]\nrows = [\n{body}]",
-        "step": STEPS[convention].translate(PLAIN).replace("; ", "\n# "),
+        "step": STEPS[convention].translate(_WORDS).replace("; ", "\n# "),
     }  # fmt: skip

@@ -1,10 +1,9 @@
 """The screen "data": logs come in, are mapped, cut into stretches, looked at, and played."""
 
 import asyncio
-import dataclasses
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +13,11 @@ from nicegui.element import Element
 from modeler.core.builtin import LOG_ENDINGS
 from modeler.core.errors import ModelerError
 from modeler.core.files import read_text
+from modeler.core.json import entries
 from modeler.core.manifest import JointSpec
 from modeler.logs import map_from_words
-from modeler.studio import commands, timeline
-from modeler.studio.chooser import Chooser
+from modeler.studio import commands
+from modeler.studio.chooser import choose
 from modeler.studio.dropped import drop_zone
 from modeler.studio.elements import head, part
 from modeler.studio.log_desk import Desk
@@ -25,13 +25,19 @@ from modeler.studio.log_mapping import Choice, LogGuess, anybody, choices, said,
 from modeler.studio.places import size_text
 from modeler.studio.project import ProjectLog, Step
 from modeler.studio.studio import Studio
-from modeler.studio.timeline import Timeline
+from modeler.studio.timeline import ALL, Timeline, by_default, legend, told
 
 _QUIET = 0.5  # s without another file that comes, until the screen is drawn anew
 AUTO = "auto"
+_FORMATS = (
+    "CSV, text, Excel, Parquet, MAT, HDF5, NumPy, MCAP and ROS bags, with the names and units that "
+    "your logger wrote."
+)
+_SETTINGS = ("topic=", "rate=", "names=")
+_FIRST = "At first the last 30 % of one log is held out, of several logs the last one."
 
 
-@dataclass
+@dataclass(frozen=True)
 class Known:
     """A log as far as it could be read; else the line that says why not.
 
@@ -67,6 +73,7 @@ class DataScreen:
         joints: of the robot; as many as the logs have positions where there is none yet.
         stated: [log] of the robot file.
         logs: what is known of them, by file.
+        desk: of the log that is looked at.
     """
 
     def __init__(self, studio: Studio) -> None:
@@ -75,9 +82,7 @@ class DataScreen:
         self.stated: Mapping[str, Any] = {}
         self.logs: dict[str, Known] = {}
         self._rows: dict[str, Element] = {}
-        self._lines: dict[str, Timeline] = {}
-        self._detail: Element | None = None
-        self._desk: Desk | None = None
+        self.desk: Desk | None = None
         studio.kept["data"] = self
 
     @property
@@ -94,162 +99,161 @@ class DataScreen:
     async def draw(self) -> None:
         """Logs first, then the one that is looked at."""
         studio = self.studio
-        if studio.project.robot:
-            robot = self.path(studio.project.robot)
-            self.joints, self.stated = await studio.view("robot_logging", robot)
         head("Data", "Drop logs, say which column is which, and what is fitted and what held out.")
         with ui.row().classes("items-center w-full data-in"):
             label = "Drop logs here, several at once, or press +"
             drop_zone("logs", label, self._came, studio.show_error).classes("data-drop")
-            choose = ui.button("Choose where it lies", icon="folder_open")
-            choose.on_click(lambda: Chooser(studio, LOG_ENDINGS, self._came))
-            choose.props("no-caps outline")
+            pick = ui.button("Choose where it lies", icon="folder_open").props("no-caps outline")
+            pick.on_click(lambda: choose(studio, LOG_ENDINGS, self._came))
         if not studio.project.logs:
             background_tasks.create(studio.view("forget"), name="start the viewer")
-            ui.label(
-                "CSV, text, Excel, Parquet, MAT, HDF5, NumPy, MCAP and ROS bags, with the names "
-                "and units that your logger wrote."
-            ).classes("studio-soft")
+            ui.label(_FORMATS).classes("studio-soft")
             return
         with part("Logs"):
             for log in studio.project.logs:
                 with ui.element("div").classes("data-log") as self._rows[log.file]:
                     ui.label(log.file)
                     ui.label("is read").classes("studio-soft")
-            with ui.row().classes("items-center gap-6"):
-                timeline.legend()
-                ui.label(
-                    "At first the last 30 % of one log is held out, of several logs the last one."
-                ).classes("studio-soft")
+            with ui.row().classes("items-center gap-4"):
+                legend()
+                ui.label(_FIRST).classes("studio-soft")
         self._detail = ui.column().classes("w-full gap-4")
-        for log in studio.project.logs:
-            await self._learn(log.file)
-            if not self.live:
-                return
-        self._begin()
-        for log in studio.project.logs:
-            await self._read(log.file)
-            if not self.live:
-                return
-        self._roles()
+        if studio.project.robot:
+            robot = self.path(studio.project.robot)
+            self.joints, self.stated = await studio.view("robot_logging", robot)
+        for step in (self._learn, self._read):
+            for log in studio.project.logs:
+                await step(log.file)
+                if not self.live:
+                    return
+            self._settle()
         for log in studio.project.logs:
             self.row(log.file)
         readable = [file for file, known in self.logs.items() if not known.error]
-        if studio.kept.get("log") not in readable:
-            studio.kept["log"] = readable[0] if readable else ""
-        if studio.kept["log"]:
-            await self.open(studio.kept["log"])
-            background_tasks.create(self._check(), name="look at logs")
+        if readable:
+            await self.open(
+                studio.kept["log"] if studio.kept.get("log") in readable else readable[0]
+            )
+            self.look()
 
     # What is known of logs.
 
     async def _learn(self, file: str) -> None:
         """Looks at the columns of a log."""
-        robot = self.studio.project.robot
+        robot, place = self.studio.project.robot, self.path(file)
         try:
-            path = Path(self.path(file))
-            guess = await self.studio.view("log_guess", str(path), robot and self.path(robot))
-            self.logs[file] = Known(guess, size=path.stat().st_size)
+            guess = await self.studio.view("log_guess", place, robot and self.path(robot))
+            self.logs[file] = Known(guess, size=Path(place).stat().st_size)
             if not robot:
                 self.joints = anybody(max(len(self.joints), guess.joints))
-        except ModelerError as error:
-            self.logs[file] = Known(error=str(error))
-        except OSError as error:
-            why = f"cannot be read ({error.strerror}); put it back, or take it off the list"
-            self.logs[file] = Known(error=f"{file}: {why}")
-
-    async def _read(self, file: str) -> None:
-        """Reads a log, unless it is known as it is now."""
-        known = self.logs[file]
-        if known.guess is None:
-            return
-        memory: dict[Any, Known] = self.studio.kept.setdefault("known", {})
-        try:
-            clock = self._clock(known.guess)
-            path = Path(self.path(file))
-            key = (file, path.stat().st_mtime_ns, known.size, clock)
-            if key not in memory:
-                facts = await self.studio.view("log_facts", str(path), clock)
-                ends = facts.start, facts.end
-                memory[key] = Known(known.guess, clock, facts.rows, ends, facts.units, known.size)
-            self.logs[file] = dataclasses.replace(memory[key], guess=known.guess)
         except (ModelerError, OSError) as error:
             self.logs[file] = Known(error=str(error))
 
-    def _clock(self, guess: LogGuess) -> tuple[str, ...]:
-        """Words that say what the time is, whatever the other columns are."""
-        kept = [
-            word for word in self.studio.project.mapping if word.startswith(("topic=", "rate="))
+    async def _read(self, file: str) -> None:
+        """Reads its time, as the mapping says it."""
+        known = self.logs[file]
+        if known.guess is None:
+            return
+        try:
+            time = self.chosen(known.guess).get("time", Choice("time"))
+            own = words_of({"time": time}, {"time": Choice("time")}, self.joints)
+            kept = (word for word in self.studio.project.mapping if word.startswith(_SETTINGS))
+            clock = (*kept, *own) if time.column in known.guess.columns else tuple(kept)
+            facts = await self.studio.view("log_facts", self.path(file), clock)
+            found = {"ends": (facts.start, facts.end), **entries(facts, "rows units")}
+            self.logs[file] = replace(known, clock=clock, **found)
+        except ModelerError as error:
+            self.logs[file] = Known(error=str(error))
+
+    def kept(self, guess: LogGuess) -> tuple[str, ...]:
+        """Words of the mapping that are about no column, or about one of other logs."""
+        words = self.studio.project.mapping
+        said = {word: map_from_words([word]).entries(self.joints).values() for word in words}
+        far = [
+            w for w, own in said.items() if not any({*e.columns} & {*guess.columns} for e in own)
         ]
-        time = self.chosen(guess).get("time", Choice("time"))
-        own = words_of({"time": time}, {"time": Choice("time")}, self.joints)
-        return (*kept, *own) if time.column in guess.columns else tuple(kept)
+        return tuple(w for w in far if AUTO in words or w.startswith(_SETTINGS))
+
+    def guess(self, file: str) -> LogGuess:
+        """Of a log that can be read."""
+        guess = self.logs[file].guess
+        assert guess is not None
+        return guess
 
     def chosen(self, guess: LogGuess) -> dict[str, Choice]:
         """What the columns of a log are taken as."""
         words = self.studio.project.mapping
-        found = choices(
-            said(words, self.stated, self.studio.project.robot), self.joints, guess.columns
-        )
-        if AUTO in words:
-            stated = map_from_words(words).entries(self.joints)
-            found |= {own: one for own, one in guess.choices.items() if own not in stated}
-        return found
+        found = self._choices(words, guess)
+        if AUTO not in words:
+            return found
+        there = map_from_words(words).entries(self.joints)  # those of other logs stay out
+        own = {name for name, entry in there.items() if {*entry.columns} & {*guess.columns}}
+        return self.under(guess) | {name: found[name] for name in own}
 
     def under(self, guess: LogGuess) -> dict[str, Choice]:
-        """The same without any words."""
-        return choices(said((), self.stated, self.studio.project.robot), self.joints, guess.columns)
+        """The same without words about columns."""
+        found = self._choices((), guess)
+        return {**found, **(guess.choices if AUTO in self.studio.project.mapping else {})}
 
-    def guessed(self, guess: LogGuess) -> tuple[str, ...]:
+    def _choices(self, words: tuple[str, ...], guess: LogGuess) -> dict[str, Choice]:
+        names = said(words, self.stated, self.studio.project.robot)
+        return choices(names, self.joints, guess.columns)
+
+    def _guessed(self, guess: LogGuess) -> tuple[str, ...]:
         """Words of what a log looks like."""
-        under = self.under(guess)
+        under = self._choices((), guess)
         topic = (f"topic={guess.topic}",) if guess.topic else ()
         return (*topic, *words_of({**under, **guess.choices}, under, self.joints))
 
-    def _begin(self) -> None:
-        """The mapping, while it is only a guess: one of all logs, or each by its own."""
-        project = self.studio.project
+    def is_guess(self, guess: LogGuess) -> bool:
+        """Whether a log is taken as what it looks like."""
+        own = self.studio.project.mapping in ((AUTO,), self._guessed(guess))
+        return own and bool(guess.choices)
+
+    def guess_each(self) -> None:
+        """Every log by its own guess."""
+        self.studio.change(redraw=True, mapping=(AUTO,))
+
+    def _settle(self) -> None:
+        """The mapping, while it is only a guess; roles of logs that came and can be read."""
+        project, ends = self.studio.project, {}
+        if self.studio.read_only:
+            return
         guesses = [known.guess for known in self.logs.values() if known.guess is not None]
         try:
-            every = dict.fromkeys(self.guessed(guess) for guess in guesses)
-        except ModelerError as error:
+            every = list(dict.fromkeys(map(self._guessed, guesses)))
+        except ModelerError as error:  # a name that no word can say
             self.studio.show_error(str(error))
-            return
-        if every and project.mapping in ((), (AUTO,), *every) and not self.studio.read_only:
-            mapping = next(iter(every)) if len(every) == 1 else (AUTO,)
-            if mapping != project.mapping:
-                self.studio.change(mapping=mapping)
-
-    def _roles(self) -> None:
-        """What logs that came are for."""
-        logs = self.studio.project.logs
-        ends = {file: known.ends for file, known in self.logs.items() if not known.error}
-        new = [log for log in logs if not (log.train or log.test) and log.file in ends]
-        if not new or self.studio.read_only:
-            return
-        old = tuple(log for log in logs if log.train or log.test)
-        if old == timeline.by_default(old, ends):
-            self.studio.change(logs=timeline.by_default(logs, ends))
-        else:
-            made = (timeline.all_training(log) if log in new else log for log in logs)
-            self.studio.change(logs=tuple(made))
+            every = []
+        mapping = every[0] if len(every) == 1 else (AUTO,)
+        if every and project.mapping in ((), (AUTO,), *every) and mapping != project.mapping:
+            self.studio.change(mapping=mapping)
+        ends = {file: known.ends for file, known in self.logs.items() if known.rows}
+        new = [log for log in project.logs if not (log.train or log.test) and log.file in ends]
+        if new:
+            old = tuple(log for log in project.logs if log.train or log.test)
+            usual = by_default(project.logs, ends)
+            if old != by_default(old, ends):
+                usual = tuple(
+                    replace(log, train=ALL) if log in new else log for log in project.logs
+                )
+            self.studio.change(logs=usual)
 
     # Logs come and go.
 
     def _came(self, files: list[str]) -> None:
         """Files that were dropped or chosen; many come one after the other, in any order."""
         kept = self.studio.kept
-        before = [log for log in self.studio.project.logs if log.file not in kept.get("coming", ())]
-        there = {log.file for log in before}
-        coming = sorted({*kept.get("coming", ()), *files} - there)
-        new = tuple(ProjectLog(file) for file in coming)
-        if not new or not self.studio.change(logs=(*before, *new)):
+        coming = kept.get("coming", ())
+        before = [log for log in self.studio.project.logs if log.file not in coming]
+        coming = tuple(sorted({*coming, *files} - {log.file for log in before}))
+        if not self.studio.change(logs=(*before, *map(ProjectLog, coming))):
             return
-        kept["coming"] = tuple(coming)
+        kept["coming"] = coming
 
         async def drawn() -> None:
             await asyncio.sleep(_QUIET)
-            if kept["coming"] == tuple(coming):
+            if kept["coming"] == coming:
                 kept["coming"] = ()
                 self.studio.redraw()
 
@@ -261,32 +265,27 @@ class DataScreen:
 
     def row(self, file: str) -> None:
         """One log in the list."""
-        log, known, place = self.log(file), self.logs[file], self._rows[file]
+        known, place, result = self.logs[file], self._rows[file], self.result(file)
         place.clear()
         with place:
-            name = ui.button(file, on_click=lambda: self.open(file)).props(
-                "flat dense no-caps align=left"
-            )
-            name.classes("data-name")
+            short = Path(file).name if Path(file).is_absolute() else file
+            name = ui.button(short, on_click=lambda: self.open(file)).tooltip(self.path(file))
+            name.props("flat dense no-caps align=left").classes("data-name")
             if known.error:
-                ui.label(known.error).classes("studio-error data-told").props("role=alert")
+                ui.label(known.error).classes("studio-error").props("role=alert")
             else:
-                seconds = known.ends[1] - known.ends[0]
-                rate = (known.rows - 1) / seconds if seconds > 0.0 else float("nan")
-                ui.label(
-                    f"{known.rows} rows, {rate:.4g} Hz, {seconds:.4g} s, {size_text(known.size)}"
-                ).classes("studio-soft data-facts")
-                line = self._lines[file] = Timeline(file, known.ends, active=False)
-                line.renew(log, self.result(file).get("marks", ()))
-                ui.label(timeline.told(log)).classes("data-told")
-                count = len(self.result(file).get("doubts", ()))
-                doubts = f"{count} doubt{'s' * (count > 1)}" if count else "no doubts"
-                doubts = doubts if self.checked(file) else ""
+                span = known.ends[1] - known.ends[0]
+                rate = f"{(known.rows - 1) / span:.4g} Hz" if span else "no time"
+                facts = f"{known.rows} rows, {rate}, {span:.4g} s, {size_text(known.size)}"
+                ui.label(facts).classes("studio-soft")
+                line = Timeline(file, known.ends, active=False)
+                line.renew(self.log(file), result.get("marks", ()))
+                ui.label(told(self.log(file)))
+                count = len(result.get("doubts", ()))
+                doubts = f"{count or 'no'} doubt{'s' * (count != 1)}" if result else ""
                 ui.label(doubts).classes("studio-soft")
-            off = ui.button(icon="close", on_click=lambda: self._remove(file)).props(
-                "flat dense round"
-            )
-            off.tooltip("takes it off the list; the file stays")
+            off = ui.button(icon="close", on_click=lambda: self._remove(file))
+            off.props("flat dense round").tooltip("takes it off the list; the file stays")
             off._props["aria-label"] = f"take {file} off the list"
 
     def log(self, file: str) -> ProjectLog:
@@ -301,70 +300,62 @@ class DataScreen:
 
     async def open(self, file: str) -> None:
         """Looks at a log."""
-        if self.logs[file].error or self._detail is None:
-            return
-        self.studio.kept["log"] = file
-        self._detail.clear()
-        with self._detail:
-            self._desk = Desk(self, file)
-            await self._desk.draw()
+        if not self.logs[file].error:
+            self.studio.kept["log"] = file
+            self._detail.clear()
+            with self._detail:
+                self.desk = desk = Desk(self, file)
+                await desk.draw()
 
     # What `modeler log` says.
 
-    def checked(self, file: str) -> Step | None:
+    def _checked(self, file: str) -> Step | None:
         """The last look at a log."""
         steps = self.studio.project.steps
         return next((s for s in reversed(steps) if s.kind == "log" and s.words[1] == file), None)
 
     def result(self, file: str) -> dict[str, Any]:
         """What it said; nothing before there is one."""
-        step = self.checked(file)
+        step = self._checked(file)
         try:
             return dict(json.loads(read_text(self.studio.folder / step.result))) if step else {}
         except (OSError, ValueError):
             return {}
 
-    async def _check(self) -> None:
+    def look(self) -> None:
         """Runs `modeler log` for logs that were never looked at, and for the one that is open."""
+        background_tasks.create(self._look(), name="look at logs")
+
+    async def _look(self) -> None:
         studio, hub = self.studio, self.studio.hub
-        failed: set[tuple[str, ...]] = studio.kept.setdefault("failed", set())
+        failed = studio.kept.setdefault("failed", set())
 
         def leave() -> None:  # nobody waits for this
             if not self.live and hub.running is not None and hub.gives_way:
                 hub.running.cancel()
 
         while self.live and hub.running is None and not studio.read_only:
-            wanted = [
-                commands.look(studio.project, file) for file in self.logs if self._unseen(file)
-            ]
-            left = [asked for asked in wanted if asked.words not in failed]
+            every = (commands.look(studio.project, file) for file in self.logs)
+            left = [a for a in every if a.words not in failed and self._unseen(a.words)]
             if not left:
                 return
-            asked = left[0]
             studio.listeners.append(leave)
             try:
-                step = await hub.run(asked, keep=False, aside=True)
+                step = await hub.run(left[0], keep=False, aside=True)
+                studio.change(steps=(*studio.project.steps, step))
             except ModelerError as error:
                 if str(error).endswith(": cancelled") or not self.live:
                     return
-                failed.add(asked.words)
+                failed.add(left[0].words)
                 studio.show_error(str(error))
-                continue
             finally:
                 studio.listeners.remove(leave)
-            studio.change(steps=(*studio.project.steps, step))
             if self.live:
-                self.row(asked.words[1])
-                if self._desk is not None and self._desk.file == asked.words[1]:
-                    self._desk.judged()
+                self.row(left[0].words[1])
+                if self.desk is not None and self.desk.file == left[0].words[1]:
+                    self.desk.judged()
 
-    def _unseen(self, file: str) -> bool:
-        if self.logs[file].error:
-            return False
-        step = self.checked(file)
-        stale = step is not None and step.words != commands.look(self.studio.project, file).words
-        return step is None or (stale and file == self.studio.kept.get("log"))
-
-    def look_again(self) -> None:
-        """After the mapping was changed."""
-        background_tasks.create(self._check(), name="look at logs")
+    def _unseen(self, words: tuple[str, ...]) -> bool:
+        file, step = words[1], self._checked(words[1])
+        stale = step is not None and step.words != words and file == self.studio.kept["log"]
+        return not self.logs[file].error and (step is None or stale)

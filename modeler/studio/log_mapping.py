@@ -1,6 +1,7 @@
 """Which column of a log is which quantity of ours: as menus show it, and as words of `--map`."""
 
 import dataclasses
+import re
 import tomllib
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
-from modeler.logs import LogMap, find_unit, map_from_table, map_from_words, si_unit
+from modeler.logs import LogMap, MappedColumn, find_unit, map_from_table, map_from_words, si_unit
 
 UNTOLD = "rev/COUNTS"
 """What a guess calls the unit of an encoder of which nobody said how many counts a turn are."""
@@ -33,7 +34,7 @@ KINDS: Mapping[str, str] = {
 }  # fmt: skip
 """What is known of joints, and what people call it; the first three always stand in the table."""
 
-_PLACES = ("{j}", "{n}", "{n-1}")
+_RANGED = "# by its range"  # as a suggested [log] says it
 
 
 @dataclass(frozen=True)
@@ -121,9 +122,7 @@ def choices(
         unit = "" if entry.unit is None else entry.unit.text
         if entry.scale != 1.0:
             unit = f"{entry.scale:.12g} {unit or units_of(own, joints)[0]}".rstrip()
-        column = there or entry.columns[0]
-        if column not in columns and column.endswith(f" [{UNTOLD}]"):
-            column = column.removesuffix(f" [{UNTOLD}]")
+        column = there or entry.columns[0].removesuffix(f" [{UNTOLD}]")
         found[own] = Choice(column, unit, int(entry.sign), entry.offset)
     return found
 
@@ -161,26 +160,18 @@ def _pattern(own: Mapping[str, Choice | None], joints: Sequence[JointSpec]) -> C
     first = own[joints[0].name] if joints else None
     if first is None or len(joints) < 2:
         return None
-    for mark in _PLACES:
-        label = joints[0].name if mark == "{j}" else "1" if mark == "{n}" else "0"
-        at = first.column.rfind(label)
-        if at < 0:
-            continue
-        column = first.column[:at] + mark + first.column[at + len(label) :]
-        try:
-            entry = map_from_words(
-                [_word("q<j>", dataclasses.replace(first, column=column), joints)]
-            )
-        except DataError:
-            return None
-        made = {k: e.columns[0] for k, e in entry.entries(joints).items()}
-        if all(
-            one is not None
-            and (one.unit, one.sign, one.offset) == (first.unit, first.sign, first.offset)
-            and made[f"q{name}"] == one.column
-            for name, one in own.items()
-        ):
-            return dataclasses.replace(first, column=column)
+    number = re.search(r"\d+(?!.*\d)", first.column)
+    marks = {"{j}": joints[0].name}
+    if number is not None:
+        marks["{n}" if number[0] == "1" else f"{{n{int(number[0]) - 1:+d}}}"] = number[0]
+    for mark, label in marks.items():
+        head, found, tail = first.column.rpartition(label)
+        pattern = dataclasses.replace(first, column=f"{head}{mark}{tail}")
+        entry = MappedColumn((pattern.column,))
+        made = [entry.of(joint.name, k, joint.name).columns[0] for k, joint in enumerate(joints)]
+        every = [dataclasses.replace(first, column=column) for column in made]
+        if found and every == list(own.values()):
+            return pattern
     return None
 
 
@@ -202,23 +193,15 @@ def _word(own: str, one: Choice, joints: Sequence[JointSpec]) -> str:
     return word
 
 
-def guess_from(text: str, plain: str, joints: Sequence[JointSpec], columns: Collection[str]) -> (
-    tuple[dict[str, Choice], tuple[str, ...]]
-):  # fmt: skip
+def guess_from(
+    text: str, joints: Sequence[JointSpec], columns: Collection[str]
+) -> tuple[dict[str, Choice], tuple[str, ...]]:
     """The choices of a suggested [log], and our names whose unit rests on a range alone."""
-    found, bare = (
-        choices(map_from_table(tomllib.loads(each)["log"], "guess"), joints, columns)
-        if each
-        else {}
-        for each in (text, plain)
-    )
-    marked = text.split("\n")
-    ranged = {line.split(" =")[0].strip('"') for line in marked if line.endswith("# by its range")}
-    of_range = tuple(
-        own for own in found
-        if own in ranged or f"{kind_of(own, joints)[0]}<j>" in ranged or found[own] != bare.get(own)
-    )  # fmt: skip
-    return {own: one for own, one in found.items() if one != Choice(own)}, of_range
+    names = map_from_table(tomllib.loads(text)["log"], "guess") if text else LogMap()
+    found = choices(names, joints, columns)
+    told = [line.split(" =")[0].strip('"') for line in text.split("\n") if _RANGED in line]
+    ranged = [o for o in found if o in told or f"{kind_of(o, joints)[0]}<j>" in told]
+    return {own: one for own, one in found.items() if one != Choice(own)}, tuple(ranged)
 
 
 def as_mapped(

@@ -12,7 +12,6 @@ from modeler.studio.log_mapping import KINDS, Choice, kind_of, units_of
 
 _MOST = 400  # columns that a menu lists; others are typed
 _SIGNS = {1: "+", -1: "\u2212"}
-_AS_STATED = "as the file says"
 
 
 class MappingTable:
@@ -73,27 +72,20 @@ class MappingTable:
         self._cells.clear()
         with self._place, ui.element("table").classes("studio-table mapping"):
             with ui.element("tr"):
-                for text in ("", *(KINDS[kind] for kind in kinds)):
-                    self._th(text)
-            with ui.element("tr"):
-                self._th("time")
-                with ui.element("td"):
-                    self._cell("time")
-                for kind in kinds[1:] if self.joints else ():
-                    with ui.element("td"):
-                        self._unit_of_all(kind)
-            for joint in self.joints:
+                ui.element("th")
+                for kind in kinds:
+                    with ui.element("th"), ui.row().classes("items-center no-wrap"):
+                        ui.label(KINDS[kind])
+                        if self.joints:
+                            self._unit_of_all(kind)
+            for name in ("time", *(joint.name for joint in self.joints)):
                 with ui.element("tr"):
-                    self._th(f"joint {joint.name}")
-                    for kind in kinds:
+                    with ui.element("th"):
+                        ui.label(name if name == "time" else f"joint {name}")
+                    for own in ["time"] if name == "time" else [f"{kind}{name}" for kind in kinds]:
                         with ui.element("td"):
-                            self._cell(f"{kind}{joint.name}")
+                            self._cell(own)
         self._mark()
-
-    @staticmethod
-    def _th(text: str) -> None:
-        with ui.element("th"):
-            ui.label(text)
 
     def _unit_of_all(self, kind: str) -> None:
         """One menu for the units of all joints."""
@@ -106,13 +98,13 @@ class MappingTable:
                 chosen[own] = self._in_unit(own, chosen[own], event.value)
             await self.changed(chosen)
 
-        menu = ui.select(units, label="all in", on_change=take).props("dense options-dense")
-        menu.classes("mapping-all")
+        menu = ui.select(units, label="all in", on_change=take).classes("mapping-all")
+        menu.props("dense options-dense")
 
     def _cell(self, own: str) -> None:
         """Where one of ours is said; a column can be dropped here."""
         self._cells[own] = cell = ui.element("div").classes("mapping-cell")
-        cell.props(f'data-own="{own}"')
+        cell.props["data-own"] = own
         cell.on("dragover", js_handler="(event) => event.preventDefault()")
         let = "(event) => { event.preventDefault(); emit(); }"
         cell.on("drop", lambda: self._take(own, self._dragged), js_handler=let)
@@ -130,16 +122,17 @@ class MappingTable:
                 names, value=one and one.column, with_input=True, clearable=own != "time",
                 on_change=lambda event: self._take(own, event.value),
             )  # fmt: skip
-            menu.props(f'dense options-dense aria-label="column of {own}"')
+            menu.props("dense options-dense").props["aria-label"] = f"column of {own}"
             menu.classes("mapping-column")
             if one is None:
                 return
             if one.column not in self.columns:
                 menu.props("error").tooltip("this log has no such column")
             self._unit(own, one)
-            sign = ui.button(_SIGNS[one.sign])
-            sign.on_click(lambda: self._turn(own, sign))
-            sign.props(f'dense flat aria-label="sign of {own}"')
+            if own != "time":
+                sign = ui.button(_SIGNS[one.sign]).props("dense flat")
+                sign.props["aria-label"] = f"sign of {own}"
+                sign.on_click(lambda: self._turn(own, sign))
 
     def _in_unit(self, own: str, one: Choice, unit: str | None) -> Choice:
         """The same column in another unit; SI need not be said where the file says nothing."""
@@ -148,8 +141,7 @@ class MappingTable:
 
     def _unit(self, own: str, one: Choice) -> None:
         units = list(units_of(own, self.joints))
-        stated = self.columns.get(one.column, "")
-        shown = one.unit or stated or units[0]
+        shown = one.unit or self.columns.get(one.column) or units[0]
         if shown not in units:
             units.append(shown)
 
@@ -159,10 +151,8 @@ class MappingTable:
 
         menu = ui.select(units, value=shown, with_input=True, new_value_mode="add-unique",
                          on_change=take)  # fmt: skip
-        menu.props(f'dense options-dense hide-dropdown-icon aria-label="unit of {own}"')
+        menu.props("dense options-dense hide-dropdown-icon").props["aria-label"] = f"unit of {own}"
         menu.classes("mapping-unit")
-        if stated and not one.unit:
-            menu.tooltip(_AS_STATED)
 
     async def _take(self, own: str, column: str | None) -> None:
         chosen = dict(self.chosen)

@@ -8,7 +8,6 @@ from nicegui import ui
 
 from modeler import excitation
 from modeler.core.errors import ModelerError
-from modeler.core.json import parse_json
 from modeler.studio import figures
 from modeler.studio.commands import Asked, robot_copy
 from modeler.studio.elements import go_button, head, part, run_button, table
@@ -41,7 +40,7 @@ async def draw(studio: Studio) -> None:
     if step is None:
         return
     try:
-        found = parse_json(studio.text(step.result))
+        found = studio.result(step)
         look: MotionLook = await studio.view("motion_look", _file(step), step.result)
         with part(f"Found: {step.title}"):
             _found(studio, step, found)
@@ -85,7 +84,7 @@ def _wish(studio: Studio) -> None:
     options = {_ALL: f"all parameters of {whose}"}
     step = project.about("diagnose")
     if project.model and step is not None:
-        options |= questions(parse_json(studio.text(step.result)))
+        options |= questions(studio.result(step))
     if chosen["between"] not in options:
         chosen["between"] = _ALL
     with ui.row().classes("items-center w-full gap-6"):
@@ -96,10 +95,14 @@ def _wish(studio: Studio) -> None:
         ui.label(
             "Where a diagnosis cannot tell two effects apart, the motion that does is offered here."
         ).classes("studio-soft studio-small")
+
+    def change() -> None:
+        studio.kept["robot tab"] = "Limits"
+        studio.go("robot")
+
     with ui.row().classes("items-center"):
         ui.label("Its limits are those of the robot.").classes("studio-soft")
-        go_button(studio, "Change them", "robot")
-    studio.kept["robot tab"] = "Limits"
+        ui.button("Change them", on_click=change).props("no-caps flat icon-right=east")
     renew = run_button(
         studio, "Find the motion",
         lambda: excite(studio.project, chosen["between"], chosen["duration"]),

@@ -209,8 +209,10 @@ def _name(model: str) -> str:
 
 def _simulated(options: Mapping[str, list[str]]) -> str:
     names = {"--duration": "duration", "--seed": "seed", "--noise": "torque_noise"}
-    settings = {name: options[word][-1] for word, name in names.items() if word in options}
-    given = [f"hide={options.get('--hide', [])!r}", *(f"{k}={v}" for k, v in settings.items())]
+    given = [f"hide={options.get('--hide', [])!r}"]
+    for word, name in names.items():
+        for value in options.get(word, [])[-1:]:  # a number, whoever wrote the project
+            given.append(f"{name}={int(value) if value.isdecimal() else float(value)!r}")
     return ", ".join(given)
 
 

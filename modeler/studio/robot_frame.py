@@ -6,7 +6,6 @@ from typing import Any
 
 from nicegui import ui
 
-from modeler.core.files import read_text
 from modeler.studio.studio import Studio
 
 
@@ -59,5 +58,5 @@ async def robot_frame(studio: Studio, height: str = "420px", alone: bool = False
     Raises:
         ModelerError: the project has no robot that can be drawn; the line.
     """
-    text = read_text(studio.folder / studio.project.robot)
+    text = studio.text(studio.project.robot)
     return RobotFrame(studio, await studio.view("robot_page", text), height, alone)

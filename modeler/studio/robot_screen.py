@@ -2,12 +2,12 @@
 
 import asyncio
 import json
+from functools import partial
 from typing import Any
 
 from nicegui import ui
 
 from modeler.core.errors import ModelerError
-from modeler.core.files import read_text
 from modeler.robot import (
     TableText,
     convention_of,
@@ -27,9 +27,9 @@ from modeler.studio.commands import Asked, robot_copy
 from modeler.studio.elements import head, run_button
 from modeler.studio.project import ROBOT, Step
 from modeler.studio.robot_frame import RobotFrame
-from modeler.studio.robot_text import RobotText, keep, opened_text
+from modeler.studio.robot_text import DRAFT, RobotText, keep
 from modeler.studio.robot_views import BASIC_EFFECTS, RobotLook
-from modeler.studio.studio import Studio
+from modeler.studio.studio import READ_ONLY, Studio
 
 _PAUSE = 0.2  # s after the last stroke in the text
 _LIMITS = ("joint", "lower", "upper", "speed", "acceleration")
@@ -38,7 +38,9 @@ _LIMITS = ("joint", "lower", "upper", "speed", "acceleration")
 async def draw(studio: Studio) -> None:
     """Draws it."""
     kept = studio.kept.get("robot")
-    now = opened_text(studio.folder, studio.project.robot)
+    names = (DRAFT, studio.project.robot)
+    last = next((n for n in names if n and (studio.folder / n).exists()), "")
+    now = studio.text(last) if last else ""
     if not isinstance(kept, RobotText) or studio.read_only:
         kept = studio.kept["robot"] = RobotText(now)
     elif now:
@@ -116,12 +118,12 @@ class _Desk:
                 'be pasted. Angles in rad or "90 deg", lengths in m or "40 mm".'
             )
             self.letters = ui.element("div").classes("studio-scroll")
-            self._heard(self.letters, cell=self._letter, block=self._letter_block)
+            self._heard(self.letters, cell=self._letter, block=partial(self._each, self._letter))
         with panel("Effects"):
             self.effects = ui.element("div").classes("studio-scroll")
         with panel("Limits"):
             self.ranges = ui.element("div").classes("studio-scroll")
-            self._heard(self.ranges, cell=self._limit, block=self._limit_block)
+            self._heard(self.ranges, cell=self._limit, block=partial(self._each, self._limit))
             _told(
                 "Of simulated and exciting motions, and of the sliders: rad or m, rad/s or "
                 "m/s, and so on. An empty row has the limits that every joint has."
@@ -152,10 +154,12 @@ class _Desk:
 
     async def take(self, text: str, notes: tuple[str, ...]) -> None:
         """A robot that came from elsewhere."""
-        self.kept.change(text)
-        self.studio.kept["robot notes"] = notes
-        look: RobotLook = await self.studio.view("robot_look", text)
         try:
+            if self.studio.read_only:
+                raise ModelerError(READ_ONLY)
+            self.kept.change(text)
+            self.studio.kept["robot notes"] = notes
+            look: RobotLook = await self.studio.view("robot_look", text)
             keep(self.studio.folder, text, not look.error)
         except ModelerError as error:
             self.studio.show_error(str(error))
@@ -206,43 +210,34 @@ class _Desk:
         await self.change(changed, all_cells=True)
 
     async def _row(self, row: int, what: str) -> None:
-        table = table_text(self.kept.text)
-        if table is None:
-            return
-        if what == "remove":
-            await self.change(without_row(self.kept.text, row), all_cells=True)
-            return
-        cells = _new_row(table, self.kept.text, row)
-        await self.change(with_row(self.kept.text, row, cells), all_cells=True)
+        text, table = self.kept.text, table_text(self.kept.text)
+        if table is not None and what == "add":
+            text = with_row(text, row, _new_row(table, text, row))
+        elif table is not None:
+            text = without_row(text, row)
+        await self.change(text, all_cells=True)
 
     async def _letter(self, row: int, column: int, text: str) -> None:
-        if self.look is not None and column == 1:
+        if self.look is not None and column == 1 and row < len(self.look.symbols):
             await self.change(with_symbol(self.kept.text, self.look.symbols[row][0], text))
 
-    async def _letter_block(self, row: int, column: int, text: str) -> None:
-        changed = self.kept.text
-        for k, cells in enumerate(pasted_cells(text), row):
-            if self.look is not None and k < len(self.look.symbols):
-                changed = with_symbol(changed, self.look.symbols[k][0], cells[-1])
-        await self.change(changed, all_cells=True)
-
     async def _limit(self, row: int, column: int, text: str) -> None:
-        if self.look is None or column == 0:
+        if self.look is None or not 0 < column < len(_LIMITS) or row >= len(self.look.joints):
             return
-        joint = self.look.joints[row].name
-        cells = self.limits.setdefault(joint, list(self.look.joints[row].limits))
+        joint = self.look.joints[row]
+        cells = self.limits.setdefault(joint.name, list(joint.limits))
         cells[column - 1] = text.strip()
         if all(cells) or not any(cells):
-            await self.change(with_limits(self.kept.text, joint, cells))
-            del self.limits[joint]
+            del self.limits[joint.name]
+            await self.change(with_limits(self.kept.text, joint.name, cells))
         else:
-            self._tell(f"[limits], joint {joint}: write all four, or none")
+            self._tell(f"[limits], joint {joint.name}: write all four, or none")
 
-    async def _limit_block(self, row: int, column: int, text: str) -> None:
+    async def _each(self, edit: Any, row: int, column: int, text: str) -> None:
+        """A block from the clipboard, cell by cell."""
         for k, cells in enumerate(pasted_cells(text), row):
             for i, cell in enumerate(cells, column):
-                if self.look is not None and k < len(self.look.joints) and i < len(_LIMITS):
-                    await self._limit(k, i, cell)
+                await edit(k, i, cell)
 
     async def _effect(self, effect: str, joint: str, wanted: bool) -> None:
         everyone = () if self.look is None else self.look.everyone
@@ -257,7 +252,8 @@ class _Desk:
         """Looks at the text: a new picture and a robot file, or what is wrong and where."""
         text = self.kept.text
         try:
-            look: RobotLook | None = await self.studio.view("robot_look", text, kind="robot")
+            kind = f"robot {id(self)}"
+            look: RobotLook | None = await self.studio.view("robot_look", text, kind=kind)
             if look is None or text != self.kept.text:
                 return  # a newer one is looked at
             if not self.studio.read_only:
@@ -278,8 +274,8 @@ class _Desk:
         self._show_cells(look, all_cells)
         self._show_named(self.look or look, look, all_cells)
         if look.content is None:
-            if self.frame is None:
-                await self._last_good()
+            if self.frame is None and (self.studio.folder / ROBOT).exists():
+                await self._picture(self.studio.text(ROBOT))  # the last one that was right
             return
         self.title.text = look.name
         notes = (*self.studio.kept.get("robot notes", ()), *look.notes)
@@ -291,15 +287,9 @@ class _Desk:
             await self._picture(self.kept.text)
         else:
             self.frame.replace(look.content)
-        if before is None or before.joints != look.joints:
+        if all_cells or before is None or before.joints != look.joints:
             self._show_effects(look)
         self._stale()
-
-    async def _last_good(self) -> None:
-        """The picture of the robot file, where the text beside it is not right."""
-        place = self.studio.folder / ROBOT
-        if place.exists():
-            await self._picture(read_text(place))
 
     async def _picture(self, text: str) -> None:
         html = await self.studio.view("robot_page", text)
@@ -324,7 +314,7 @@ class _Desk:
     def _show_named(self, good: RobotLook, look: RobotLook, all_cells: bool) -> None:
         """The tables of limits and letters; `good` is the last text in which nothing was wrong."""
         joints = [joint.name for joint in good.joints]
-        limits = [(f"{j.name} [{j.unit}]", *j.limits) for j in good.joints]
+        limits = [(f"{j.name} [{j.unit}]", *self.limits.get(j.name, j.limits)) for j in good.joints]
         letters = [name for name, _ in good.symbols]
         uses: list[list[str]] = [[] for _ in letters]
         for element, table, columns, rows, keys, names in (
@@ -347,7 +337,8 @@ class _Desk:
                         ui.label(name)
             with ui.element("tbody"):
                 for joint in look.joints:
-                    with ui.element("tr").props(f'data-rows="{joint.name}"'):
+                    with ui.element("tr") as row:
+                        row.props["data-rows"] = joint.name
                         with ui.element("th").props("scope=row"):
                             ui.label(joint.name if joint.actuated else f"{joint.name} (passive)")
                         for effect in BASIC_EFFECTS:
@@ -355,7 +346,8 @@ class _Desk:
                                 self._box(effect, joint.name, effect in joint.effects)
 
     def _box(self, effect: str, joint: str, has: bool) -> None:
-        box = ui.checkbox(value=has).props(f'dense aria-label="{effect} of joint {joint}"')
+        box = ui.checkbox(value=has).props("dense")
+        box.props["aria-label"] = f"{effect} of joint {joint}"
         box.set_enabled(not self.studio.read_only)
         box.on_value_change(lambda event: self._effect(effect, joint, bool(event.value)))
 
@@ -380,11 +372,9 @@ class _Desk:
             self.step_shown = _last(studio)
             if self.step_shown is None:
                 return
-            step, folder = self.step_shown, studio.folder
+            step = self.step_shown
             try:
-                html, told = await studio.view(
-                    "relations_of", str(folder / step.result), str(folder / step.words[1])
-                )
+                html, told = await studio.view("relations_of", step.result, step.words[1])
             except ModelerError as error:
                 ui.label(str(error)).classes("studio-error")
                 return
@@ -394,8 +384,8 @@ class _Desk:
 
     def _stale(self) -> None:
         step = self.step_shown
-        place = self.studio.folder / step.words[1] if step else None
-        old = place is not None and place.exists() and read_text(place) != self.kept.text
+        there = step is not None and (self.studio.folder / step.words[1]).exists()
+        old = there and step is not None and self.studio.text(step.words[1]) != self.kept.text
         self.stale.set_visibility(old)
 
 

@@ -7,7 +7,6 @@ from nicegui import background_tasks, ui
 
 from modeler.core.builtin import CONVENTIONS, TEMPLATES, builtin_names, builtin_text
 from modeler.core.errors import ModelerError
-from modeler.core.files import read_text
 from modeler.robot import pasted_robot, pasted_table, with_pasted
 from modeler.studio.commands import Asked
 from modeler.studio.dropped import drop_zone
@@ -91,7 +90,7 @@ def _file(studio: Studio, taken: Taken) -> None:
         file = files[0]
         if Path(file).suffix.lower() == ".toml":
             try:
-                await taken(read_text(studio.folder / file), ())
+                await taken(studio.text(file), ())
             except ModelerError as error:
                 studio.show_error(str(error))
             return
@@ -122,4 +121,4 @@ async def _made(studio: Studio, words: list[str], title: str, taken: Taken) -> N
     room = studio.room
     if await studio.run(asked, keep=False) is not None and room is not None:
         with room:
-            await taken(read_text(studio.folder / ROBOT), ())
+            await taken(studio.text(ROBOT), ())

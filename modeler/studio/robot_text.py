@@ -8,7 +8,7 @@ import contextlib
 import time
 from pathlib import Path
 
-from modeler.core.files import read_text, write_atomically
+from modeler.core.files import write_atomically
 from modeler.studio.project import ROBOT
 
 DRAFT = "robot.draft.toml"
@@ -54,14 +54,6 @@ class RobotText:
         self.text = way.pop()
         self._typed = 0.0
         return True
-
-
-def opened_text(folder: Path, robot: str) -> str:
-    """What was edited last in a folder; "" before there is a robot."""
-    for name in (DRAFT, robot):
-        if name and (folder / name).exists():
-            return read_text(folder / name)
-    return ""
 
 
 def keep(folder: Path, text: str, right: bool) -> None:

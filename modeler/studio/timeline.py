@@ -3,7 +3,7 @@
 import dataclasses
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from nicegui import ui
@@ -12,15 +12,15 @@ from nicegui.element import Element
 from modeler.core.files import resource_dir
 from modeler.studio.project import ProjectLog, Stretch
 
-Role = Literal["train", "test", "out"]
-
-ROLES: Mapping[Role, str] = {"train": "training", "test": "held out", "out": "left out"}
+ROLES: Mapping[str, str] = {"train": "training", "test": "held out", "out": "left out"}
 """What people call them."""
 
 HELD = 0.3
 """Share of the only log of a project that is held out at first."""
 
-_ALL = (Stretch(),)
+ALL = (Stretch(),)
+"""Of a log."""
+
 _DIGITS = 4  # of a second: what a stretch begins with
 
 
@@ -35,37 +35,36 @@ def united(parts: Iterable[Stretch]) -> tuple[Stretch, ...]:
     return tuple(found)
 
 
-def painted(log: ProjectLog, stretch: Stretch, role: Role) -> ProjectLog:
-    """The log with a stretch in a role; what it was left out of lets it go, but for "out"."""
-    if role == "out":  # taken out of what it is; what it is comes back when it is let in again
+def painted(log: ProjectLog, stretch: Stretch, role: str) -> ProjectLog:
+    """The log with a stretch in a role; "in": no longer left out of what it is."""
+    if role == "out":
         return dataclasses.replace(log, out=united([*log.out, stretch]))
-    others: dict[str, Any] = {
+    roles: dict[str, Any] = {
         name: tuple(left for part in getattr(log, name) for left in part.without([stretch]))
-        for name in ROLES
+        for name in (ROLES if role in ROLES else ("out",))
     }
-    return dataclasses.replace(log, **others | {role: united([*others[role], stretch])})
+    if role in ROLES:
+        roles[role] = united([*roles[role], stretch])
+    return dataclasses.replace(log, **roles)
 
 
-def let_in(log: ProjectLog, stretch: Stretch) -> ProjectLog:
-    """The log with a stretch that is no longer left out."""
-    kept = tuple(left for part in log.out for left in part.without([stretch]))
-    return dataclasses.replace(log, out=kept)
+Change = Callable[[ProjectLog], ProjectLog]
 
 
-def all_training(log: ProjectLog) -> ProjectLog:
-    """All of it is fitted."""
-    return dataclasses.replace(log, train=_ALL, test=())
+def whole(ends: tuple[float, float]) -> dict[str, Change]:
+    """What can be made of a log as a whole.
 
-
-def all_held(log: ProjectLog) -> ProjectLog:
-    """All of it is held out."""
-    return dataclasses.replace(log, train=(), test=_ALL)
-
-
-def last_held(log: ProjectLog, start: float, end: float, share: float = HELD) -> ProjectLog:
-    """The last part of it is held out."""
-    cut = round(end - share * (end - start), _DIGITS)
-    return dataclasses.replace(log, train=(Stretch(end=cut),), test=(Stretch(start=cut),))
+    Args:
+        ends: of it, s.
+    """
+    cut = round(ends[1] - HELD * (ends[1] - ends[0]), _DIGITS)
+    last = (Stretch(end=cut),), (Stretch(start=cut),)
+    return {
+        "All training": lambda log: dataclasses.replace(log, train=ALL, test=()),
+        "Last 30 % held out": lambda log: dataclasses.replace(log, train=last[0], test=last[1]),
+        "All held out": lambda log: dataclasses.replace(log, train=(), test=ALL),
+        "Leave nothing out": lambda log: dataclasses.replace(log, out=()),
+    }
 
 
 def by_default(
@@ -77,49 +76,41 @@ def by_default(
         logs: of the project.
         ends: first and last time of those that can be read, s; others are neither.
     """
-    good = [log.file for log in logs if log.file in ends]
-    found = []
+    good, found = [log.file for log in logs if log.file in ends], []
     for log in logs:
-        if log.file not in ends:
-            found.append(dataclasses.replace(log, train=(), test=()))
-        elif len(good) == 1:
-            found.append(last_held(log, *ends[log.file]))
-        else:
-            found.append(all_held(log) if log.file == good[-1] else all_training(log))
+        if log.file in good:
+            last = log.file == good[-1]
+            choice = "All training" if not last else _FIRST[len(good) > 1]
+            log = whole(ends[log.file])[choice](log)
+        found.append(log)
     return tuple(found)
+
+
+_FIRST = {False: "Last 30 % held out", True: "All held out"}
 
 
 def spans_of(log: ProjectLog) -> list[dict[str, Any]]:
     """The stretches as they are drawn, left-out ones on top; an end that is open is None."""
     return [
-        {"role": role, "start": _end(part.start), "end": _end(part.end)}
+        {"role": role}
+        | {name: end if math.isfinite(end) else None for name, end in vars(part).items()}
         for role in ROLES
         for part in getattr(log, role)
     ]
 
 
-def _end(side: float) -> float | None:
-    return side if math.isfinite(side) else None
-
-
 def told(log: ProjectLog) -> str:
     """What its stretches are for, in words."""
-    said = []
-    for role, name in ROLES.items():
-        parts = getattr(log, role)
-        if parts == _ALL:
-            said.append(f"all of it {name}")
-        elif parts:
-            said.append(f"{name} {', '.join(map(_words, parts))}")
+    roles = {name: getattr(log, role) for role, name in ROLES.items()}
+    said = [f"{name}: {', '.join(map(_words, parts))}" for name, parts in roles.items() if parts]
     return "; ".join(said) or "not used"
 
 
 def _words(part: Stretch) -> str:
-    if not math.isfinite(part.start):
-        return f"up to {part.end:.6g} s"
-    if not math.isfinite(part.end):
-        return f"from {part.start:.6g} s on"
-    return f"{part.start:.6g} to {part.end:.6g} s"
+    start, end = (f"{side:.6g} s" if math.isfinite(side) else "" for side in vars(part).values())
+    if start and end:
+        return f"{start} to {end}"
+    return f"from {start} on" if start else f"up to {end}" if end else "all of it"
 
 
 class Timeline(Element, component=resource_dir("templates") / "studio" / "parts" / "timeline.js"):
@@ -186,11 +177,7 @@ class Timeline(Element, component=resource_dir("templates") / "studio" / "parts"
 
 def legend() -> None:
     """What the colours of a timeline mean."""
-    with ui.row().classes("items-center gap-4 timeline-legend"):
-        for role, name in ROLES.items():
-            with ui.row().classes("items-center no-wrap gap-1"):
-                ui.element("span").classes(f"timeline-swatch timeline-{role}")
-                ui.label(name)
+    for role, name in {**ROLES, "sign": "a doubt: click it"}.items():
         with ui.row().classes("items-center no-wrap gap-1"):
-            ui.element("span").classes("timeline-swatch timeline-sign")
-            ui.label("a doubt: click it")
+            ui.element("span").classes(f"timeline-swatch timeline-{role}")
+            ui.label(name)

@@ -134,10 +134,14 @@ def log_facts(place: str, words: Sequence[str] = (), robot: str = "") -> LogFact
         words: of the mapping, as of `--map`.
         robot: robot file, whose [log] lies under them.
     """
-    log = _log(place, words, robot)
-    names = tuple(log.values)
-    ends = float(log.time[0]), float(log.time[-1])
-    return LogFacts(log.rows, *ends, names, log.units, log.source is not None)
+
+    def look() -> LogFacts:
+        log = _log(place, words, robot)
+        names, ends = tuple(log.values), (float(log.time[0]), float(log.time[-1]))
+        return LogFacts(log.rows, *ends, names, log.units, log.source is not None)
+
+    key = (_state(place), tuple(words), robot and _state(robot))
+    return _kept("facts", key, look, 200)
 
 
 def log_window(
@@ -217,13 +221,13 @@ def log_guess(place: str, robot: str = "") -> LogGuess:
             if column.numeric
         }
         count = 1 if seen.positions is None else len(seen.positions.names)
-        found, ranged = guess_from(seen.suggested, seen.plain, joints or anybody(count), columns)
+        found, ranged = guess_from(seen.suggested, joints or anybody(count), columns)
         clock = next((part for part in seen.streams if part.clock), None)
         alike = [part.kind for part in seen.streams].count(clock.kind) > 1 if clock else False
         topic = clock.name if clock and alike else ""
         return LogGuess(columns, found, ranged, count, topic, () if part else seen.doubts)
 
-    return _kept("guess", (_state(place), robot and _state(robot)), look, 60)
+    return _kept("guess", (_state(place), robot and _state(robot)), look, 200)
 
 
 def _rows(log: _Log, start: float, end: float) -> tuple[np.ndarray, dict[str, np.ndarray]]:
@@ -376,10 +380,11 @@ class Verdict:
     Attributes:
         joints: names, in order.
         errors: relative, of each.
-        sentences: of each, as `modeler compare` says it; of one that is not judged, why.
+        sentences: of each, as `modeler compare` says it.
         channels: of each: id and label of what its residual can be drawn over.
         start, end: of the time axis of the pictures, s.
         kinds: of each, what is left: "pattern", "noise" or "other".
+        unjudged: lines on joints that cannot be judged, and why.
     """
 
     joints: tuple[str, ...]
@@ -389,6 +394,7 @@ class Verdict:
     start: float
     end: float
     kinds: tuple[str, ...]
+    unjudged: tuple[str, ...]
 
 
 def verdict(model: str, logs: Sequence[str]) -> Verdict:
@@ -402,6 +408,7 @@ def verdict(model: str, logs: Sequence[str]) -> Verdict:
         tuple(validation.joint_verdict(item) for item in items),
         tuple(_channels(judged)), float(time.min()), float(time.max()),
         tuple(map(validation.kind_of_residual, items)),
+        tuple(f"Joint {name}: not judged: {why}" for name, why in judged.comparison.unjudged),
     )  # fmt: skip
 
 
@@ -506,53 +513,63 @@ def residual_picture(
 
 
 def where_picture(model: str, logs: Sequence[str]) -> Picture:
-    """Joint by coordinate: the share of its residual's variance that follows that coordinate.
+    """Joint by channel: the share of its residual's variance that follows that channel.
 
-    The share is by binned means, 1 - sum (e - mean of its bin)^2 / sum (e - mean)^2, less what
-    as many bins of noise would explain; so every column of a log has one.
+    Of coordinates of the motion as `modeler compare` has it, of other columns as `explained`.
     """
     judged = _judged(model, logs)
-    p, channels = judged.prediction, _channels(judged)
-    names = tuple(item.joint.name for item in judged.comparison.joints)
-    values = np.full((len(names), len(channels)), np.nan)
-    for i, name in enumerate(names):
-        j = _number(p, name)
-        for k, (channel, _) in enumerate(channels):
-            x, _ = _channel(judged, j, channel)
-            rows = p.used[:, j] & np.isfinite(x)
-            e = np.asarray(p.measured - p.predicted, dtype=float)[rows, j]
-            values[i, k] = 100.0 * explained(x[rows], e)
+    p, names = judged.prediction, [channel for channel, _ in _channels(judged)]
+    items = judged.comparison.joints
+    values = np.full((len(items), len(names)), np.nan)
+    for i, item in enumerate(items):
+        if item.structure is None:
+            continue
+        own = {c.id for c in validation.coordinates_of(p, item.index)}
+        for k, name in enumerate(names):
+            x, _ = _channel(judged, item.index, name)
+            rows = p.used[:, item.index] & np.isfinite(x)
+            e = validation.residual(p)[rows, item.index]
+            share = item.structure.share(name) if name in own else explained(x[rows], e)
+            values[i, k] = 100.0 * share
     texts = tuple(tuple("" if np.isnan(v) else f"{v:.0f}" for v in row) for row in values)
-    heat = Heat(
-        "explained share", tuple(channel for channel, _ in channels), names, values, texts, 100.0
-    )
+    joints = tuple(item.joint.name for item in items)
+    heat = Heat("explained share", tuple(names), joints, values, texts, 100.0)
     return Picture(
         "where", "Residual: which joint follows what",
-        "Share of each joint's residual variance, in percent, that its mean over that channel "
-        "explains, noise taken off. Coordinates move together: shares overlap. Choose a cell to "
-        "look at it.",
-        ((Panel("", "", "joint", (heat,)),),), 110 + 34 * len(names),
+        "Share of each joint's residual variance, in percent, that a curve over that channel "
+        "predicts on motion not used to draw it; empty: too few samples to tell. Coordinates move "
+        "together: shares overlap. Choose a cell to look at it.",
+        ((Panel("", "", "joint", (heat,)),),), 110 + 34 * len(joints),
     )  # fmt: skip
 
 
-def explained(x: np.ndarray, e: np.ndarray, bins: int = 24) -> float:
-    """Share of the variance of e that its mean in bins of x, alike in count, explains; 0 to 1.
+def explained(x: np.ndarray, e: np.ndarray, bins: int = 24, folds: int = 8) -> float:
+    """Share of the variance of e that its mean in bins of x predicts on parts left out in turn.
 
-    Of noise, b bins of n samples explain (b - 1)/(n - 1) on average; that is taken off.
+    1 - sum (e - m)^2 / sum (e - mean e)^2, 0 at least; m is the mean of the bin over all other
+    parts of the time. Bins are alike in count, or one for each value where there are few.
+
+    Args:
+        x: (n,) channel, in time order.
+        e: (n,) residual.
+        bins: at most.
+        folds: consecutive parts.
     """
     if x.size < 4 * bins or np.ptp(x) == 0.0:
         return np.nan
-    edges, which = np.unique(x, return_inverse=True)  # a bin for each value where they are few
+    edges, which = np.unique(x, return_inverse=True)
     if edges.size > bins:
         edges = np.unique(np.quantile(x, np.linspace(0.0, 1.0, bins + 1)))
         which = np.searchsorted(edges[1:-1], x, side="right")
-    count = np.bincount(which)
-    mean = np.bincount(which, e) / np.maximum(count, 1)
+    fold, predicted = np.arange(x.size) * folds // x.size, np.empty(x.size)
+    for part in range(folds):
+        other = fold != part
+        count = np.bincount(which[other], minlength=which.max() + 1)
+        total = np.bincount(which[other], e[other], minlength=which.max() + 1)
+        mean = np.where(count > 0, total / np.maximum(count, 1), e[other].mean())
+        predicted[~other] = mean[which[~other]]
     whole = float(np.sum((e - e.mean()) ** 2))
-    if whole == 0.0:
-        return 0.0
-    left = float(np.sum((e - mean[which]) ** 2)) / max(x.size - int((count > 0).sum()), 1)
-    return max(0.0, 1.0 - left * (x.size - 1) / whole)
+    return max(0.0, 1.0 - float(np.sum((e - predicted) ** 2)) / whole) if whole else 0.0
 
 
 def log_errors(model: str, logs: Sequence[str]) -> list[tuple[str, float, dict[str, float]]]:
@@ -608,14 +625,12 @@ def _number(prediction: Prediction, joint: str) -> int:
 
 
 def _judged(model: str, logs: Sequence[str]) -> _Judged:
-    key = (_state(model), tuple(map(_state, logs)))
-    return _kept("judged", key, lambda: _compared(model, logs))
+    def compared() -> _Judged:
+        loaded, compiled = _model(model)
+        comparison, _ = checks.compared(loaded, list(logs), compiled)
+        return _Judged(comparison, model, compiled, tuple(logs))
 
-
-def _compared(model: str, logs: Sequence[str]) -> _Judged:
-    loaded, compiled = _model(model)
-    comparison, _ = checks.compared(loaded, list(logs), compiled)
-    return _Judged(comparison, model, compiled, tuple(logs))
+    return _kept("judged", (_state(model), tuple(map(_state, logs))), compared, 4)
 
 
 def _model(place: str) -> tuple[IdentifiedModel, CompiledModel]:

@@ -84,7 +84,7 @@ def test_a_name_means_one_thing_wherever_it_stands() -> None:
 
 def test_each_command_has_a_family_and_an_example_that_can_be_typed() -> None:
     assert list(FAMILIES) == [
-        "in the browser", "describe", "measure", "identify", "understand", "use", "about",
+        "workbench", "describe", "measure", "identify", "understand", "use", "about",
     ]  # fmt: skip
     assert list(PARSERS) == list(COMMANDS)
     for name, own in PARSERS.items():

@@ -55,6 +55,8 @@ def test_words_say_what_was_chosen(robot: tuple[JointSpec, ...], seed: int) -> N
 def test_patterns_are_found_and_what_is_so_is_not_said() -> None:
     plain = {f"q{j.name}": Choice(f"pos_{k}", "deg", -1) for k, j in enumerate(FIVE)}
     assert words_of(plain, {}, FIVE) == ("q<j>=-pos_{n-1}:deg",)
+    late = {f"q{j.name}": Choice(f"c{k + 12}") for k, j in enumerate(FIVE)}
+    assert words_of(late, {}, FIVE) == ("q<j>=c{n+11}",)
     own = {f"q{j.name}": Choice(f"q{j.name}") for j in FIVE}
     assert words_of(own, own, FIVE) == ()
     assert words_of(own | {"q2": Choice("q2", "deg")}, own, FIVE) == ("q2=q2:deg",)
@@ -132,7 +134,7 @@ def drawn_log(rng: np.random.Generator) -> ProjectLog:
         start, end = np.sort(rng.uniform(0.0, 10.0, 2)).round(2)
         role = str(rng.choice(["train", "test", "out", "in"]))
         held = Stretch(float(start), float(end))
-        log = timeline.let_in(log, held) if role == "in" else timeline.painted(log, held, role)  # type: ignore[arg-type]
+        log = timeline.painted(log, held, role)
     return log
 
 
@@ -151,7 +153,7 @@ def test_every_instant_has_one_role(seed: int) -> None:
     held = Stretch(float(start), float(end))
     own = inside((held,), times)
     for role in ("train", "test"):
-        now = timeline.painted(log, held, role)  # type: ignore[arg-type]
+        now = timeline.painted(log, held, role)
         assert inside(getattr(now, role), times)[own].all()
         assert not inside(now.out, times)[own].any()
         np.testing.assert_array_equal(inside(now.train, times)[~own], train[~own])
@@ -159,7 +161,7 @@ def test_every_instant_has_one_role(seed: int) -> None:
     left = timeline.painted(log, held, "out")
     np.testing.assert_array_equal(inside(left.out, times), out | own)
     assert left.train == log.train
-    np.testing.assert_array_equal(inside(timeline.let_in(left, held).out, times), out & ~own)
+    np.testing.assert_array_equal(inside(timeline.painted(left, held, "in").out, times), out & ~own)
 
 
 def test_first_roles() -> None:

@@ -18,6 +18,7 @@ RUN = "window.pwned=1"
 TAG = f"<img src=x onerror={RUN}>"
 TEMPLATE = f"{{{{constructor.constructor('{RUN}')()}}}}"
 QUOTED = f'" :onmouseover="{RUN}" x="'
+SINGLE = f"' :onmouseover='{RUN}' :style='{RUN}' x='"
 HARM = f"{TAG} {TEMPLATE} {QUOTED} '+{RUN}+' `${{{RUN}}}` <!--"
 FOLDER = f"{TAG} '+{RUN}+' {TEMPLATE}"
 CLOSING = f"</title></script><script>{RUN}</script>"
@@ -45,7 +46,7 @@ def hostile(tmp_path_factory) -> Path:
         own.writerow([*head, HARM, f"q9 {TAG}", f"temp{CLOSING.replace('/', '|')}"])
         own.writerows([*row, row[0], row[1], "20"] for row in rows)
     log = ProjectLog(name, (Stretch(0.0, 3.0),), (Stretch(3.5, 6.0),), (Stretch(1.0, 1.1),))
-    project = Project("robot.toml", logs=(log,), without=(TAG,), mapping=())
+    project = Project("robot.toml", logs=(log,), without=(TAG, QUOTED, SINGLE), mapping=())
 
     async def work() -> None:
         hub = Hub(Workspace(folder), (), {})

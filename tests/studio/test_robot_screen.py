@@ -8,11 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from modeler.cli import parser
 from modeler.core.builtin import builtin_text
 from modeler.report import posture_json, show
 from modeler.report.robot_closing import gaps_of
 from modeler.robot import robot_from_text
-from modeler.studio.project import Project, project_text
+from modeler.studio.motion_screen import excite, questions
+from modeler.studio.project import Project, Step, project_text
 from tests.studio.window import Window, served, until
 
 GERMAN = "Achse\t\u03b8 [deg]\td [mm]\ta [mm]\t\u03b1 [deg]\n" + "\n".join([
@@ -254,3 +256,54 @@ def test_the_next_motion_is_found_played_and_downloaded(window, tmp_path) -> Non
             np.column_stack([table[n] for n in ("time", "q1", "q2", "q3")]), motion[:, :4]
         )
         assert w.complaints == []
+
+
+def test_a_tie_of_a_diagnosis_becomes_the_words_of_a_motion() -> None:
+    """Pairs on joints only, each once; the words are those that the command line takes."""
+    result = {
+        "effects": [
+            {"effect": "load_friction", "joint": "2", "ties": [{"effect": "spring", "joint": "2"}]},
+            {"effect": "spring", "joint": "2", "ties": [{"effect": "load_friction", "joint": "2"}]},
+            {"effect": "base_tilt", "joint": None, "ties": [{"effect": "offset", "joint": "1"}]},
+            {"effect": "drift", "joint": "3", "ties": []},
+        ]
+    }
+    pairs = dict(questions(result))
+    assert pairs == {
+        "load_friction@2,spring@2": "tell load friction on joint 2 from spring on joint 2"
+    }
+    step = Step(3, 0, "fit", ("fit",), model="models/3.json")
+    asked = excite(Project("robot.toml", 3, steps=(step,)), *pairs, 5.0)
+    parsed = parser().parse_args(list(asked.words))
+    assert parsed.between == "load_friction@2,spring@2" and parsed.robot == "models/3.json"
+    assert (parsed.duration, parsed.out) == (5.0, "motions/4.csv")
+    assert excite(Project("robot.toml"), "", 2.0).words[:2] == ("excite", "robots/1.toml")
+
+
+def test_a_full_disk_and_another_window_lose_nothing(window, tmp_path) -> None:
+    folder = project(tmp_path / "arm", "demo-arm")
+    with served(folder) as studio:
+        w = window().open(studio)
+        w.go("Robot")
+        inside(w)
+        second = window().open(studio)
+        second.go("Robot")
+        inside(second)
+        assert second.page.get_by_role("button", name="Another robot or table").is_disabled()
+        assert not second.page.locator(".studio-cells").first.locator("input").first.is_editable()
+        before = (folder / "robot.toml").read_text()
+        (folder / "robot.toml").rename(folder / "kept.toml")
+        (folder / "robot.toml").mkdir()  # nothing can be written there
+        cell(w, 2, "d").fill("0.5")
+        w.sees("robot.toml")
+        w.page.wait_for_function(
+            "[...document.querySelectorAll('.studio-error')].some((e) => e.innerText)"
+        )
+        assert cell(w, 2, "d").input_value() == "0.5"
+        (folder / "robot.toml").rmdir()
+        cell(w, 2, "d").fill("0.6")
+        cell(w, 2, "d").press("Tab")
+        w.page.wait_for_function(
+            "[...document.querySelectorAll('.studio-error')].every((e) => !e.offsetParent)"
+        )
+        assert (folder / "robot.toml").read_text() == before.replace('"D2",', "0.6, ")

@@ -24,7 +24,7 @@ from modeler.observation import LONG
 from modeler.studio import viewing
 from modeler.studio.viewer import Viewer, answer
 
-HIDDEN = ("--hide", "load_friction@2", "--noise", "0.01", "--duration", "12", "--rate", "500")
+HIDDEN = ("--hide", "load_friction@2", "--noise", "0.01", "--duration", "24", "--rate", "500")
 
 
 @pytest.fixture(scope="module")
@@ -176,6 +176,16 @@ def test_the_verdict_is_that_of_the_command(folder, capsys) -> None:
     }
 
 
+def test_a_joint_that_rests_is_not_judged(folder, tmp_path) -> None:
+    table = pyarrow.parquet.read_table("b.parquet")
+    rest = pa.array(np.full(table.num_rows, 0.3))
+    place = str(tmp_path / "rest.parquet")
+    pyarrow.parquet.write_table(table.set_column(table.column_names.index("q3"), "q3", rest), place)
+    found = viewing.verdict("m.json", [place])
+    assert found.joints == ("1", "2")
+    assert found.unjudged[0].startswith("Joint 3: not judged: ")
+
+
 def test_torques_are_those_of_the_comparison(folder) -> None:
     comparison = checks.compare(load_model("m.json"), ["b.parquet"])
     p = comparison.prediction
@@ -234,13 +244,23 @@ def test_explained_shares_are_those_of_what_was_put_in() -> None:
     assert np.isnan(viewing.explained(np.ones(n), noise)) and np.isnan(
         viewing.explained(x[:9], x[:9])
     )
+    slow = np.convolve(noise, np.ones(500), "same")  # remembers: no function of a slow channel
+    assert viewing.explained(np.arange(n) * 1e-3, slow) < 0.1
 
 
 def test_the_map_shows_which_joint_follows_what(folder) -> None:
+    """As the command says it where it does, of the columns of the log besides."""
+    comparison = checks.compare(load_model("m.json"), ["b.parquet"])
     heat = viewing.where_picture("m.json", ["b.parquet"]).panels[0][0].series[0]
-    values = dict(zip(heat.columns, heat.values[1], strict=True))  # joint 2
-    assert heat.rows == ("1", "2", "3") and values["load"] > 20.0
-    assert values["load"] > np.nanmax(heat.values[[0, 2], heat.columns.index("load")])
+    assert heat.rows == ("1", "2", "3") and "qc3" in heat.columns
+    for item, values in zip(comparison.joints, heat.values, strict=True):
+        assert item.structure is not None
+        for name in ("velocity", "load", "time"):
+            share = values[heat.columns.index(name)]
+            np.testing.assert_allclose(share, 100.0 * item.structure.share(name))
+        assert 0.0 <= values[heat.columns.index("qc3")] <= 100.0
+    load = heat.values[:, heat.columns.index("load")]
+    assert load.argmax() == 1 and load[1] > 20.0  # the hidden effect's
 
 
 def test_poses_and_errors_by_log(folder) -> None:
