@@ -3,13 +3,16 @@
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from nicegui import ui
 from nicegui.elements.plotly import Plotly
 
 from modeler.core.errors import ModelerError
+from modeler.core.picture_file import pictures_from_json
 from modeler.core.table import percent
 from modeler.studio import commands, figures
-from modeler.studio.elements import go_button, head, light, part, run_button
+from modeler.studio.elements import go_button, head, light, part, run_button, told
+from modeler.studio.project import Step
 from modeler.studio.robot_frame import RobotFrame, robot_frame
 from modeler.studio.studio import Studio
 from modeler.studio.timeline import Timeline
@@ -60,7 +63,27 @@ async def draw(studio: Studio) -> None:
         found: Verdict = await studio.view("verdict", project.model, logs)
     finally:
         waiting.delete()
-    await _Fails(studio, project.model, logs, found, kept).draw()
+    if found.joints:
+        await _Fails(studio, project.model, logs, found, kept).draw()
+    told(found.unjudged)
+    step = project.about("compare")
+    if step is not None and step.words[2:] == tuple(logs):
+        more = ui.expansion("All that the command drew: spectra, waves per turn, shares")
+        more.classes("w-full").on_value_change(lambda: _more(studio, more, step))
+
+
+def _more(studio: Studio, place: ui.expansion, step: Step) -> None:
+    """Draws what `modeler compare` drew, where that was opened."""
+    place.clear()
+    try:
+        pictures = pictures_from_json(studio.folder / step.pictures) if place.value else ()
+    except ModelerError as error:
+        studio.show_error(str(error))
+        return
+    with place:
+        for picture in pictures:
+            if not picture.name.endswith("_time"):  # which stands above
+                figures.draw(picture)
 
 
 def class_of(error: float) -> Any:
@@ -78,8 +101,6 @@ class _Fails:
         if kept.get("joint") not in found.joints:
             errors = [-1.0 if math.isnan(error) else error for error in found.errors]
             kept["joint"] = found.joints[errors.index(max(errors))]
-        if kept.get("channel") not in dict(found.channels):
-            kept["channel"] = "velocity"
         self.rows: dict[str, ui.element] = {}
         self.robot: RobotFrame | None = None
 
@@ -104,6 +125,7 @@ class _Fails:
                 where = await self.studio.view("where_picture", self.model, self.logs)
                 cells = figures.draw(where)
                 cells.on("plotly_click", self._cell)
+                self._strongest(where.panels[0][0].series[0])
             with ui.column().classes("fails-half"):
                 choice = dict(self.found.channels)
                 self.channel = ui.select(choice, value=self.kept["channel"], label="residual over")
@@ -139,11 +161,8 @@ class _Fails:
         rows = zip(self.found.joints, self.found.errors, self.found.sentences, strict=True)
         with ui.element("div").classes("fails-verdict").props("role=listbox aria-label=joints"):
             for joint, error, sentence in rows:
-                row = (
-                    ui.element("button")
-                    .classes("fails-joint")
-                    .props(f'type=button role=option data-rows="{joint}"')
-                )
+                row = ui.element("button").classes("fails-joint").props("type=button role=option")
+                row.props["data-rows"] = joint
                 row.on("click", lambda _, name=joint: self._pick(name))
                 self.rows[joint] = row
                 with row:
@@ -159,6 +178,12 @@ class _Fails:
             self.kept["channel"] = channel
             self.channel.set_value(channel)  # which draws the residual anew
         await self._joint_drawn()
+
+    def _strongest(self, heat: Any) -> None:
+        """At first the channel is looked at that the joint follows most."""
+        if self.kept.get("channel") not in heat.columns:
+            shares = np.nan_to_num(heat.values[heat.rows.index(self.kept["joint"])], nan=-1.0)
+            self.kept["channel"] = heat.columns[int(shares.argmax())]
 
     async def _cell(self, event: Any) -> None:
         point = event.args["points"][0]
@@ -177,7 +202,7 @@ class _Fails:
             here = joint == self.kept["joint"]
             row.classes(add="fails-here" if here else "", remove="" if here else "fails-here")
             row.props(f"aria-selected={'true' if here else 'false'}")
-        self.body.props(f'data-rows="{self.kept["joint"]}"')  # lit wherever the mouse is
+        self.body.props["data-rows"] = self.kept["joint"]  # lit wherever the mouse is
         if self.robot is not None:
             self.robot.light([self.kept["joint"]])
         await self._torques_drawn()

@@ -384,6 +384,7 @@ class Verdict:
         channels: of each: id and label of what its residual can be drawn over.
         start, end: of the time axis of the pictures, s.
         kinds: of each, what is left: "pattern", "noise" or "other".
+        unjudged: lines on joints that cannot be judged, and why.
     """
 
     joints: tuple[str, ...]
@@ -393,6 +394,7 @@ class Verdict:
     start: float
     end: float
     kinds: tuple[str, ...]
+    unjudged: tuple[str, ...]
 
 
 def verdict(model: str, logs: Sequence[str]) -> Verdict:
@@ -406,6 +408,7 @@ def verdict(model: str, logs: Sequence[str]) -> Verdict:
         tuple(validation.joint_verdict(item) for item in items),
         tuple(_channels(judged)), float(time.min()), float(time.max()),
         tuple(map(validation.kind_of_residual, items)),
+        tuple(f"Joint {name}: not judged: {why}" for name, why in judged.comparison.unjudged),
     )  # fmt: skip
 
 

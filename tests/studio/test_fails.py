@@ -11,7 +11,8 @@ import pytest
 
 from modeler.api import load, simulate
 from modeler.core.builtin import builtin_text
-from modeler.robot import robot_from_text, with_parameters
+from modeler.robot import robot_from_text
+from modeler.robot.edit import with_parameters
 from modeler.studio.project import FOLDERS, Project, ProjectLog, Step, Stretch, Workspace
 from tests.studio.window import Served, Window, served
 
@@ -87,7 +88,7 @@ def test_where_it_fails_is_seen_by_joint_and_channel(look) -> None:
     # Another joint, by its sentence; then a cell of the map, which is a joint and a channel.
     said.nth(0).click()
     drawn(own, "Joint 1: measured and predicted")
-    drawn(own, "Joint 1: residual over velocity")
+    drawn(own, "Joint 1: residual over")
     heat = page.locator(".picture", has_text="which joint follows what")
     heat.scroll_into_view_if_needed()
     at = heat.locator(".js-plotly-plot").evaluate(
@@ -101,6 +102,11 @@ def test_where_it_fails_is_seen_by_joint_and_channel(look) -> None:
     page.get_by_label("residual over").click()
     page.get_by_role("option", name="qc3").click()
     drawn(own, "Joint 2: residual over qc3")
+    # The command itself, and all that it draws.
+    own.click("Compare", exact=True)
+    page.get_by_text("All that the command drew").click()
+    drawn(own, "All joints")
+    drawn(own, "Joint 3: does the residual still have structure?")
     # The training stretch instead of the held-out one.
     page.get_by_role("button", name="training").click()
     page.get_by_text("modeler compare models/1.json logs/monday.parquet").wait_for()

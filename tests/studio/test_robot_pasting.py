@@ -168,12 +168,14 @@ def test_what_cannot_be_a_table_is_told(text: str, line: str | None) -> None:
     assert "; expected " in str(told.value)
 
 
-def test_nothing_in_a_table_is_evaluated() -> None:
+def test_nothing_in_a_table_is_evaluated(tmp_path, monkeypatch) -> None:
     """Words of Python are names without a value, for the reader to refuse."""
-    evil = '__import__("os").system("touch /tmp/evil")'
+    monkeypatch.chdir(tmp_path)
+    evil = '__import__("os").system("touch evil")'
     table = pasted_table(f"alpha\td\ttheta\tr\n0\t{evil}\tq1\t0\n=1+1\t0\tq2\t0")
     with pytest.raises(RobotError):
         robot_from_text(pasted_robot(table, "x"), "x")
+    assert not [*tmp_path.iterdir()]
 
 
 def test_a_block_for_some_cells_keeps_what_it_says() -> None:
