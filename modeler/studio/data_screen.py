@@ -17,7 +17,7 @@ from modeler.core.json import entries
 from modeler.core.manifest import JointSpec
 from modeler.logs import map_from_words
 from modeler.studio import commands
-from modeler.studio.chooser import Chooser
+from modeler.studio.chooser import choose
 from modeler.studio.dropped import drop_zone
 from modeler.studio.elements import head, part
 from modeler.studio.log_desk import Desk
@@ -33,6 +33,7 @@ _FORMATS = (
     "CSV, text, Excel, Parquet, MAT, HDF5, NumPy, MCAP and ROS bags, with the names and units that "
     "your logger wrote."
 )
+_SETTINGS = ("topic=", "rate=", "names=")
 _FIRST = "At first the last 30 % of one log is held out, of several logs the last one."
 
 
@@ -102,8 +103,8 @@ class DataScreen:
         with ui.row().classes("items-center w-full data-in"):
             label = "Drop logs here, several at once, or press +"
             drop_zone("logs", label, self._came, studio.show_error).classes("data-drop")
-            choose = ui.button("Choose where it lies", icon="folder_open").props("no-caps outline")
-            choose.on_click(lambda: Chooser(studio, LOG_ENDINGS, self._came))
+            pick = ui.button("Choose where it lies", icon="folder_open").props("no-caps outline")
+            pick.on_click(lambda: choose(studio, LOG_ENDINGS, self._came))
         if not studio.project.logs:
             background_tasks.create(studio.view("forget"), name="start the viewer")
             ui.label(_FORMATS).classes("studio-soft")
@@ -156,19 +157,22 @@ class DataScreen:
         try:
             time = self.chosen(known.guess).get("time", Choice("time"))
             own = words_of({"time": time}, {"time": Choice("time")}, self.joints)
-            clock = (*self.settings, *own) if time.column in known.guess.columns else self.settings
-            clock = tuple(word for word in clock if word != AUTO)
+            kept = (word for word in self.studio.project.mapping if word.startswith(_SETTINGS))
+            clock = (*kept, *own) if time.column in known.guess.columns else tuple(kept)
             facts = await self.studio.view("log_facts", self.path(file), clock)
             found = {"ends": (facts.start, facts.end), **entries(facts, "rows units")}
             self.logs[file] = replace(known, clock=clock, **found)
         except ModelerError as error:
             self.logs[file] = Known(error=str(error))
 
-    @property
-    def settings(self) -> tuple[str, ...]:
-        """Words of the mapping that are about no column."""
-        kinds = (AUTO, "topic=", "rate=", "names=")
-        return tuple(word for word in self.studio.project.mapping if word.startswith(kinds))
+    def kept(self, guess: LogGuess) -> tuple[str, ...]:
+        """Words of the mapping that are about no column, or about one of other logs."""
+        words = self.studio.project.mapping
+        said = {word: map_from_words([word]).entries(self.joints).values() for word in words}
+        far = [
+            w for w, own in said.items() if not any({*e.columns} & {*guess.columns} for e in own)
+        ]
+        return tuple(w for w in far if AUTO in words or w.startswith(_SETTINGS))
 
     def guess(self, file: str) -> LogGuess:
         """Of a log that can be read."""
@@ -179,15 +183,17 @@ class DataScreen:
     def chosen(self, guess: LogGuess) -> dict[str, Choice]:
         """What the columns of a log are taken as."""
         words = self.studio.project.mapping
-        own = map_from_words(words).entries(self.joints)
         found = self._choices(words, guess)
-        under = guess.choices if AUTO in words else {}
-        return found | {name: one for name, one in under.items() if name not in own}
+        if AUTO not in words:
+            return found
+        there = map_from_words(words).entries(self.joints)  # those of other logs stay out
+        own = {name for name, entry in there.items() if {*entry.columns} & {*guess.columns}}
+        return self.under(guess) | {name: found[name] for name in own}
 
     def under(self, guess: LogGuess) -> dict[str, Choice]:
         """The same without words about columns."""
         found = self._choices((), guess)
-        return {**found, **(guess.choices if AUTO in self.settings else {})}
+        return {**found, **(guess.choices if AUTO in self.studio.project.mapping else {})}
 
     def _choices(self, words: tuple[str, ...], guess: LogGuess) -> dict[str, Choice]:
         names = said(words, self.stated, self.studio.project.robot)
@@ -262,8 +268,9 @@ class DataScreen:
         known, place, result = self.logs[file], self._rows[file], self.result(file)
         place.clear()
         with place:
-            name = ui.button(file, on_click=lambda: self.open(file)).classes("data-name")
-            name.props("flat dense no-caps align=left")
+            short = Path(file).name if Path(file).is_absolute() else file
+            name = ui.button(short, on_click=lambda: self.open(file)).tooltip(self.path(file))
+            name.props("flat dense no-caps align=left").classes("data-name")
             if known.error:
                 ui.label(known.error).classes("studio-error").props("role=alert")
             else:

@@ -164,8 +164,8 @@ class _Fails:
         rows = zip(self.found.joints, self.found.errors, self.found.sentences, strict=True)
         with ui.element("div").classes("fails-verdict").props("role=listbox aria-label=joints"):
             for joint, error, sentence in rows:
-                row = ui.element("button").classes("fails-joint")
-                row.props(f'type=button role=option data-rows="{joint}"')
+                row = ui.element("button").classes("fails-joint").props("type=button role=option")
+                row.props["data-rows"] = joint
                 row.on("click", lambda _, name=joint: self._pick(name))
                 self.rows[joint] = row
                 with row:
@@ -206,7 +206,7 @@ class _Fails:
             here = joint == self.kept["joint"]
             row.classes(add="fails-here" if here else "", remove="" if here else "fails-here")
             row.props(f"aria-selected={'true' if here else 'false'}")
-        self.body.props(f'data-rows="{self.kept["joint"]}"')  # lit wherever the mouse is
+        self.body.props["data-rows"] = self.kept["joint"]  # lit wherever the mouse is
         if self.robot is not None:
             self.robot.light([self.kept["joint"]])
         await self._torques_drawn()

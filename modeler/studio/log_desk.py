@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _POINTS = 1500  # of a curve, at most
 _ALL_POINTS = 14_000  # of all curves
 _COLORS = (BLUE, VERMILLION, GREEN, ORANGE, PINK, BLACK)  # SKY is what BLUE is in the dark
-_PANELS = {"q": "position", "qd": "speed", "tau": "torque", "current": "current"}
+_PANELS = {"q": "position", "qd": "speed", "tau": "torque or force", "current": "current"}
 _SPEEDS = {speed: f"{speed:g} x" for speed in (0.1, 0.5, 1.0, 2.0, 5.0)}
 _ROOM = 0.02  # s beside a doubt that is left out too
 _MOST = 30  # marks that are listed; the line has all
@@ -261,7 +261,8 @@ class Desk:
         try:
             for own, one in chosen.items():
                 as_mapped(np.empty(0), "", one, own, joints)  # says which units cannot be
-            words = (*screen.settings, *words_of(chosen, screen.under(self.guess), joints))
+            words = words_of(chosen, screen.under(self.guess), joints)
+            words = (*screen.kept(self.guess), *words)
             changed = self.studio.change(mapping=words)
         except ModelerError as error:
             self.studio.show_error(str(error))

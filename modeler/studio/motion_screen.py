@@ -95,10 +95,14 @@ def _wish(studio: Studio) -> None:
         ui.label(
             "Where a diagnosis cannot tell two effects apart, the motion that does is offered here."
         ).classes("studio-soft studio-small")
+
+    def change() -> None:
+        studio.kept["robot tab"] = "Limits"
+        studio.go("robot")
+
     with ui.row().classes("items-center"):
         ui.label("Its limits are those of the robot.").classes("studio-soft")
-        go_button(studio, "Change them", "robot")
-    studio.kept["robot tab"] = "Limits"
+        ui.button("Change them", on_click=change).props("no-caps flat icon-right=east")
     renew = run_button(
         studio, "Find the motion",
         lambda: excite(studio.project, chosen["between"], chosen["duration"]),

@@ -337,7 +337,8 @@ class _Desk:
                         ui.label(name)
             with ui.element("tbody"):
                 for joint in look.joints:
-                    with ui.element("tr").props(f'data-rows="{joint.name}"'):
+                    with ui.element("tr") as row:
+                        row.props["data-rows"] = joint.name
                         with ui.element("th").props("scope=row"):
                             ui.label(joint.name if joint.actuated else f"{joint.name} (passive)")
                         for effect in BASIC_EFFECTS:
@@ -345,7 +346,8 @@ class _Desk:
                                 self._box(effect, joint.name, effect in joint.effects)
 
     def _box(self, effect: str, joint: str, has: bool) -> None:
-        box = ui.checkbox(value=has).props(f'dense aria-label="{effect} of joint {joint}"')
+        box = ui.checkbox(value=has).props("dense")
+        box.props["aria-label"] = f"{effect} of joint {joint}"
         box.set_enabled(not self.studio.read_only)
         box.on_value_change(lambda event: self._effect(effect, joint, bool(event.value)))
 
