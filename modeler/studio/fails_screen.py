@@ -1,6 +1,7 @@
 """Where it fails: measured against predicted torque by joint, and what the residual follows."""
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -118,7 +119,7 @@ class _Fails:
         with part("Measured and predicted"):
             await self._clock()
             every = ui.switch("all joints", value=self.kept.get("every", False))
-            every.on_value_change(self._all_switched)
+            every.on_value_change(self._keeps("every", self._torques_drawn))
             self.torques = ui.column().classes("w-full gap-2")
         with part("What the residual follows"), ui.row().classes("w-full fails-halves"):
             with ui.column().classes("fails-half"):
@@ -128,8 +129,10 @@ class _Fails:
                 self._strongest(where.panels[0][0].series[0])
             with ui.column().classes("fails-half"):
                 choice = dict(self.found.channels)
-                self.channel = ui.select(choice, value=self.kept["channel"], label="residual over")
-                self.channel.classes("w-64").on_value_change(self._channel_chosen)
+                self.channel = ui.select(
+                    choice, value=self.kept["channel"], label="residual over",
+                    on_change=self._keeps("channel", self._residual_drawn),
+                ).classes("w-64")  # fmt: skip
                 self.residual = ui.column().classes("w-full")
 
     async def _robot(self) -> RobotFrame | None:
@@ -189,13 +192,14 @@ class _Fails:
         point = event.args["points"][0]
         await self._pick(point["y"], point["x"])
 
-    async def _channel_chosen(self, event: Any) -> None:
-        self.kept["channel"] = event.value
-        await self._residual_drawn()
+    def _keeps(self, name: str, drawn: Callable[[], Any]) -> Callable[[Any], Any]:
+        """What is called when that is changed: it is kept, and drawn."""
 
-    async def _all_switched(self, event: Any) -> None:
-        self.kept["every"] = event.value
-        await self._torques_drawn()
+        def changed(event: Any) -> Any:
+            self.kept[name] = event.value
+            return drawn()
+
+        return changed
 
     async def _joint_drawn(self) -> None:
         for joint, row in self.rows.items():
@@ -220,14 +224,9 @@ class _Fails:
 
     async def _torque(self, joint: str, *ends: float) -> Any:
         return await asked(
-            self.studio,
-            "torque_picture",
-            [self.model],
-            self.logs,
-            joint,
-            *ends,
+            self.studio, "torque_picture", [self.model], self.logs, joint, *ends,
             kind=f"torque {joint}",
-        )
+        )  # fmt: skip
 
     async def _residual_drawn(self) -> None:
         picture = await asked(

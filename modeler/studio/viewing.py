@@ -274,9 +274,6 @@ def _read(place: str, words: Sequence[str], robot: str) -> _Log:
         stated = _robot(robot)
         mapping = mapping.overriding(map_from_table(stated.log_words, f"{robot}: [log]"))
     joints = robot_joints(robot)
-    if mapping.auto:
-        guessed = log_maps.look_at(place, None, LogMap(names=mapping.names)).suggested
-        mapping = log_maps.suggested_map(guessed, mapping)
     return _read_as(place, mapping, joints)
 
 

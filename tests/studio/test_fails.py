@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -75,6 +76,15 @@ def look(window: Callable[..., Window], studio: Served) -> Iterator[Callable[...
 def drawn(window: Window, title: str) -> None:
     """Until a picture of that title is drawn."""
     window.page.locator(".picture", has_text=title).locator(".main-svg").first.wait_for()
+
+
+def until(frame: Any, expression: str) -> None:
+    """Until that is so in a frame, whose page allows no script to be made of text."""
+    for _ in range(300):
+        if frame.evaluate(expression):
+            return
+        frame.page.wait_for_timeout(100)
+    raise AssertionError(f"never so: {expression}")
 
 
 def test_where_it_fails_is_seen_by_joint_and_channel(look) -> None:
@@ -160,17 +170,15 @@ def test_the_robot_plays_along_and_its_joints_are_clicked(look) -> None:
     own.go("Where it fails")
     drawn(own, "Joint 2: measured and predicted")
     frame = page.locator("iframe.studio-robot").element_handle().content_frame()
-    frame.wait_for_function("window.modelerShow && modelerShow.view.lit.size === 1")
+    until(frame, "window.modelerShow && modelerShow.view.lit.size === 1")
     before = frame.evaluate("[...modelerShow.u]")
     page.get_by_role("button", name="play").click()
     page.wait_for_function("document.querySelector('.studio-cursor:not([hidden])')")
-    frame.wait_for_function(
-        f"modelerShow.u.some((u, k) => Math.abs(u - {before}[k]) > 0.02)", timeout=20_000
-    )
+    until(frame, f"modelerShow.u.some((u, k) => Math.abs(u - {before}[k]) > 0.02)")
     page.get_by_role("button", name="play").click()
     frame.evaluate("tell('joint', { name: '3' })")  # what a click on it does
     drawn(own, "Joint 3: measured and predicted")
-    frame.wait_for_function("[...modelerShow.view.lit].join() === '2'")
+    until(frame, "[...modelerShow.view.lit].join() === '2'")
     assert own.complaints == []
 
 
