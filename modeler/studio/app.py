@@ -262,9 +262,9 @@ def _status(studio: Studio) -> None:
                     bar.props("indeterminate")
                 else:
                     bar.value = hub.running.share
-            steps = studio.project.steps
-            last.visible = bool(steps) and hub.running is None
-            line.text = typed(steps[-1].words) if steps else ""
+            words = hub.last or (steps[-1].words if (steps := studio.project.steps) else ())
+            last.visible = bool(words) and hub.running is None
+            line.text = typed(words)
             reading.visible = studio.read_only
 
         studio.listeners.append(told)
