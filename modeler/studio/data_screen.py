@@ -342,7 +342,9 @@ class DataScreen:
             studio.listeners.append(leave)
             try:
                 step = await hub.run(left[0], keep=False, aside=True)
-                studio.change(steps=(*studio.project.steps, step))
+                old = self._checked(step.words[1])
+                steps = [own for own in studio.project.steps if own is not old]
+                studio.change(steps=(*steps, step))
             except ModelerError as error:
                 if str(error).endswith(": cancelled") or not self.live:
                     return

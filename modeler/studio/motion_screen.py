@@ -174,7 +174,9 @@ async def _shown(studio: Studio, step: Step, look: MotionLook) -> None:
             with ui.row().classes("items-center no-wrap w-full"):
                 button = ui.button(icon="play_arrow").props("round aria-label='play the motion'")
                 ends = float(look.time[0]), float(look.time[-1])
-                line = Timeline(name, ends).classes("w-full")
+                line = Timeline(name, ends).style(
+                    "flex: 1 1 0; min-width: 0; margin: 8px 0 16px 8px"
+                )
             line.frame = frame.id
             button.on_click(lambda: line.play(1.0))
 

@@ -1,6 +1,7 @@
 """The screen "robot": its table, edited beside its picture, and what it can be identified by."""
 
 import asyncio
+import contextlib
 import json
 from functools import partial
 from typing import Any
@@ -65,8 +66,6 @@ class _Desk:
     async def draw(self) -> None:
         """The screen of a robot that there is."""
         studio = self.studio
-        dark = "matchMedia('(prefers-color-scheme: dark)').matches"
-        self.theme: Any = "vscodeDark" if await ui.run_javascript(dark) else "vscodeLight"
         with ui.row().classes("items-center w-full"):
             self.title = ui.label().classes("studio-head")
             ui.space()
@@ -92,6 +91,10 @@ class _Desk:
         for button in self.changing:
             button.set_enabled(not studio.read_only)
         await self.check()
+        dark = "matchMedia('(prefers-color-scheme: dark)').matches"
+        with contextlib.suppress(TimeoutError):  # over a slow line the text stays light
+            if await ui.run_javascript(dark, timeout=20.0):
+                self.editor.set_theme("vscodeDark")
 
     def _tabs(self) -> None:
         names = ("Table", "Effects", "Limits", "Base parameters", "Text")
@@ -132,7 +135,7 @@ class _Desk:
             pass
         with panel("Text"):
             self.editor = ui.codemirror(
-                self.kept.text, language="TOML", on_change=self._typed, theme=self.theme
+                self.kept.text, language="TOML", on_change=self._typed, theme="vscodeLight"
             ).classes("studio-text w-full")
             self.editor.set_enabled(not self.studio.read_only)
 
