@@ -53,7 +53,6 @@ READING = {  # what each command reads; outputs come after it
     "completion": "completion bash",
     "studio": "studio arm",
     "fleet": "fleet arm.toml a.parquet b.csv@0:4 --map names.toml",
-    "studio": "studio folder",
 }
 
 
