@@ -107,5 +107,8 @@ def _error(studio: Studio, step: Step) -> str:
 
 
 def _back(studio: Studio, step: Step) -> None:
-    if studio.change(redraw=True, current=step.number):
+    if studio.hub.running is not None and not studio.hub.gives_way:  # it is about the current model
+        title = studio.hub.running.title
+        studio.show_error(f"step {step.number}: {title} runs still; wait for it, or cancel it")
+    elif studio.change(redraw=True, current=step.number):
         studio.show_error("")

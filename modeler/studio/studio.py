@@ -129,7 +129,8 @@ class Hub:
         if not self.workspace.writable:
             self.workspace.save(self.project)  # says why not
         self._roots.check_words(self.workspace.folder, asked.words)
-        number, parent = self.project.next_number, asked.about
+        number = self.project.next_number
+        parent = self.project.current if asked.about is None else asked.about
         more, result, pictures = commands.bookkeeping(asked.words, number)
         self._prepare(asked, number)
         self.gives_way = aside
@@ -144,9 +145,8 @@ class Hub:
         if outcome.status != 0 or (aside and not self.gives_way):
             raise ModelerError(outcome.error or f"{asked.title}: cancelled")
         step = Step(
-            number, self.project.current if parent is None else parent, asked.kind, asked.words,
-            asked.title, asked.model, result, pictures, round(time.perf_counter() - begun, 2),
-            datetime.now(UTC).isoformat(timespec="seconds"),
+            number, parent, asked.kind, asked.words, asked.title, asked.model, result, pictures,
+            round(time.perf_counter() - begun, 2), datetime.now(UTC).isoformat(timespec="seconds"),
         )  # fmt: skip
         if keep:
             steps = (*self.project.steps, step)
