@@ -100,7 +100,9 @@ def _error(studio: Studio, step: Step) -> str:
     except ModelerError as error:
         return str(error)
     if "waterfall" not in result:
-        return f"{percent(result['relative_error'])} where it was fitted"
+        own = [one["relative_error"] for one in result["joints"].values()]
+        squares = [error**2 for error in own if error is not None]  # rms of joints, as bars have it
+        return f"{percent((sum(squares) / len(squares)) ** 0.5)} fitted" if squares else ""
     last = result["waterfall"][-1]
     where = "held out" if last["held_out"] else "left out in turn"
     return f"{percent(last['error'])} {where}, {percent(last['training_error'])} fitted"
