@@ -9,7 +9,7 @@ from nicegui.elements.plotly import Plotly
 from modeler.core.errors import ModelerError
 from modeler.core.table import percent
 from modeler.studio import commands, figures
-from modeler.studio.elements import go_button, head, light, part, run_button
+from modeler.studio.elements import go_button, head, light, part, run_button, stale
 from modeler.studio.robot_frame import RobotFrame, robot_frame
 from modeler.studio.studio import Studio
 from modeler.studio.timeline import Timeline
@@ -53,6 +53,7 @@ async def draw(studio: Studio) -> None:
         ui.toggle(roles, value=kept["role"], on_change=chosen).props("no-caps")
         with ui.element("div").classes("col"):
             run_button(studio, "Compare", lambda: commands.compare(project, logs), small=True)
+    stale(studio)
     with ui.row().classes("items-center") as waiting:
         ui.spinner(size="sm")
         ui.label("predicting ...")

@@ -30,6 +30,7 @@ async def draw(studio: Studio) -> None:
         ui.label("There is no model yet: fit one first.")
         elements.go_button(studio, "To the fit", "fit")
         return
+    elements.stale(studio)
     with elements.part("The way of this model"):
         _pictures(studio, path)
         for step in path:

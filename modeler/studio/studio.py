@@ -336,6 +336,13 @@ class Studio:
         """
         return self._parsed(step.model)
 
+    def newer(self, file: str, step: Step) -> bool:
+        """Whether a file was written after a step was done."""
+        with contextlib.suppress(OSError, ValueError):
+            done = datetime.fromisoformat(step.made).timestamp() + 1.0  # of whole seconds
+            return (self.folder / file).stat().st_mtime > done
+        return False
+
     def _parsed(self, file: str) -> dict[str, Any]:
         try:
             found: dict[str, Any] = parse_json(self.text(file))
