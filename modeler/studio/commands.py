@@ -67,7 +67,7 @@ def fit(project: Project, options: Sequence[str] = ()) -> Asked:
 def compare(project: Project, files: Sequence[str] = (), options: Sequence[str] = ()) -> Asked:
     """Measured against predicted: on the held-out stretches, or where there are none on all."""
     logs = files or project.words("test") or project.words("train")
-    words = ("compare", project.model, *logs, *_guessing(project), *options)
+    words = ("compare", project.model, *logs, *guessing(project), *options)
     return Asked("compare", words, "compare")
 
 
@@ -75,7 +75,7 @@ def diagnose(project: Project) -> Asked:
     """What the current model lacks."""
     words = ("diagnose", project.model, *project.words("train"), *_held(project))
     bans = [word for effect in project.without for word in ("--without", effect)]
-    return Asked("diagnose", (*words, *_guessing(project), *bans), "look for what is missing")
+    return Asked("diagnose", (*words, *guessing(project), *bans), "look for what is missing")
 
 
 def add(project: Project, effect: str, joint: str | None) -> Asked:
@@ -84,7 +84,7 @@ def add(project: Project, effect: str, joint: str | None) -> Asked:
     place = ("--joint", joint) if joint is not None else ()
     words = ("add", project.model, effect, *project.words("train"), *place)
     name = effect if joint is None else f"{effect}@{joint}"
-    words = (*words, *_held(project), *_guessing(project), "--out", model)
+    words = (*words, *_held(project), *guessing(project), "--out", model)
     return Asked("add", words, f"add {name}", model)
 
 
@@ -165,7 +165,7 @@ def mapped(project: Project) -> tuple[str, ...]:
     return tuple(word for own in project.mapping for word in ("--map", own))
 
 
-def _guessing(project: Project) -> tuple[str, ...]:
+def guessing(project: Project) -> tuple[str, ...]:
     """The same where logs are called differently: a model keeps what is so in the first one."""
     return mapped(project) if "auto" in project.mapping else ()
 

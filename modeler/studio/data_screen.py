@@ -221,5 +221,6 @@ class DataScreen(Shelf):
 
     def _unseen(self, words: tuple[str, ...]) -> bool:
         file, step = words[1], self.checked(words[1])
-        stale = step is not None and step.words != words and file == self.studio.kept["log"]
-        return not self.logs[file].error and (step is None or stale)
+        if self.logs[file].error or step is None or self.studio.newer(file, step):
+            return not self.logs[file].error
+        return step.words != words and file == self.studio.kept["log"]

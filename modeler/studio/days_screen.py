@@ -11,7 +11,7 @@ from modeler.studio import commands, figures
 from modeler.studio.commands import Asked
 from modeler.studio.elements import go_button, head, part, run_button, table
 from modeler.studio.fails_screen import asked, zooms
-from modeler.studio.project import ProjectLog, Step, Stretch
+from modeler.studio.project import MAKING, ProjectLog, Step, Stretch
 from modeler.studio.studio import Studio
 
 _TIME = "days"  # that pictures of several models share
@@ -111,7 +111,8 @@ async def _logs(studio: Studio, kept: dict[str, Any]) -> None:
 async def _models(studio: Studio, kept: dict[str, Any]) -> None:
     """Two models of the project on the same logs: who is better where, beyond doubt."""
     project = studio.project
-    known = {step.model: f"{step.number}  {step.title}" for step in project.steps if step.model}
+    models = [step for step in project.steps if step.kind in MAKING]
+    known = {step.model: f"{step.number}  {step.title}" for step in models}
     logs = project.words("test") or project.words("train")
     if len(known) < 2 or not logs:
         line = "The project has fewer than two models: fit another one, or add an effect first."
@@ -123,7 +124,8 @@ async def _models(studio: Studio, kept: dict[str, Any]) -> None:
     if pair[0] == pair[1]:
         ui.label("Choose two different models.")
         return None
-    wanted = Asked("contest", ("compare", *pair, *logs), "compare two models")
+    words = ("compare", *pair, *logs, *commands.guessing(project))
+    wanted = Asked("contest", words, "compare two models")
     run_button(studio, "Compare both", lambda: wanted)
     own = [s for s in project.steps if (s.kind, s.words) == (wanted.kind, wanted.words)]
     if own:

@@ -2,6 +2,7 @@
 
 import html
 from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise, takewhile
 from typing import Literal
 
 from nicegui import ui
@@ -117,6 +118,26 @@ def doubt_lines(lines: Iterable[str], which: Light = "doubtful") -> None:
         with ui.row().classes("items-start no-wrap gap-2"):
             ui.label(_SHAPES[which]).classes(f"studio-light studio-{which}")
             ui.label(line)
+
+
+def stale(studio: Studio) -> None:
+    """Says where the current model is not that of the project as it is now."""
+    project, way = studio.project, studio.project.path()
+    first, last = way[0], way[-1]
+    copy = first.words[1]
+    logs = takewhile(lambda word: word[:1] != "-", last.words[2 if last is first else 3 :])
+    maps = [word for option, word in pairwise(first.words) if option == "--map"]
+    changed = {
+        "the robot was": studio.text(copy) != studio.text(project.robot),
+        "the mapping of columns was": (*maps,) != project.mapping,
+        "the training stretches were": [*logs] != project.words("train"),
+        **{f"the file {log.file} was": studio.newer(log.file, last) for log in project.logs},
+    }
+    doubt_lines(
+        f"{what} changed since this model was fitted; fit again"
+        for what, so in changed.items()
+        if so
+    )
 
 
 def told(lines: Iterable[str]) -> None:

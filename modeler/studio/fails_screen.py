@@ -12,7 +12,7 @@ from modeler.core.errors import ModelerError
 from modeler.core.picture_file import pictures_from_json
 from modeler.core.table import percent
 from modeler.studio import commands, figures
-from modeler.studio.elements import go_button, head, light, part, run_button, told
+from modeler.studio.elements import go_button, head, light, part, run_button, stale, told
 from modeler.studio.project import Step
 from modeler.studio.robot_frame import RobotFrame, robot_frame
 from modeler.studio.studio import Studio
@@ -57,6 +57,7 @@ async def draw(studio: Studio) -> None:
         ui.toggle(roles, value=kept["role"], on_change=chosen).props("no-caps")
         with ui.element("div").classes("col"):
             run_button(studio, "Compare", lambda: commands.compare(project, logs), small=True)
+    stale(studio)
     with ui.row().classes("items-center") as waiting:
         ui.spinner(size="sm")
         ui.label("predicting ...")

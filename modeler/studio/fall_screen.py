@@ -30,6 +30,7 @@ async def draw(studio: Studio) -> None:
         ui.label("There is no model yet: fit one first.")
         elements.go_button(studio, "To the fit", "fit")
         return
+    elements.stale(studio)
     with elements.part("The way of this model"):
         _pictures(studio, path)
         for step in path:
@@ -100,12 +101,17 @@ def _error(studio: Studio, step: Step) -> str:
     except ModelerError as error:
         return str(error)
     if "waterfall" not in result:
-        return f"{percent(result['relative_error'])} where it was fitted"
+        own = [one["relative_error"] for one in result["joints"].values()]
+        squares = [error**2 for error in own if error is not None]  # rms of joints, as bars have it
+        return f"{percent((sum(squares) / len(squares)) ** 0.5)} fitted" if squares else ""
     last = result["waterfall"][-1]
     where = "held out" if last["held_out"] else "left out in turn"
     return f"{percent(last['error'])} {where}, {percent(last['training_error'])} fitted"
 
 
 def _back(studio: Studio, step: Step) -> None:
-    if studio.change(redraw=True, current=step.number):
+    if studio.hub.running is not None and not studio.hub.gives_way:  # it is about the current model
+        title = studio.hub.running.title
+        studio.show_error(f"step {step.number}: {title} runs still; wait for it, or cancel it")
+    elif studio.change(redraw=True, current=step.number):
         studio.show_error("")

@@ -1,7 +1,6 @@
 """The screen "fit": values from the training stretches, and what they are worth, joint by joint."""
 
 from collections.abc import Callable, Mapping, Sequence
-from itertools import takewhile
 from typing import Any
 
 from nicegui import ui
@@ -102,12 +101,8 @@ def _options(chosen: Mapping[str, str]) -> list[str]:
 
 
 def _stale(studio: Studio, step: Step) -> None:
-    """Says where these values are not those of the robot and the stretches as they are now."""
-    copy, *logs = takewhile(lambda word: word[0] != "-", studio.project.path()[0].words[1:])
-    if studio.text(copy) != studio.text(studio.project.robot):
-        elements.doubt_lines(["the robot was changed since these values were fitted; fit again"])
-    if logs != studio.project.words("train"):
-        elements.doubt_lines(["the training stretches were changed since; fit again"])
+    """Says where these values are not those of the project as it is now, and where from."""
+    elements.stale(studio)
     with ui.row().classes("items-center no-wrap w-full"):
         ui.label("these values come from").classes("studio-soft")
         elements.command_line(step.words)

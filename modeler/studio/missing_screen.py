@@ -43,6 +43,7 @@ async def draw(studio: Studio) -> None:
         elements.go_button(studio, "To the fit", "fit")
         return
     step = project.about("diagnose")
+    elements.stale(studio)
     with elements.part("Look"):
         elements.run_button(studio, "Look", lambda: commands.diagnose(studio.project))
         _bans(studio)

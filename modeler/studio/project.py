@@ -40,7 +40,7 @@ class Stretch:
 
     def word(self, file: str) -> str:
         """It, as a command takes it."""
-        ends = [f"{side:.10g}" if math.isfinite(side) else "" for side in (self.start, self.end)]
+        ends = [f"{side:.15g}" if math.isfinite(side) else "" for side in (self.start, self.end)]
         return f"{file}@{':'.join(ends)}" if any(ends) else file
 
     def without(self, gaps: Sequence["Stretch"]) -> "list[Stretch]":

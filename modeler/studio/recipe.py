@@ -180,24 +180,25 @@ def _code(own: Recipe, step: Step) -> Iterator[str]:
     plain, options = _parsed(step.words)
     out, held = out_of(step.words), _logs(own, options.get("--holdout", []))
     first, made = _name(plain[0]), _name(out)
+    mapped = f", mapping={options['--map']!r}" if "--map" in options else ""
     if step.kind == "simulate":
         yield f"robot = modeler.open_robot({plain[0]!r})"
         yield f"modeler.simulate(robot, {out!r}, {_simulated(options)})"
     elif step.kind == "fit":
         yield f"robot = modeler.open_robot({plain[0]!r})"
         yield from _fitted(options)
-        more = {"mapping": options.get("--map"), "effects": options.get("--effects", [""])[-1]}
-        given = "".join(f", {name}={value!r}" for name, value in more.items() if value)
+        effects = options.get("--effects", [""])[-1]
+        given = mapped + (f", effects={effects!r}" if effects else "")
         yield f"{made} = modeler.identify(robot, {_logs(own, plain[1:])}{given})"
     elif step.kind == "add":
         joint = options.get("--joint", [None])[-1]
         logs = f"logs={_logs(own, plain[2:])}, held_out={held}"
-        yield f"{made} = {first}.add({plain[1]!r}, joint={joint!r}, {logs})"
+        yield f"{made} = {first}.add({plain[1]!r}, joint={joint!r}, {logs}{mapped})"
     elif step.kind == "diagnose":
         logs, bans = _logs(own, plain[1:]), options.get("--without", [])
-        yield f"{first}.missing(held_out={held}, logs={logs}, without={bans!r})"
+        yield f"{first}.missing(held_out={held}, logs={logs}, without={bans!r}{mapped})"
     else:
-        yield f"{first}.compare({_logs(own, plain[1:])})"
+        yield f"{first}.compare({_logs(own, plain[1:])}{mapped})"
     if step.kind in MAKING:
         yield f"modeler.save({made}, {out!r})"
         yield made

@@ -131,7 +131,8 @@ class Hub:
         if not self.workspace.writable:
             self.workspace.save(self.project)  # says why not
         self._roots.check_words(self.workspace.folder, asked.words)
-        number, parent = self.project.next_number, asked.about
+        number = self.project.next_number
+        parent = self.project.current if asked.about is None else asked.about
         more, result, pictures = commands.bookkeeping(asked.words, number)
         self._prepare(asked, number)
         self.gives_way, self.last = aside, asked.words
@@ -146,9 +147,8 @@ class Hub:
         if outcome.status != 0 or (aside and not self.gives_way):
             raise ModelerError(outcome.error or f"{asked.title}: cancelled")
         step = Step(
-            number, self.project.current if parent is None else parent, asked.kind, asked.words,
-            asked.title, asked.model, result, pictures, round(time.perf_counter() - begun, 2),
-            datetime.now(UTC).isoformat(timespec="seconds"),
+            number, parent, asked.kind, asked.words, asked.title, asked.model, result, pictures,
+            round(time.perf_counter() - begun, 2), datetime.now(UTC).isoformat(timespec="seconds"),
         )  # fmt: skip
         if keep:
             steps = (*self.project.steps, step)
@@ -337,6 +337,13 @@ class Studio:
             DataError: the file is gone, or no JSON.
         """
         return self._parsed(step.model)
+
+    def newer(self, file: str, step: Step) -> bool:
+        """Whether a file was written after a step was done."""
+        with contextlib.suppress(OSError, ValueError):
+            done = datetime.fromisoformat(step.made).timestamp() + 1.0  # of whole seconds
+            return (self.folder / file).stat().st_mtime > done
+        return False
 
     def _parsed(self, file: str) -> dict[str, Any]:
         try:

@@ -107,7 +107,8 @@ def told(log: ProjectLog) -> str:
 
 
 def _words(part: Stretch) -> str:
-    start, end = (f"{side:.6g} s" if math.isfinite(side) else "" for side in vars(part).values())
+    ends = (part.start, part.end)  # of a clock that may count from 1970
+    start, end = (f"{round(side, 3):.15g} s" if math.isfinite(side) else "" for side in ends)
     if start and end:
         return f"{start} to {end}"
     return f"from {start} on" if start else f"up to {end}" if end else "all of it"

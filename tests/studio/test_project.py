@@ -21,6 +21,7 @@ from modeler.studio.project import (
     project_from_text,
     project_text,
 )
+from modeler.studio.timeline import told
 
 _TEXT = st.text(st.characters(exclude_categories=["Cs"]), max_size=12)
 _FILE = st.from_regex(r"([a-z][\w.+-]{0,9}/){0,2}[a-z][\w.+-]{0,9}", fullmatch=True) | st.just("")
@@ -140,3 +141,15 @@ def test_a_place_that_cannot_be_written_leaves_the_project_as_it_was(tmp_path: P
     with pytest.raises(ModelerError):
         own.save(_steps())
     assert own.project == Project()
+
+
+def test_a_stretch_of_a_clock_that_counts_from_1970_keeps_its_ends() -> None:
+    begun = 1732600000.25
+    log = ProjectLog(
+        "a.csv", (Stretch(end=begun + 8.4123),), out=(Stretch(begun + 3.1, begun + 3.35),)
+    )
+    assert log.words("train") == ["a.csv@:1732600003.35", "a.csv@1732600003.6:1732600008.6623"]
+    assert told(log) == (
+        "training: up to 1732600008.662 s; left out: 1732600003.35 s to 1732600003.6 s"
+    )
+    assert Stretch(0.1, 14.7).word("b.csv") == "b.csv@0.1:14.7"

@@ -169,3 +169,15 @@ def test_going_back_and_forth_loses_nothing(worked):
         assert again.steps == every and again.current == number
         assert all((worked.folder / step.model).is_file() for step in again.path())
     assert worked.project.path() == [fit, added]
+
+
+def test_the_notebook_guesses_where_the_commands_guess():
+    """Logs that are called differently are mapped each by its own names."""
+    words = {"fit": ("fit", "robots/1.toml", "a.csv", "--out", "models/1.json", "--map", "auto"),
+             "add": ("add", "models/1.json", "spring", "a.csv", "--holdout", "b.csv", "--map",
+                     "auto", "--out", "models/2.json"),
+             "diagnose": ("diagnose", "models/1.json", "a.csv", "--map", "auto"),
+             "compare": ("compare", "models/2.json", "b.csv", "--map", "auto")}  # fmt: skip
+    steps = tuple(Step(k, 0, kind, own) for k, (kind, own) in enumerate(words.items(), start=1))
+    told = recipe.notebook(recipe.Recipe(Path("here"), steps, {}, frozenset()))
+    assert told.count("mapping=['auto']") == len(words)
