@@ -171,6 +171,7 @@ async def _page(client: Client, hub: Hub, screen: str) -> Studio:
     ui.add_head_html('<link rel="stylesheet" href="/studio.css"><script src="/studio.js"></script>')
     studio = Studio(hub, screen)
     hub.studios.append(studio)
+    client.on_disconnect(lambda: _away(hub, studio))
     client.on_delete(lambda: _left(hub, studio))
     ui.colors(primary="#0072b2", negative="#b3261e", positive="#00694a", warning="#b45f06")
     ui.page_title(f"{hub.workspace.folder.name} - modeler studio")
@@ -183,6 +184,14 @@ async def _page(client: Client, hub: Hub, screen: str) -> Studio:
     studio.redraw()
     background_tasks.create(hub.viewer.warm())
     return studio
+
+
+def _away(hub: Hub, studio: Studio) -> None:
+    """A window is loaded anew, or its line is cut: another that is open may change things."""
+    if studio in hub.studios:
+        hub.studios.remove(studio)
+        hub.studios.append(studio)
+    hub.tell()
 
 
 def _left(hub: Hub, studio: Studio) -> None:

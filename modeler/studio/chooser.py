@@ -20,7 +20,7 @@ def choose(studio: Studio, endings: Sequence[str], taken: Callable[[list[str]], 
         taken: is called with those that were, relative to the folder of the project if they lie
             in it.
     """
-    roots, home, marked = Roots(studio.hub.allowed), studio.folder.resolve(), set[Path]()
+    roots, home, marked = Roots(studio.hub.allowed), studio.folder.resolve(), list[Path]()
     tops = sorted({root.resolve() for root in roots.folders})
 
     def show(folder: Path | None) -> None:
@@ -43,7 +43,9 @@ def choose(studio: Studio, endings: Sequence[str], taken: Callable[[list[str]], 
                 box = ui.checkbox(f"{entry.name}  ({size_text(entry.size)})").props("dense")
                 box.value = entry.place in marked
                 box.on_value_change(
-                    lambda _, place=entry.place: marked.symmetric_difference_update([place])
+                    lambda event, place=entry.place: (
+                        marked.append(place) if event.value else marked.remove(place)
+                    )
                 )
 
     def button(name: str, place: Path | None) -> None:
@@ -52,7 +54,7 @@ def choose(studio: Studio, endings: Sequence[str], taken: Callable[[list[str]], 
 
     def done() -> None:
         dialog.close()
-        files = [f.relative_to(home) if f.is_relative_to(home) else f for f in sorted(marked)]
+        files = [f.relative_to(home) if f.is_relative_to(home) else f for f in marked]
         if files:
             taken([file.as_posix() for file in files])
 

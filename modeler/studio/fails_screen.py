@@ -10,9 +10,8 @@ from nicegui.elements.plotly import Plotly
 
 from modeler.core.errors import ModelerError
 from modeler.core.picture_file import pictures_from_json
-from modeler.core.table import percent
 from modeler.studio import commands, figures
-from modeler.studio.elements import go_button, head, light, part, run_button, stale, told
+from modeler.studio.elements import go_button, head, part, run_button, stale, told, what_is_left
 from modeler.studio.project import Step
 from modeler.studio.robot_frame import RobotFrame, robot_frame
 from modeler.studio.studio import Studio
@@ -21,7 +20,6 @@ from modeler.studio.timeline import Timeline
 if TYPE_CHECKING:
     from modeler.studio.viewing import Verdict
 
-_BAD, _DOUBTFUL = 0.1, 0.03  # relative error
 _TIME = "fails"  # that all pictures of the screen share
 _SPEEDS = {0.1: "0.1x", 0.5: "0.5x", 1.0: "1x", 2.0: "2x", 5.0: "5x"}
 _ROLES = {"test": "held out", "train": "training"}
@@ -86,11 +84,6 @@ def _more(studio: Studio, place: ui.expansion, step: Step) -> None:
         for picture in pictures:
             if not picture.name.endswith("_time"):  # which stands above
                 figures.draw(picture)
-
-
-def class_of(error: float) -> Any:
-    """The light of a relative error."""
-    return "bad" if not error < _BAD else "doubtful" if error >= _DOUBTFUL else "good"
 
 
 class _Fails:
@@ -162,15 +155,16 @@ class _Fails:
         line.show(time, positions)
 
     def _verdict(self) -> None:
-        rows = zip(self.found.joints, self.found.errors, self.found.sentences, strict=True)
+        found = self.found
+        rows = zip(found.joints, found.errors, found.kinds, found.sentences, strict=True)
         with ui.element("div").classes("fails-verdict").props("role=listbox aria-label=joints"):
-            for joint, error, sentence in rows:
+            for joint, error, kind, sentence in rows:
                 row = ui.element("button").classes("fails-joint").props("type=button role=option")
                 row.props["data-rows"] = joint
                 row.on("click", lambda _, name=joint: self._pick(name))
                 self.rows[joint] = row
                 with row:
-                    light(class_of(error), f"Joint {joint}: {percent(error)}")
+                    what_is_left(joint, error, kind)
                     ui.label(sentence).classes("fails-sentence")
 
     async def _pick(self, joint: str, channel: str | None = None) -> None:

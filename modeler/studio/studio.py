@@ -364,6 +364,7 @@ class Studio:
         if self.room is not None:
             with self.room:  # the button that was pressed may be gone
                 ui.navigate.history.push(f"/{screen}")
+                ui.run_javascript("window.scrollTo(0, 0)")
         self.redraw()
 
     def redraw(self) -> None:

@@ -380,7 +380,7 @@ class Verdict:
         sentences: of each, as `modeler compare` says it.
         channels: of each: id and label of what its residual can be drawn over.
         start, end: of the time axis of the pictures, s.
-        kinds: of each, what is left: "pattern", "noise" or "other".
+        kinds: of each, what is left: "pattern", "noise", "other", or "untold" by too few samples.
         unjudged: lines on joints that cannot be judged, and why.
     """
 
@@ -404,7 +404,10 @@ def verdict(model: str, logs: Sequence[str]) -> Verdict:
         tuple(float(item.relative_error) for item in items),
         tuple(validation.joint_verdict(item) for item in items),
         tuple(_channels(judged)), float(time.min()), float(time.max()),
-        tuple(map(validation.kind_of_residual, items)),
+        tuple(
+            validation.kind_of_residual(item) if item.structure is not None else "untold"
+            for item in items
+        ),
         tuple(f"Joint {name}: not judged: {why}" for name, why in judged.comparison.unjudged),
     )  # fmt: skip
 
