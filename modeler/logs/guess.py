@@ -32,6 +32,7 @@ _BESIDE = re.compile(r"\[([^\[\]]*)\{\}([^\[\]]*)\]")  # what stands beside a jo
 _LABEL = re.compile(r"\[([^\[\]]+)\]$|(\d+)(?!.*\d)|(?<=[ _.])([A-Z])$")
 _UNIT = re.compile(r"\s+[\[(]([^\[\]()]+)[\])]$")
 _SPLIT = re.compile(r"[^A-Za-zµ°]+|(?<=[a-z])(?=[A-Z])")
+_WORD = re.compile(r"[A-Za-z\u00c0-\u024f]+")
 _COUNTS = 5000.0  # span of whole numbers from which on a position is in counts
 _TURNS = 7.0  # rad; a joint that goes further in either way is likely in degrees
 _LONG = 3.0  # m; an axis that is longer is likely in mm
@@ -86,8 +87,9 @@ def guesses(
         names: joint -> its name in logs, where that is known.
     """
     groups: dict[str, list[str]] = {}
+    worded = _by_words([name for name in columns if not template_of(name, names.values())[1]])
     for name in columns:
-        template, label = template_of(name, names.values())
+        template, label = worded.get(name) or template_of(name, names.values())
         groups.setdefault(template, []).append(label)
     found: dict[str, Guess] = {}
     by_duty = bool(joints) and any(joint.drive for joint in joints)
@@ -172,6 +174,30 @@ def template_of(name: str, joints: Iterable[str] = ()) -> tuple[str, str]:
         return name, ""
     group = match.lastindex or 1
     return f"{name[: match.start(group)]}{{}}{name[match.end(group) :]}", match[group]
+
+
+def _by_words(names: Sequence[str]) -> dict[str, tuple[str, str]]:
+    """Name -> template and label, of names of several joints: `elbow angle`, `shoulder angle`.
+
+    The label is what stands before the word for the quantity, or after it.
+    """
+    groups: dict[str, dict[str, str]] = {}
+    for name in names:
+        end = _UNIT.search(name)
+        head = name if end is None else name[: end.start()]
+        for word in reversed([*_WORD.finditer(head)]):
+            if _role(word[0]):
+                before, after = head[: word.start()].rstrip(" _.-"), head[word.end() :]
+                label = before or after.strip(" _.-")
+                if label and not any(c.isdigit() for c in label):
+                    groups.setdefault(name.replace(label, "{}", 1), {})[name] = label
+                break
+    return {
+        name: (template, label)
+        for template, labels in groups.items()
+        if len(labels) > 1
+        for name, label in labels.items()
+    }
 
 
 def _role(template: str) -> str:

@@ -48,6 +48,7 @@ _WORDS = {
     "millisecond": "ms", "milliseconds": "ms", "meter": "m", "meters": "m", "metre": "m",
     "metres": "m", "millimeter": "mm", "millimeters": "mm", "newton": "N", "newtons": "N",
     "ampere": "A", "amperes": "A", "amps": "A", "volt": "V", "volts": "V", "celsius": "degC",
+    "nmm": "mNm", "sekunden": "s", "newtonmeter": "Nm",
 }  # fmt: skip
 _PREFIXES = {
     "n": 1e-9, "u": 1e-6, "µ": 1e-6, "μ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6,
@@ -129,6 +130,7 @@ _TABLE: Mapping[str, Unit] = MappingProxyType({
     "s": _unit(1.0, TIME), "sec": _unit(1.0, TIME), "min": _unit(60.0, TIME),
     "h": _unit(3600.0, TIME), "Hz": _unit(1.0, (0, 0, -1, 0, 0, 0)),
     "rad": _unit(1.0, ANGLE), "deg": _unit(math.pi / 180.0, ANGLE),
+    "Grad": _unit(math.pi / 180.0, ANGLE),  # German; an English "grad" may be a gon, and is none
     "°": _unit(math.pi / 180.0, ANGLE),
     "rev": _unit(2.0 * math.pi, ANGLE), "turn": _unit(2.0 * math.pi, ANGLE),
     "arcmin": _unit(math.pi / 10800.0, ANGLE), "arcsec": _unit(math.pi / 648000.0, ANGLE),

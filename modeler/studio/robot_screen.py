@@ -79,7 +79,7 @@ class _Desk:
                 .props("flat round dense aria-label='redo the edit'").tooltip("redo (Ctrl+Y)"),
                 ui.button("Another robot or table", on_click=ways.open).props("no-caps outline"),
             ]  # fmt: skip
-        self.error = ui.label().classes("studio-error").props("role=alert")
+        self.error = ui.label().classes("studio-error robot-error").props("role=alert")
         self.notes = ui.column().classes("studio-soft gap-0")
         with ui.element("div").classes("studio-split"):
             with ui.column().classes("w-full"):
@@ -361,7 +361,6 @@ class _Desk:
 
     def _tell(self, line: str) -> None:
         self.error.text = line
-        self.error.set_visibility(bool(line))
 
     # Base parameters.
 

@@ -1,0 +1,50 @@
+"""Columns that are named by words: which of them are one quantity of several joints."""
+
+import numpy as np
+import pytest
+
+from modeler.logs.guess import guesses
+from modeler.logs.mapping import find_unit
+
+
+def _found(names: list[str]) -> dict[str, tuple[str, tuple[str, ...]]]:
+    draw = np.random.default_rng(3)
+    columns = {name: draw.normal(size=50) for name in names}
+    columns = {"t": np.arange(50.0)} | columns
+    return {one.own: (one.template, one.labels) for one in guesses(columns, {})}
+
+
+@pytest.mark.parametrize(
+    ("names", "own", "template", "labels"),
+    [
+        (["Ellbogen Winkel [Grad]", "Schulter Winkel [Grad]"], "q", "{} Winkel [Grad]",
+         ("Ellbogen", "Schulter")),
+        (["elbow_torque", "shoulder_torque"], "tau", "{}_torque", ("elbow", "shoulder")),
+        (["angle elbow (deg)", "angle shoulder (deg)"], "q", "angle {} (deg)",
+         ("elbow", "shoulder")),
+        (["shoulder pan pos", "shoulder lift pos"], "q", "{} pos",
+         ("shoulder pan", "shoulder lift")),
+    ],
+)  # fmt: skip
+def test_joints_that_are_words(names, own, template, labels) -> None:
+    assert _found(names)[own] == (template, labels)
+
+
+def test_one_such_column_alone_is_no_pattern() -> None:
+    assert _found(["elbow angle", "door torque"])["q"] == ("elbow angle", ("",))
+
+
+def test_numbers_tell_joints_apart_before_words() -> None:
+    assert _found(["left pos 1", "left pos 2"])["q"] == ("left pos {}", ("1", "2"))
+
+
+def test_german_units() -> None:
+    for text, same in (
+        ("Grad", "deg"),
+        ("Nmm", "mN m"),
+        ("Newtonmeter", "N m"),
+        ("Grad/s", "deg/s"),
+    ):
+        one, other = find_unit(text), find_unit(same)
+        assert one is not None and other is not None
+        assert (one.factor, one.powers) == pytest.approx((other.factor, other.powers))
