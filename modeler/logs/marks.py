@@ -22,8 +22,8 @@ class Mark:
     """A stretch of a log of which something is said.
 
     Attributes:
-        kind: "gap", "back", "repeated", "missing", "limit" of what drives; of a robot also what no robot does:
-            "spike", "frozen", "clipped", "wrap", "zero", "lost", "open".
+        kind: "gap", "back", "repeated", "missing", "limit" of what drives; of a robot also what
+            none does: "spike", "frozen", "clipped", "wrap", "zero", "lost", "open".
         channel: that it is seen in.
         start, end: s; alike where it is one row.
         line: what it is.

@@ -18,7 +18,7 @@ from modeler.core.toml_cells import listed
 from modeler.robot.conventions import ANGLES, CONVENTIONS
 from modeler.robot.edit import with_limits
 from modeler.robot.start import template_robot
-from modeler.robot.table_text import with_columns
+from modeler.robot.table_text import with_table
 
 _FULL_TURN = 6.3  # rad: a larger angle is in degrees
 _LONGEST = 20.0  # m: a larger length is in mm
@@ -123,7 +123,12 @@ def pasted_table(text: str, convention: str = "") -> PastedTable:
         notes.append(f"no headings: taken as {' '.join(columns)}")
     if convention == "khalil":
         columns = ["a" if column == "parent" else column for column in columns]
-    _check(columns, convention)
+    allowed = [*CONVENTIONS[convention].values()]
+    if wrong := [c for c in columns if c not in allowed or columns.count(c) > 1]:
+        raise RobotError(
+            f"pasted table, headings: got {listed(columns)}; expected each once, of a table of "
+            f"convention {convention}: {listed(allowed)}; {wrong[0]} is wrong or stands twice"
+        )
     return _table(columns, units, body, convention, notes, named)
 
 
@@ -168,18 +173,6 @@ def _whose(heads: Sequence[tuple[str, str, str]], body: Sequence[Sequence[str]])
     if [row[letters.index("a")] for row in body[1:]] == above:
         return "khalil"
     return "classical" if letters.index("theta") < letters.index("alpha") else "craig"
-
-
-def _check(columns: Sequence[str], convention: str) -> None:
-    allowed = [*CONVENTIONS[convention].values()]
-    for column in columns:
-        if column not in allowed:
-            raise RobotError(
-                f"pasted table, headings: got {column}; expected letters of a table of "
-                f"convention {convention}: {listed(allowed)}"
-            )
-        if columns.count(column) > 1:
-            raise RobotError(f"pasted table, headings: {column} stands twice; remove one")
 
 
 def _table(
@@ -298,7 +291,7 @@ def with_pasted(text: str, table: PastedTable) -> str:
     Raises:
         RobotError: the file has no table that can be replaced.
     """
-    changed = with_columns(text, table.columns, table.rows, table.convention)
+    changed = with_table(text, table.columns, table.rows, table.convention)
     known = tomllib.loads(changed).get("symbols", {})
     missing = [symbol_line(name) for name in table.symbols if name not in known]
     if not missing:

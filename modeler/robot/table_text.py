@@ -8,9 +8,11 @@ from typing import TypeVar
 
 from modeler.core.errors import RobotError
 from modeler.robot.loops import MARK
-from modeler.robot.robot_text import aligned
+from modeler.robot.robot_text import columns_and_rows
 
 _Entry = TypeVar("_Entry")
+_NAMES = (("j", "parent"), ("j", "a"))
+"""Columns of names, which stand in quotes: of others' tables, of Khalil's."""
 _HEAD = re.compile(r"^[ \t]*\[[ \t]*mdh[ \t]*\]", re.MULTILINE)
 _KEY = re.compile(r"^[ \t]*(columns|rows)[ \t]*=[ \t]*(?=\[)", re.MULTILINE)
 _NEXT = re.compile(r"^[ \t]*\[[ \t]*[\w.\"'-]+[ \t]*\][ \t]*(?:#.*)?$", re.MULTILINE)
@@ -72,28 +74,26 @@ def with_cell(text: str, row: int, column: int, cell: str) -> str:
     array = columns if row < 0 else _at(rows.arrays, row, "row")
     start, end = _at(array.cells, column, "column")
     name = "" if row < 0 else _bare(text[slice(*_at(columns.cells, column, "column"))])
-    new = quoted_cell(cell, row < 0 or name in _names(text))
+    new = quoted_cell(cell, row < 0 or name in _NAMES[convention_of(text) == "khalil"])
     behind = re.match(r",( *)", text[end:])
     if behind is not None:
         width = end - start + len(behind[1])
         new = f"{new},{' ' * max(1, width - len(new))}"
         end += behind.end()
-    return _sure(text, text[:start] + new + text[end:])
+    return text[:start] + new + text[end:]
 
 
 def with_row(text: str, after: int, cells: Sequence[str]) -> str:
-    """The text with a row more, behind the row of that number; -1: before all others.
+    """The text with a row more, behind the row of that number.
 
     Raises:
         RobotError: there is no such row, or no table.
     """
     columns, rows = _table(text)
     names = [_bare(text[slice(*span)]) for span in columns.cells]
-    kept = _names(text)
+    kept = _NAMES[convention_of(text) == "khalil"]
     line = ", ".join(quoted_cell(c, n in kept) for c, n in zip(cells, names, strict=False))
     line = f"[{line}],"
-    if after < 0:
-        return _sure(text, text[: rows.start + 1] + f"\n          {line}" + text[rows.start + 1 :])
     place = _at(rows.arrays, after, "row").end
     comma = re.match(r"[ \t]*,", text[place:])
     head = text[:place] + ("" if comma else ",")
@@ -103,7 +103,7 @@ def with_row(text: str, after: int, cells: Sequence[str]) -> str:
     # A comment behind the row stays behind it; the table may end on that line.
     closing = len(own[0]) >= rows.end - place
     cut = (comma.end() if comma else 0) if closing else own.end()
-    return _sure(text, f"{head}{rest[:cut]}\n          {line}{rest[cut:]}")
+    return f"{head}{rest[:cut]}\n          {line}{rest[cut:]}"
 
 
 def without_row(text: str, row: int) -> str:
@@ -120,45 +120,32 @@ def without_row(text: str, row: int) -> str:
     line = text.rfind("\n", 0, start)
     if not text[line + 1 : start].strip() and text[end : end + 1] == "\n":
         start = line
-    return _sure(text, text[:start] + text[end:])
+    return text[:start] + text[end:]
 
 
-def with_columns(text: str, columns: Sequence[str], rows: Sequence[Sequence[str]],
-                 convention: str = "") -> str:  # fmt: skip
+def with_table(
+    text: str, columns: Sequence[str], rows: Sequence[Sequence[str]], convention: str
+) -> str:
     """The text with another table.
 
     Args:
         text: of the file.
         columns: names.
         rows: cells by column.
-        convention: whose table it is from now on; "": as before.
+        convention: whose table it is from now on.
 
     Raises:
         RobotError: there is no table.
     """
-    if convention:
-        text = _with_convention(text, convention)
-    columns_, rows_ = _table(text)
-    kept = _names(text)
-    quoted = [
-        [quoted_cell(c, n in kept) for c, n in zip(row, columns, strict=True)] for row in rows
+    arrays = _table(text)
+    head = text.index("\n", _section(text)[0]) + 1
+    names = _NAMES[convention == "khalil"]
+    cells = [
+        [quoted_cell(c, n in names) for c, n in zip(row, columns, strict=True)] for row in rows
     ]
-    head, *lines = aligned([[f'"{c}"' for c in columns], *quoted])
-    body = "".join(f"          [{line}],\n" for line in lines)
-    for array, new in sorted(
-        ((columns_, f"[{head}]"), (rows_, f"[\n{body}]")), key=lambda one: -one[0].start
-    ):
-        text = text[: array.start] + new + text[array.end :]
-    return _sure("", text)
-
-
-def _with_convention(text: str, convention: str) -> str:
-    begin, end = _section(text)
-    own = re.compile(r"^[ \t]*convention[ \t]*=[^\n]*\n", re.MULTILINE)
-    stated = f'convention = "{convention}"\n' if convention != "khalil" else ""
-    section = own.sub("", text[begin:end])
-    first = section.index("\n") + 1
-    return text[:begin] + section[:first] + stated + section[first:] + text[end:]
+    stated = [f'convention = "{convention}"'] if convention != "khalil" else []
+    lines = "\n".join([*stated, *columns_and_rows(columns, cells)]).rstrip()
+    return text[:head] + lines + text[max(array.end for array in arrays) :]
 
 
 def cell_of(error: str, text: str) -> tuple[int, str] | None:
@@ -173,31 +160,23 @@ def cell_of(error: str, text: str) -> tuple[int, str] | None:
         it, "" for the row as a whole; None of a line that is about something else.
     """
     table = table_text(text)
-    if table is None:
+    about = re.search(r"\[mdh\],? (?:(columns?)\b|row (?:(\d+)\b|\"([^\"]*)\"))", error)
+    if table is None or about is None:
         return None
-    if re.search(r"\[mdh\], columns?\b", error):
-        return -1, _column(error)
-    twice = re.search(r"\[mdh\], row .* stands in rows \d+ and (\d+)", error)
+    place = re.search(r", column (\w+)", error)
+    column = place[1] if place else ""
+    twice = re.search(r" stands in rows \d+ and (\d+)", error)
     if twice:
         return int(twice[1]) - 1, "j"
-    numbered = re.search(r"\[mdh\], row (\d+)\b", error)
-    if numbered:
-        row = int(numbered[1]) - 1
-        return (row, _column(error)) if row < len(table.rows) else None
-    named = re.search(r"\[mdh\],? row \"([^\"]*)\"", error)
-    if named is None or "j" not in table.columns:
-        return None
+    if about[1]:
+        return -1, column
+    if about[2]:
+        return int(about[2]) - 1, column
     for row, cells in enumerate(table.rows):
-        names = dict(zip(table.columns, cells, strict=False))
-        pattern = re.escape(names.get("j", "")).replace(re.escape(MARK), r"\w+")
-        if re.fullmatch(pattern, named[1]):
-            return row, _column(error)
+        own = dict(zip(table.columns, cells, strict=False)).get("j", "")
+        if re.fullmatch(re.escape(own).replace(re.escape(MARK), r"\w+"), about[3]):
+            return row, column
     return None
-
-
-def _column(error: str) -> str:
-    found = re.search(r", column (\w+)", error)
-    return found[1] if found else ""
 
 
 def convention_of(text: str) -> str:
@@ -205,15 +184,6 @@ def convention_of(text: str) -> str:
     begin, end = _section(text)
     stated = re.search(r"(?m)^[ \t]*convention[ \t]*=[ \t]*[\"'](\w+)", text[begin:end])
     return stated[1] if stated else "khalil"
-
-
-def names_in(convention: str) -> tuple[str, ...]:
-    """Columns of names, which stand in quotes."""
-    return ("j", "a") if convention == "khalil" else ("j", "parent")
-
-
-def _names(text: str) -> tuple[str, ...]:
-    return names_in(convention_of(text))
 
 
 def _section(text: str) -> tuple[int, int]:
@@ -285,16 +255,3 @@ def quoted_cell(cell: str, name: bool) -> str:
         return plain
     escaped = plain.replace("\\", "\\\\").replace('"', '\\"')
     return f'"{escaped}"'
-
-
-def _sure(before: str, after: str) -> str:
-    """The changed text, if it is TOML, or the text was none before."""
-    try:
-        tomllib.loads(after)
-    except tomllib.TOMLDecodeError:
-        try:
-            tomllib.loads(before)
-        except tomllib.TOMLDecodeError:
-            return after
-        raise RobotError("[mdh]: the table cannot be changed; edit the file as text") from None
-    return after

@@ -47,6 +47,13 @@ JOBS = {
 }
 """The nine jobs, in the order in which they are done; Alt and the number goes there."""
 
+_BUSY = 30.0
+"""s: a browser that draws may leave a ping unanswered for 0.4 of it; else its page is loaded anew,
+and what was pressed meanwhile is lost."""
+
+_GONE = 3.0
+"""s after a window was closed until another one may change things."""
+
 
 def serve(
     folder: Path,
@@ -84,7 +91,10 @@ def serve(
         inner = FastAPI(openapi_url=None)
         _routes(inner, hub)
         _pages(hub, demo)
-        ui.run_with(inner, title="modeler studio", dark=None, show_welcome_message=False)
+        ui.run_with(
+            inner, title="modeler studio", dark=None, show_welcome_message=False,
+            reconnect_timeout=_BUSY,
+        )  # fmt: skip
         guard = Guard(inner, door.getsockname()[1])
         config = uvicorn.Config(guard, log_level="warning", lifespan="on")
         nicegui_app.on_startup(
@@ -146,13 +156,13 @@ def _attached(content: bytes, name: str) -> Response:
 
 
 def _pages(hub: Hub, demo: bool) -> None:
-    @ui.page("/")
+    @ui.page("/", reconnect_timeout=_GONE)
     async def start(client: Client) -> None:
         studio = await _page(client, hub, "robot" if hub.project.robot else "start")
         if demo and not hub.project.robot and hub.running is None and not studio.read_only:
             await start_screen.begin(studio)
 
-    @ui.page("/{screen}")
+    @ui.page("/{screen}", reconnect_timeout=_GONE)
     async def job(client: Client, screen: str) -> None:
         await _page(client, hub, screen if screen in hub.screens else "start")
 
@@ -161,6 +171,7 @@ async def _page(client: Client, hub: Hub, screen: str) -> Studio:
     ui.add_head_html('<link rel="stylesheet" href="/studio.css"><script src="/studio.js"></script>')
     studio = Studio(hub, screen)
     hub.studios.append(studio)
+    client.on_disconnect(lambda: _away(hub, studio))
     client.on_delete(lambda: _left(hub, studio))
     ui.colors(primary="#0072b2", negative="#b3261e", positive="#00694a", warning="#b45f06")
     ui.page_title(f"{hub.workspace.folder.name} - modeler studio")
@@ -173,6 +184,14 @@ async def _page(client: Client, hub: Hub, screen: str) -> Studio:
     studio.redraw()
     background_tasks.create(hub.viewer.warm())
     return studio
+
+
+def _away(hub: Hub, studio: Studio) -> None:
+    """A window is loaded anew, or its line is cut: another that is open may change things."""
+    if studio in hub.studios:
+        hub.studios.remove(studio)
+        hub.studios.append(studio)
+    hub.tell()
 
 
 def _left(hub: Hub, studio: Studio) -> None:
@@ -252,9 +271,9 @@ def _status(studio: Studio) -> None:
                     bar.props("indeterminate")
                 else:
                     bar.value = hub.running.share
-            steps = studio.project.steps
-            last.visible = bool(steps) and hub.running is None
-            line.text = typed(steps[-1].words) if steps else ""
+            words = hub.last or (steps[-1].words if (steps := studio.project.steps) else ())
+            last.visible = bool(words) and hub.running is None
+            line.text = typed(words)
             reading.visible = studio.read_only
 
         studio.listeners.append(told)

@@ -11,77 +11,57 @@ from modeler.studio.places import Entry, Roots, size_text
 from modeler.studio.studio import Studio
 
 
-class Chooser:
+def choose(studio: Studio, endings: Sequence[str], taken: Callable[[list[str]], Any]) -> None:
     """Folders and files under those that `--allow` names.
 
     Args:
         studio: the window.
         endings: of the files that may be chosen.
-        taken: is called with what was chosen, relative to the folder of the project if it lies
+        taken: is called with those that were, relative to the folder of the project if they lie
             in it.
-        several: False: one file at a time.
     """
+    roots, home, marked = Roots(studio.hub.allowed), studio.folder.resolve(), list[Path]()
+    tops = sorted({root.resolve() for root in roots.folders})
 
-    def __init__(
-        self, studio: Studio, endings: Sequence[str], taken: Callable[[list[str]], Any],
-        several: bool = True,
-    ) -> None:  # fmt: skip
-        self._studio, self._endings, self._taken, self._several = studio, endings, taken, several
-        self._roots = Roots(studio.hub.allowed)
-        self._marked: dict[str, None] = {}
-        with ui.dialog() as self._dialog, ui.card().classes("studio-card chooser"):
-            ui.label("Choose files where they lie").classes("studio-part")
-            self._list = ui.column().classes("w-full gap-0 chooser-list")
-            with ui.row():
-                ui.button("Take", on_click=self._done).props("no-caps unelevated")
-                ui.button("Close", on_click=self._dialog.close).props("no-caps flat")
-        self._show(None)
-        self._dialog.open()
-
-    def _show(self, folder: Path | None) -> None:
+    def show(folder: Path | None) -> None:
         """The entries of a folder; None: the folders that may be read."""
-        self._list.clear()
-        with self._list:
-            tops = {root.resolve() for root in self._roots.folders}
-            if folder is None:
-                entries = [Entry(str(top), top, None) for top in sorted(tops)]
-            else:
+        entries = [Entry(str(top), top, None) for top in tops]
+        places.clear()
+        with places:
+            if folder is not None:
                 ui.label(str(folder)).classes("studio-soft")
-                up = None if folder in tops else folder.parent
-                self._folder("..", up)
+                button("..", None if folder in tops else folder.parent)
                 try:
-                    entries = self._roots.listed(folder, self._endings)
+                    entries = roots.listed(folder, endings)
                 except DataError as error:
                     ui.label(str(error)).classes("studio-error").props("role=alert")
                     return
             for entry in entries:
                 if entry.size is None:
-                    self._folder(entry.name, entry.place)
-                else:
-                    self._file(entry, entry.size)
+                    button(entry.name, entry.place)
+                    continue
+                box = ui.checkbox(f"{entry.name}  ({size_text(entry.size)})").props("dense")
+                box.value = entry.place in marked
+                box.on_value_change(
+                    lambda event, place=entry.place: (
+                        marked.append(place) if event.value else marked.remove(place)
+                    )
+                )
 
-    def _folder(self, name: str, place: Path | None) -> None:
-        button = ui.button(name, icon="folder", on_click=lambda: self._show(place))
-        button.props("flat dense no-caps align=left").classes("w-full")
+    def button(name: str, place: Path | None) -> None:
+        into = ui.button(name, icon="folder", on_click=lambda: show(place)).classes("w-full")
+        into.props("flat dense no-caps align=left")
 
-    def _file(self, entry: Entry, size: int) -> None:
-        place = str(entry.place)
+    def done() -> None:
+        dialog.close()
+        files = [f.relative_to(home) if f.is_relative_to(home) else f for f in marked]
+        if files:
+            taken([file.as_posix() for file in files])
 
-        def mark(event: Any) -> None:
-            if not event.value:
-                self._marked.pop(place, None)
-                return
-            self._marked[place] = None
-            if not self._several:
-                self._done()
-
-        text = f"{entry.name}  ({size_text(size)})"
-        ui.checkbox(text, value=place in self._marked, on_change=mark).props("dense")
-
-    def _done(self) -> None:
-        self._dialog.close()
-        home = self._studio.folder.resolve()
-        files = [Path(place) for place in self._marked]
-        inside = [f.relative_to(home) if f.is_relative_to(home) else f for f in files]
-        if inside:
-            self._taken([file.as_posix() for file in inside])
+    with ui.dialog(value=True) as dialog, ui.card().classes("studio-card chooser"):
+        ui.label("Choose files where they lie").classes("studio-part")
+        places = ui.column().classes("w-full gap-0 chooser-list")
+        with ui.row():
+            ui.button("Take", on_click=done).props("no-caps unelevated")
+            ui.button("Close", on_click=dialog.close).props("no-caps flat")
+    show(None)

@@ -1,34 +1,26 @@
 """The screen "data": logs come in, are mapped, cut into stretches, looked at, and played."""
 
 import asyncio
-import json
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from nicegui import background_tasks, ui
 from nicegui.element import Element
 
 from modeler.core.builtin import LOG_ENDINGS
 from modeler.core.errors import ModelerError
-from modeler.core.files import read_text
-from modeler.core.json import entries
-from modeler.core.manifest import JointSpec
-from modeler.logs import map_from_words
 from modeler.studio import commands
-from modeler.studio.chooser import Chooser
+from modeler.studio.chooser import choose
 from modeler.studio.dropped import drop_zone
 from modeler.studio.elements import head, part
 from modeler.studio.log_desk import Desk
-from modeler.studio.log_mapping import Choice, LogGuess, anybody, choices, said, words_of
+from modeler.studio.log_shelf import AUTO, Shelf
 from modeler.studio.places import size_text
-from modeler.studio.project import ProjectLog, Step
+from modeler.studio.project import ProjectLog
 from modeler.studio.studio import Studio
 from modeler.studio.timeline import ALL, Timeline, by_default, legend, told
 
 _QUIET = 0.5  # s without another file that comes, until the screen is drawn anew
-AUTO = "auto"
 _FORMATS = (
     "CSV, text, Excel, Parquet, MAT, HDF5, NumPy, MCAP and ROS bags, with the names and units that "
     "your logger wrote."
@@ -36,50 +28,20 @@ _FORMATS = (
 _FIRST = "At first the last 30 % of one log is held out, of several logs the last one."
 
 
-@dataclass(frozen=True)
-class Known:
-    """A log as far as it could be read; else the line that says why not.
-
-    Attributes:
-        guess: of its columns.
-        clock: words of `--map` that say what its time is.
-        rows: of it.
-        ends: first and last time, s.
-        units: of its columns, as the viewer answers them.
-        size: bytes.
-        error: line.
-    """
-
-    guess: LogGuess | None = None
-    clock: tuple[str, ...] = ()
-    rows: int = 0
-    ends: tuple[float, float] = (0.0, 1.0)
-    units: Mapping[str, str] = field(default_factory=dict)
-    size: int = 0
-    error: str = ""
-
-
 async def draw(studio: Studio) -> None:
     """Draws it."""
     await DataScreen(studio).draw()
 
 
-class DataScreen:
+class DataScreen(Shelf):
     """One drawing of it.
 
     Attributes:
-        studio: the window.
-        joints: of the robot; as many as the logs have positions where there is none yet.
-        stated: [log] of the robot file.
-        logs: what is known of them, by file.
         desk: of the log that is looked at.
     """
 
     def __init__(self, studio: Studio) -> None:
-        self.studio = studio
-        self.joints: tuple[JointSpec, ...] = ()
-        self.stated: Mapping[str, Any] = {}
-        self.logs: dict[str, Known] = {}
+        super().__init__(studio)
         self._rows: dict[str, Element] = {}
         self.desk: Desk | None = None
         studio.kept["data"] = self
@@ -91,10 +53,6 @@ class DataScreen:
         here = studio in studio.hub.studios and studio.screen == "data"
         return here and studio.kept["data"] is self
 
-    def path(self, file: str) -> str:
-        """Of a file of the project, wherever it lies."""
-        return str(self.studio.folder / file)
-
     async def draw(self) -> None:
         """Logs first, then the one that is looked at."""
         studio = self.studio
@@ -102,8 +60,8 @@ class DataScreen:
         with ui.row().classes("items-center w-full data-in"):
             label = "Drop logs here, several at once, or press +"
             drop_zone("logs", label, self._came, studio.show_error).classes("data-drop")
-            choose = ui.button("Choose where it lies", icon="folder_open").props("no-caps outline")
-            choose.on_click(lambda: Chooser(studio, LOG_ENDINGS, self._came))
+            pick = ui.button("Choose where it lies", icon="folder_open").props("no-caps outline")
+            pick.on_click(lambda: choose(studio, LOG_ENDINGS, self._came))
         if not studio.project.logs:
             background_tasks.create(studio.view("forget"), name="start the viewer")
             ui.label(_FORMATS).classes("studio-soft")
@@ -120,7 +78,7 @@ class DataScreen:
         if studio.project.robot:
             robot = self.path(studio.project.robot)
             self.joints, self.stated = await studio.view("robot_logging", robot)
-        for step in (self._learn, self._read):
+        for step in (self.learn, self.read):
             for log in studio.project.logs:
                 await step(log.file)
                 if not self.live:
@@ -135,79 +93,6 @@ class DataScreen:
             )
             self.look()
 
-    # What is known of logs.
-
-    async def _learn(self, file: str) -> None:
-        """Looks at the columns of a log."""
-        robot, place = self.studio.project.robot, self.path(file)
-        try:
-            guess = await self.studio.view("log_guess", place, robot and self.path(robot))
-            self.logs[file] = Known(guess, size=Path(place).stat().st_size)
-            if not robot:
-                self.joints = anybody(max(len(self.joints), guess.joints))
-        except (ModelerError, OSError) as error:
-            self.logs[file] = Known(error=str(error))
-
-    async def _read(self, file: str) -> None:
-        """Reads its time, as the mapping says it."""
-        known = self.logs[file]
-        if known.guess is None:
-            return
-        try:
-            time = self.chosen(known.guess).get("time", Choice("time"))
-            own = words_of({"time": time}, {"time": Choice("time")}, self.joints)
-            clock = (*self.settings, *own) if time.column in known.guess.columns else self.settings
-            clock = tuple(word for word in clock if word != AUTO)
-            facts = await self.studio.view("log_facts", self.path(file), clock)
-            found = {"ends": (facts.start, facts.end), **entries(facts, "rows units")}
-            self.logs[file] = replace(known, clock=clock, **found)
-        except ModelerError as error:
-            self.logs[file] = Known(error=str(error))
-
-    @property
-    def settings(self) -> tuple[str, ...]:
-        """Words of the mapping that are about no column."""
-        kinds = (AUTO, "topic=", "rate=", "names=")
-        return tuple(word for word in self.studio.project.mapping if word.startswith(kinds))
-
-    def guess(self, file: str) -> LogGuess:
-        """Of a log that can be read."""
-        guess = self.logs[file].guess
-        assert guess is not None
-        return guess
-
-    def chosen(self, guess: LogGuess) -> dict[str, Choice]:
-        """What the columns of a log are taken as."""
-        words = self.studio.project.mapping
-        own = map_from_words(words).entries(self.joints)
-        found = self._choices(words, guess)
-        under = guess.choices if AUTO in words else {}
-        return found | {name: one for name, one in under.items() if name not in own}
-
-    def under(self, guess: LogGuess) -> dict[str, Choice]:
-        """The same without words about columns."""
-        found = self._choices((), guess)
-        return {**found, **(guess.choices if AUTO in self.settings else {})}
-
-    def _choices(self, words: tuple[str, ...], guess: LogGuess) -> dict[str, Choice]:
-        names = said(words, self.stated, self.studio.project.robot)
-        return choices(names, self.joints, guess.columns)
-
-    def _guessed(self, guess: LogGuess) -> tuple[str, ...]:
-        """Words of what a log looks like."""
-        under = self._choices((), guess)
-        topic = (f"topic={guess.topic}",) if guess.topic else ()
-        return (*topic, *words_of({**under, **guess.choices}, under, self.joints))
-
-    def is_guess(self, guess: LogGuess) -> bool:
-        """Whether a log is taken as what it looks like."""
-        own = self.studio.project.mapping in ((AUTO,), self._guessed(guess))
-        return own and bool(guess.choices)
-
-    def guess_each(self) -> None:
-        """Every log by its own guess."""
-        self.studio.change(redraw=True, mapping=(AUTO,))
-
     def _settle(self) -> None:
         """The mapping, while it is only a guess; roles of logs that came and can be read."""
         project, ends = self.studio.project, {}
@@ -215,7 +100,7 @@ class DataScreen:
             return
         guesses = [known.guess for known in self.logs.values() if known.guess is not None]
         try:
-            every = list(dict.fromkeys(map(self._guessed, guesses)))
+            every = list(dict.fromkeys(map(self.guessed, guesses)))
         except ModelerError as error:  # a name that no word can say
             self.studio.show_error(str(error))
             every = []
@@ -262,8 +147,9 @@ class DataScreen:
         known, place, result = self.logs[file], self._rows[file], self.result(file)
         place.clear()
         with place:
-            name = ui.button(file, on_click=lambda: self.open(file)).classes("data-name")
-            name.props("flat dense no-caps align=left")
+            short = Path(file).name if Path(file).is_absolute() else file
+            name = ui.button(short, on_click=lambda: self.open(file)).tooltip(self.path(file))
+            name.props("flat dense no-caps align=left").classes("data-name")
             if known.error:
                 ui.label(known.error).classes("studio-error").props("role=alert")
             else:
@@ -281,10 +167,6 @@ class DataScreen:
             off.props("flat dense round").tooltip("takes it off the list; the file stays")
             off._props["aria-label"] = f"take {file} off the list"
 
-    def log(self, file: str) -> ProjectLog:
-        """As the project has it."""
-        return next(log for log in self.studio.project.logs if log.file == file)
-
     def renew(self, log: ProjectLog) -> None:
         """Another log in place of the one of that file."""
         logs = tuple(log if own.file == log.file else own for own in self.studio.project.logs)
@@ -297,23 +179,10 @@ class DataScreen:
             self.studio.kept["log"] = file
             self._detail.clear()
             with self._detail:
-                self.desk = desk = Desk(self, file)
+                self.desk = desk = Desk(self, file, self.renew, self.look)
                 await desk.draw()
 
     # What `modeler log` says.
-
-    def _checked(self, file: str) -> Step | None:
-        """The last look at a log."""
-        steps = self.studio.project.steps
-        return next((s for s in reversed(steps) if s.kind == "log" and s.words[1] == file), None)
-
-    def result(self, file: str) -> dict[str, Any]:
-        """What it said; nothing before there is one."""
-        step = self._checked(file)
-        try:
-            return dict(json.loads(read_text(self.studio.folder / step.result))) if step else {}
-        except (OSError, ValueError):
-            return {}
 
     def look(self) -> None:
         """Runs `modeler log` for logs that were never looked at, and for the one that is open."""
@@ -335,7 +204,9 @@ class DataScreen:
             studio.listeners.append(leave)
             try:
                 step = await hub.run(left[0], keep=False, aside=True)
-                studio.change(steps=(*studio.project.steps, step))
+                old = self.checked(step.words[1])
+                steps = [own for own in studio.project.steps if own is not old]
+                studio.change(steps=(*steps, step))
             except ModelerError as error:
                 if str(error).endswith(": cancelled") or not self.live:
                     return
@@ -349,7 +220,7 @@ class DataScreen:
                     self.desk.judged()
 
     def _unseen(self, words: tuple[str, ...]) -> bool:
-        file, step = words[1], self._checked(words[1])
+        file, step = words[1], self.checked(words[1])
         if self.logs[file].error or step is None or self.studio.newer(file, step):
             return not self.logs[file].error
         return step.words != words and file == self.studio.kept["log"]

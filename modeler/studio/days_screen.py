@@ -1,11 +1,10 @@
 """Days and machines: two logs under one model, two models on the same logs, and what drifted."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from nicegui import ui
 
-from modeler.core.json import shown
 from modeler.core.picture_file import pictures_from_json
 from modeler.core.table import percent
 from modeler.studio import commands, figures
@@ -16,7 +15,6 @@ from modeler.studio.project import MAKING, ProjectLog, Step, Stretch
 from modeler.studio.studio import Studio
 
 _TIME = "days"  # that pictures of several models share
-_EVERY = (Stretch(),)
 
 
 async def draw(studio: Studio) -> None:
@@ -32,95 +30,81 @@ async def draw(studio: Studio) -> None:
         ui.tab("drift", "What drifted")
     body = ui.column().classes("w-full gap-4")
 
-    async def chosen(event: Any) -> None:
-        kept["tab"] = event.value
-        await shown_now()
-
-    async def shown_now() -> None:
+    async def shown() -> None:
+        kept["tab"] = tabs.value
         body.clear()
         with body:
-            await {"logs": _logs, "models": _models, "drift": _drift}[kept["tab"]](studio, kept)
+            await {"logs": _logs, "models": _models, "drift": _drift}[tabs.value](studio, kept)
 
-    tabs.on_value_change(chosen)
-    await shown_now()
+    tabs.on_value_change(shown)
+    await shown()
+
+
+def _lacks(studio: Studio, line: str, title: str, screen: str) -> None:
+    """What is missing for this, and where it is made."""
+    ui.label(line)
+    go_button(studio, title, screen)
 
 
 def _words(log: ProjectLog) -> list[str]:
     """All of a log but what is left out of it."""
-    return [own.word(log.file) for part in _EVERY for own in part.without(log.out)]
+    return [own.word(log.file) for own in Stretch().without(log.out)]
 
 
-def _pair(
-    kept: dict[str, Any], name: str, known: dict[str, str], labels: tuple[str, str],
+def _choice(
+    kept: dict[str, Any], name: str, known: Mapping[str, str], default: str,
     changed: Callable[[], Any],
-) -> tuple[str, str]:  # fmt: skip
-    """Two menus of the same things, of which two are chosen; what is chosen now."""
-    names = list(known)
-    pair = kept.get(name)
-    if pair is None or not {*pair} <= {*names}:
-        pair = kept[name] = [names[0], names[min(1, len(names) - 1)]]
+) -> None:  # fmt: skip
+    """A menu; what is chosen is kept under its name, which is its label too."""
+    if kept.get(name) not in known:
+        kept[name] = default
 
-    def chosen(place: int, value: str) -> None:
-        pair[place] = value
-        changed()
+    def chosen(event: Any) -> Any:
+        kept[name] = event.value
+        return changed()
 
-    for place, label in enumerate(labels):
-        menu = ui.select(known, value=pair[place], label=label).classes("w-64")
-        menu.on_value_change(lambda event, place=place: chosen(place, event.value))
-    return pair[0], pair[1]
+    ui.select(dict(known), value=kept[name], label=name, on_change=chosen).classes("w-64")
 
 
 async def _logs(studio: Studio, kept: dict[str, Any]) -> None:
     """Errors and residuals of two logs under the current model."""
     project = studio.project
     if not project.model:
-        ui.label("There is no model yet: fit one first.")
-        go_button(studio, "Fit", "fit")
-        return
+        return _lacks(studio, "There is no model yet: fit one first.", "Fit", "fit")
     if len(project.logs) < 2:
-        ui.label("The project has fewer than two logs: add another day or machine first.")
-        go_button(studio, "Data", "data")
-        return
+        line = "The project has fewer than two logs: add another day or machine first."
+        return _lacks(studio, line, "Data", "data")
     known = {log.file: log.file.rpartition("/")[2] for log in project.logs}
     with ui.row().classes("items-center"):
-        pair = _pair(kept, "logs", known, ("first log", "second log"), studio.redraw)
-    chosen = [log for log in project.logs if log.file in pair]
-    words = [word for log in chosen for word in _words(log)]
+        for name, default in zip(("first log", "second log"), known, strict=False):
+            _choice(kept, name, known, default, studio.redraw)
+    chosen = {kept["first log"], kept["second log"]}
+    words = [word for log in project.logs if log.file in chosen for word in _words(log)]
     run_button(studio, "Compare", lambda: commands.compare(project, words), small=True)
     verdict = await studio.view("verdict", project.model, words)
     errors = await studio.view("log_errors", project.model, words)
     with part("Relative error"):
         rows = [[f"joint {joint}", *(percent(each[joint]) for _, _, each in errors)]
                 for joint in verdict.joints]  # fmt: skip
-        table(["", *(name for name, _, _ in errors)],
-              [*rows, ["all", *(percent(whole) for _, whole, _ in errors)]])  # fmt: skip
+        rows.append(["all", *(percent(whole) for _, whole, _ in errors)])
+        table(["", *(name for name, _, _ in errors)], rows)
+
+    async def residuals() -> None:
+        picture = await asked(
+            studio, "residual_picture", [project.model], words, kept["joint"],
+            kept["residual over"], True, kind="days",
+        )  # fmt: skip
+        if picture is not None:
+            place.clear()
+            with place:
+                figures.draw(picture)
+
     with part("Residuals of both logs"):
-        joints = {joint: f"joint {joint}" for joint in verdict.joints}
-        channels = dict(verdict.channels)
-        kept.setdefault("joint", verdict.joints[0])
-        kept.setdefault("channel", "velocity")
-        if kept["joint"] not in joints:
-            kept["joint"] = verdict.joints[0]
-        if kept["channel"] not in channels:
-            kept["channel"] = "velocity"
         with ui.row():
-            which = ui.select(joints, value=kept["joint"], label="joint").classes("w-40")
-            over = ui.select(channels, value=kept["channel"], label="residual over").classes("w-64")
+            joints = {joint: f"joint {joint}" for joint in verdict.joints}
+            _choice(kept, "joint", joints, verdict.joints[0], residuals)
+            _choice(kept, "residual over", dict(verdict.channels), "velocity", residuals)
         place = ui.column().classes("w-full")
-
-        async def residuals() -> None:
-            kept["joint"], kept["channel"] = which.value, over.value
-            picture = await asked(
-                studio, "residual_picture", [project.model], words, which.value, over.value, True,
-                kind="days",
-            )  # fmt: skip
-            if picture is not None:
-                place.clear()
-                with place:
-                    figures.draw(picture)
-
-        which.on_value_change(residuals)
-        over.on_value_change(residuals)
         await residuals()
 
 
@@ -131,57 +115,46 @@ async def _models(studio: Studio, kept: dict[str, Any]) -> None:
     known = {step.model: f"{step.number}  {step.title}" for step in models}
     logs = project.words("test") or project.words("train")
     if len(known) < 2 or not logs:
-        ui.label("The project has fewer than two models: fit another one, or add an effect first.")
-        go_button(studio, "What is missing", "missing")
-        return
+        line = "The project has fewer than two models: fit another one, or add an effect first."
+        return _lacks(studio, line, "What is missing", "missing")
     with ui.row().classes("items-center"):
-        pair = _pair(kept, "models", known, ("first model", "second model"), studio.redraw)
+        for name, default in zip(("first model", "second model"), known, strict=False):
+            _choice(kept, name, known, default, studio.redraw)
+    pair = kept["first model"], kept["second model"]
     if pair[0] == pair[1]:
         ui.label("Choose two different models.")
-        return
+        return None
     words = ("compare", *pair, *logs, *commands.guessing(project))
     wanted = Asked("contest", words, "compare two models")
     run_button(studio, "Compare both", lambda: wanted)
-    step = _last(studio, "contest", wanted.words)
-    if step is not None:
-        _contest(studio, step)
+    own = [s for s in project.steps if (s.kind, s.words) == (wanted.kind, wanted.words)]
+    if own:
+        _contest(studio, own[-1])
+    found = await studio.view("verdict", pair[0], logs)
+
+    async def window(*ends: float) -> Any:
+        return await asked(
+            studio, "torque_picture", pair, logs, kept["joint shown"], *ends, kind="days torque"
+        )
+
+    async def torques() -> None:
+        picture = await window()
+        if picture is not None:
+            place.clear()
+            with place:
+                zooms(studio, figures.draw(picture, _TIME), window)
+
     with part("Measured and predicted by both"):
-        found = await studio.view("verdict", pair[0], logs)
+        errors = dict(zip(found.joints, found.errors, strict=True))
         joints = {joint: f"joint {joint}" for joint in found.joints}
-        if kept.get("of models") not in joints:
-            errors = dict(zip(found.joints, found.errors, strict=True))
-            kept["of models"] = max(found.joints, key=lambda joint: errors[joint])
-        which = ui.select(joints, value=kept["of models"], label="joint").classes("w-40")
+        _choice(kept, "joint shown", joints, max(errors, key=lambda one: errors[one]), torques)
         place = ui.column().classes("w-full")
-
-        async def torques() -> None:
-            kept["of models"] = which.value
-
-            async def window(*ends: float) -> Any:
-                return await asked(
-                    studio,
-                    "torque_picture",
-                    list(pair),
-                    logs,
-                    which.value,
-                    *ends,
-                    kind="days torque",
-                )
-
-            picture = await window()
-            if picture is not None:
-                place.clear()
-                with place:
-                    zooms(studio, figures.draw(picture, _TIME), window)
-
-        which.on_value_change(torques)
         await torques()
 
 
 def _contest(studio: Studio, step: Step) -> None:
     """What `modeler compare A B LOG...` found."""
     found = studio.result(step)["models"]
-    names = [each["model"] for each in found]
     with part("Who is better"):
         for each in found:
             if each["best_on"]:
@@ -194,7 +167,7 @@ def _contest(studio: Studio, step: Step) -> None:
             own = [each["joints"][joint] for each in found]
             told = [f"{percent(one['relative_error'])}{' *' * one['best']}" for one in own]
             rows.append([f"joint {joint}", *told])
-        table(["", *names], rows)
+        table(["", *(each["model"] for each in found)], rows)
         ui.label("*: better than the other beyond doubt.").classes("studio-soft")
     _pictures(studio, step, _TIME)
 
@@ -203,37 +176,31 @@ async def _drift(studio: Studio, kept: dict[str, Any]) -> None:
     """What changes from log to log, machine by machine."""
     project = studio.project
     if not project.robot or len(project.logs) < 2:
-        ui.label("Drift needs a robot and two logs at least, of several days or machines.")
-        go_button(studio, "Data", "data")
-        return
-    pattern = ui.input("how paths end", placeholder="{machine}-{period}.csv").classes("w-80")
-    pattern.value = kept.get("pattern", "")
-    ui.label(
-        "Left out, the folder of a log is its machine and the file its period, in the order of "
-        "their names."
-    ).classes("studio-soft")
+        line = "Drift needs a robot and two logs at least, of several days or machines."
+        return _lacks(studio, line, "Data", "data")
     logs = [word for log in project.logs for word in _words(log)]
     maps = [word for own in project.mapping for word in ("--map", own)]
 
     def wanted() -> Asked:
         named = ["--name", kept["pattern"]] if kept.get("pattern") else []
-        return Asked(
-            "fleet",
-            ("fleet", commands.robot_copy(project), *logs, *named, *maps),
-            "what drifted",
-            about=0,
-        )
-
-    renew = run_button(studio, "Look for drift", wanted)
+        words = ("fleet", commands.robot_copy(project), *logs, *named, *maps)
+        return Asked("fleet", words, "what drifted", about=0)
 
     def typed(event: Any) -> None:
         kept["pattern"] = event.value.strip()
         renew()
 
-    pattern.on_value_change(typed)
+    ui.input("how paths end", value=kept.get("pattern", ""), on_change=typed,
+             placeholder="{machine}-{period}.csv").classes("w-80")  # fmt: skip
+    ui.label(
+        "Left out, the folder of a log is its machine and the file its period, in the order of "
+        "their names."
+    ).classes("studio-soft")
+    renew = run_button(studio, "Look for drift", wanted)
     steps = [step for step in project.steps if step.kind == "fleet"]
     if steps:
         _fleet(studio, steps[-1])
+    return None
 
 
 def _fleet(studio: Studio, step: Step) -> None:
@@ -244,23 +211,16 @@ def _fleet(studio: Studio, step: Step) -> None:
         if found["findings"]:
             table(
                 ["machine", "what", "how", "from", "to", "change", "certainty"],
-                [[one["machine"], f"{one['parameter']}\t{one['sentence']}", one["shape"],
-                  one["from"], one["to"], f"{one['change']:.4g} {one['unit']}",
-                  f"{one['score']:.1f} sigma"] for one in found["findings"]],
+                [[one["machine"], one["parameter"], one["shape"], one["from"], one["to"],
+                  f"{one['change']:.4g} {one['unit']}", f"{one['score']:.1f} sigma"]
+                 for one in found["findings"]],
             )  # fmt: skip
-            for one in found["findings"]:
-                ui.label(f"{one['sentence']}.")
-        for line in (*found["doubts"], *found["notes"]):
+        left = [f"{one['log']} left out: {one['why']}" for one in found["left_out"]]
+        for line in [f"{one['sentence']}." for one in found["findings"]]:
+            ui.label(line)
+        for line in (*found["doubts"], *found["notes"], *left):
             ui.label(line).classes("studio-soft")
-        for one in found["left_out"]:
-            ui.label(f"{one['log']} left out: {shown(one['why'])}").classes("studio-soft")
     _pictures(studio, step)
-
-
-def _last(studio: Studio, kind: str, words: tuple[str, ...]) -> Step | None:
-    """The last time that this very command was carried out."""
-    own = [step for step in studio.project.steps if (step.kind, step.words) == (kind, words)]
-    return own[-1] if own else None
 
 
 def _pictures(studio: Studio, step: Step, time: str = "") -> None:

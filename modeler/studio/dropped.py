@@ -34,7 +34,7 @@ NAME = "x-name"
 
 _AT_ONCE = 2**20
 _LONGEST = 120  # bytes of a name
-_SPARE = 64 * 2**20  # bytes of the disk that stay free
+_SPARE = 2**20  # bytes of the disk that stay free
 
 
 def safe_name(name: str) -> str:

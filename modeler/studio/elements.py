@@ -1,7 +1,7 @@
 """What several screens are made of: command lines, buttons that run them, lights, doubts."""
 
 import html
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import pairwise, takewhile
 from typing import Literal
 
@@ -9,6 +9,7 @@ from nicegui import ui
 from nicegui.element import Element
 
 from modeler.core.errors import ModelerError
+from modeler.core.table import percent
 from modeler.studio import commands
 from modeler.studio.access import REPORTS
 from modeler.studio.commands import Asked, typed
@@ -110,6 +111,24 @@ def light(which: Light, text: str = "") -> None:
     with ui.row().classes("items-center no-wrap gap-2"):
         ui.label(_SHAPES[which]).classes(f"studio-light studio-{which}").props("aria-hidden=true")
         ui.label(text or which).classes(f"studio-{which}")
+
+
+_LEFT: Mapping[str, tuple[Light | None, str]] = {
+    "noise": ("good", "what is left looks like noise"),
+    "pattern": ("doubtful", "what is left has a pattern"),
+    "other": ("doubtful", "what is left is neither noise nor a pattern that was tried"),
+    "untold": (None, "too few samples tell what is left"),
+}
+
+
+def what_is_left(joint: str, error: float, kind: str) -> None:
+    """Of a joint: its error, and a light for what `modeler compare` says of the residual."""
+    which, said = _LEFT[kind]
+    text = f"joint {joint}: {percent(error)}, {said}"
+    if which is None:
+        ui.label(text)
+    else:
+        light(which, text)
 
 
 def doubt_lines(lines: Iterable[str], which: Light = "doubtful") -> None:

@@ -1,15 +1,18 @@
 """Where it fails: measured against predicted torque by joint, and what the residual follows."""
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from nicegui import ui
 from nicegui.elements.plotly import Plotly
 
 from modeler.core.errors import ModelerError
-from modeler.core.table import percent
+from modeler.core.picture_file import pictures_from_json
 from modeler.studio import commands, figures
-from modeler.studio.elements import go_button, head, light, part, run_button, stale
+from modeler.studio.elements import go_button, head, part, run_button, stale, told, what_is_left
+from modeler.studio.project import Step
 from modeler.studio.robot_frame import RobotFrame, robot_frame
 from modeler.studio.studio import Studio
 from modeler.studio.timeline import Timeline
@@ -17,7 +20,6 @@ from modeler.studio.timeline import Timeline
 if TYPE_CHECKING:
     from modeler.studio.viewing import Verdict
 
-_BAD, _DOUBTFUL = 0.1, 0.03  # relative error
 _TIME = "fails"  # that all pictures of the screen share
 _SPEEDS = {0.1: "0.1x", 0.5: "0.5x", 1.0: "1x", 2.0: "2x", 5.0: "5x"}
 _ROLES = {"test": "held out", "train": "training"}
@@ -61,12 +63,27 @@ async def draw(studio: Studio) -> None:
         found: Verdict = await studio.view("verdict", project.model, logs)
     finally:
         waiting.delete()
-    await _Fails(studio, project.model, logs, found, kept).draw()
+    if found.joints:
+        await _Fails(studio, project.model, logs, found, kept).draw()
+    told(found.unjudged)
+    step = project.about("compare")
+    if step is not None and step.words[2:] == tuple(logs):
+        more = ui.expansion("All that the command drew: spectra, waves per turn, shares")
+        more.classes("w-full").on_value_change(lambda: _more(studio, more, step))
 
 
-def class_of(error: float) -> Any:
-    """The light of a relative error."""
-    return "bad" if not error < _BAD else "doubtful" if error >= _DOUBTFUL else "good"
+def _more(studio: Studio, place: ui.expansion, step: Step) -> None:
+    """Draws what `modeler compare` drew, where that was opened."""
+    place.clear()
+    try:
+        pictures = pictures_from_json(studio.folder / step.pictures) if place.value else ()
+    except ModelerError as error:
+        studio.show_error(str(error))
+        return
+    with place:
+        for picture in pictures:
+            if not picture.name.endswith("_time"):  # which stands above
+                figures.draw(picture)
 
 
 class _Fails:
@@ -79,8 +96,6 @@ class _Fails:
         if kept.get("joint") not in found.joints:
             errors = [-1.0 if math.isnan(error) else error for error in found.errors]
             kept["joint"] = found.joints[errors.index(max(errors))]
-        if kept.get("channel") not in dict(found.channels):
-            kept["channel"] = "velocity"
         self.rows: dict[str, ui.element] = {}
         self.robot: RobotFrame | None = None
 
@@ -98,17 +113,20 @@ class _Fails:
         with part("Measured and predicted"):
             await self._clock()
             every = ui.switch("all joints", value=self.kept.get("every", False))
-            every.on_value_change(self._all_switched)
+            every.on_value_change(self._keeps("every", self._torques_drawn))
             self.torques = ui.column().classes("w-full gap-2")
         with part("What the residual follows"), ui.row().classes("w-full fails-halves"):
             with ui.column().classes("fails-half"):
                 where = await self.studio.view("where_picture", self.model, self.logs)
                 cells = figures.draw(where)
                 cells.on("plotly_click", self._cell)
+                self._strongest(where.panels[0][0].series[0])
             with ui.column().classes("fails-half"):
                 choice = dict(self.found.channels)
-                self.channel = ui.select(choice, value=self.kept["channel"], label="residual over")
-                self.channel.classes("w-64").on_value_change(self._channel_chosen)
+                self.channel = ui.select(
+                    choice, value=self.kept["channel"], label="residual over",
+                    on_change=self._keeps("channel", self._residual_drawn),
+                ).classes("w-64")  # fmt: skip
                 self.residual = ui.column().classes("w-full")
 
     async def _robot(self) -> RobotFrame | None:
@@ -137,18 +155,16 @@ class _Fails:
         line.show(time, positions)
 
     def _verdict(self) -> None:
-        rows = zip(self.found.joints, self.found.errors, self.found.sentences, strict=True)
+        found = self.found
+        rows = zip(found.joints, found.errors, found.kinds, found.sentences, strict=True)
         with ui.element("div").classes("fails-verdict").props("role=listbox aria-label=joints"):
-            for joint, error, sentence in rows:
-                row = (
-                    ui.element("button")
-                    .classes("fails-joint")
-                    .props(f'type=button role=option data-rows="{joint}"')
-                )
+            for joint, error, kind, sentence in rows:
+                row = ui.element("button").classes("fails-joint").props("type=button role=option")
+                row.props["data-rows"] = joint
                 row.on("click", lambda _, name=joint: self._pick(name))
                 self.rows[joint] = row
                 with row:
-                    light(class_of(error), f"Joint {joint}: {percent(error)}")
+                    what_is_left(joint, error, kind)
                     ui.label(sentence).classes("fails-sentence")
 
     async def _pick(self, joint: str, channel: str | None = None) -> None:
@@ -161,24 +177,31 @@ class _Fails:
             self.channel.set_value(channel)  # which draws the residual anew
         await self._joint_drawn()
 
+    def _strongest(self, heat: Any) -> None:
+        """At first the channel is looked at that the joint follows most."""
+        if self.kept.get("channel") not in heat.columns:
+            shares = np.nan_to_num(heat.values[heat.rows.index(self.kept["joint"])], nan=-1.0)
+            self.kept["channel"] = heat.columns[int(shares.argmax())]
+
     async def _cell(self, event: Any) -> None:
         point = event.args["points"][0]
         await self._pick(point["y"], point["x"])
 
-    async def _channel_chosen(self, event: Any) -> None:
-        self.kept["channel"] = event.value
-        await self._residual_drawn()
+    def _keeps(self, name: str, drawn: Callable[[], Any]) -> Callable[[Any], Any]:
+        """What is called when that is changed: it is kept, and drawn."""
 
-    async def _all_switched(self, event: Any) -> None:
-        self.kept["every"] = event.value
-        await self._torques_drawn()
+        def changed(event: Any) -> Any:
+            self.kept[name] = event.value
+            return drawn()
+
+        return changed
 
     async def _joint_drawn(self) -> None:
         for joint, row in self.rows.items():
             here = joint == self.kept["joint"]
             row.classes(add="fails-here" if here else "", remove="" if here else "fails-here")
             row.props(f"aria-selected={'true' if here else 'false'}")
-        self.body.props(f'data-rows="{self.kept["joint"]}"')  # lit wherever the mouse is
+        self.body.props["data-rows"] = self.kept["joint"]  # lit wherever the mouse is
         if self.robot is not None:
             self.robot.light([self.kept["joint"]])
         await self._torques_drawn()
@@ -196,14 +219,9 @@ class _Fails:
 
     async def _torque(self, joint: str, *ends: float) -> Any:
         return await asked(
-            self.studio,
-            "torque_picture",
-            [self.model],
-            self.logs,
-            joint,
-            *ends,
+            self.studio, "torque_picture", [self.model], self.logs, joint, *ends,
             kind=f"torque {joint}",
-        )
+        )  # fmt: skip
 
     async def _residual_drawn(self) -> None:
         picture = await asked(

@@ -9,15 +9,8 @@ from modeler.core.errors import ModelerError
 from modeler.core.picture_file import pictures_from_json
 from modeler.core.table import percent
 from modeler.studio import elements, figures
-from modeler.studio.elements import Light
 from modeler.studio.project import MAKING, Step
 from modeler.studio.studio import Studio
-
-_KINDS: Mapping[str, tuple[Light, str]] = {
-    "noise": ("good", "what is left looks like noise"),
-    "pattern": ("doubtful", "what is left has a pattern"),
-    "other": ("doubtful", "no noise, and no pattern that was tried"),
-}
 
 
 async def draw(studio: Studio) -> None:
@@ -43,10 +36,11 @@ async def draw(studio: Studio) -> None:
     logs = project.words("test") or project.words("train")
     with elements.part("What is left" + (" on held-out motion" if project.words("test") else "")):
         found = await studio.view("verdict", project.model, logs)
-        for joint, kind, sentence in zip(found.joints, found.kinds, found.sentences, strict=True):
-            which, said = _KINDS[kind]
-            elements.light(which, f"joint {joint}: {said}")
-            ui.label(sentence)
+        for joint, error, kind, sentence in zip(
+            found.joints, found.errors, found.kinds, found.sentences, strict=True
+        ):
+            elements.what_is_left(joint, error, kind)
+            ui.label(sentence).classes("studio-soft")
         elements.page_button(studio, path[-1])
     with ui.row():
         elements.go_button(studio, "Look what is missing still", "missing")
@@ -67,8 +61,14 @@ def _pictures(studio: Studio, path: Sequence[Step]) -> None:
         return
 
     def pressed(bar: int) -> None:
-        # of several effects that one step brought, the bars between are those of the step before
-        _back(studio, next(s for s, n in [*zip(path, counts, strict=True)][::-1] if n - 1 <= bar))
+        own = [step for step, n in zip(path, counts, strict=True) if n - 1 == bar]
+        if own:
+            _back(studio, own[0])
+        else:
+            studio.show_error(
+                "that effect came with others in one step; go back to the step before, and add "
+                "them one by one"
+            )
 
     for picture in pictures_from_json(studio.folder / path[-1].pictures):
         plot = figures.draw(picture)

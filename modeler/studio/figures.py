@@ -71,11 +71,8 @@ def figure(picture: Picture, time: str = "") -> dict[str, Any]:
     return {"data": data, "layout": layout, "config": _CONFIG}
 
 
-_CONFIG = {
-    "displaylogo": False,
-    "doubleClick": "autosize",
-    "modeBarButtonsToRemove": ["lasso2d", "select2d", "autoScale2d"],
-}
+_CONFIG = {"displaylogo": False, "doubleClick": "autosize",
+           "modeBarButtonsToRemove": ["lasso2d", "select2d", "autoScale2d"]}  # fmt: skip
 
 
 def draw(picture: Picture, time: str = "") -> "ui.plotly":

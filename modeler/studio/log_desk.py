@@ -1,10 +1,8 @@
 """One log on the screen "data": its pictures and its time, its columns, its doubts."""
 
-from __future__ import annotations  # the screen has a desk, and the desk its screen
-
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from nicegui import ui
@@ -17,18 +15,16 @@ from modeler.core.style import BLACK, BLUE, GREEN, ORANGE, PINK, VERMILLION, Sty
 from modeler.studio import commands, figures, timeline
 from modeler.studio.elements import command_line, doubt_lines, folded, part, table
 from modeler.studio.log_mapping import Choice, as_mapped, kind_of, words_of
+from modeler.studio.log_shelf import Shelf
 from modeler.studio.mapping_table import MappingTable
 from modeler.studio.project import ProjectLog, Stretch
 from modeler.studio.robot_frame import robot_frame
 from modeler.studio.timeline import Timeline
 
-if TYPE_CHECKING:
-    from modeler.studio.data_screen import DataScreen
-
 _POINTS = 1500  # of a curve, at most
 _ALL_POINTS = 14_000  # of all curves
 _COLORS = (BLUE, VERMILLION, GREEN, ORANGE, PINK, BLACK)  # SKY is what BLUE is in the dark
-_PANELS = {"q": "position", "qd": "speed", "tau": "torque", "current": "current"}
+_PANELS = {"q": "position", "qd": "speed", "tau": "torque or force", "current": "current"}
 _SPEEDS = {speed: f"{speed:g} x" for speed in (0.1, 0.5, 1.0, 2.0, 5.0)}
 _ROOM = 0.02  # s beside a doubt that is left out too
 _MOST = 30  # marks that are listed; the line has all
@@ -42,14 +38,19 @@ class Desk:
     """One drawing of a log.
 
     Args:
-        screen: that it is on.
+        shelf: that the log is from.
         file: of the log.
+        renew: is called with the log as it shall be.
+        look: is called when the mapping was changed.
     """
 
-    def __init__(self, screen: DataScreen, file: str) -> None:
-        self.screen, self.studio, self.file = screen, screen.studio, file
-        self.known, self.guess = screen.logs[file], screen.guess(file)
-        self.chosen = screen.chosen(self.guess)
+    def __init__(
+        self, shelf: Shelf, file: str, renew: Callable[[ProjectLog], Any], look: Callable[[], Any]
+    ) -> None:
+        self.shelf, self.studio, self.file = shelf, shelf.studio, file
+        self._renew, self._again = renew, look
+        self.known, self.guess = shelf.logs[file], shelf.guess(file)
+        self.chosen = shelf.chosen(self.guess)
         self.window: tuple[float, float] | None = None
         self.brush: Stretch | None = None
         self._turn = 0  # of the picture: another one forgets its zoom
@@ -57,7 +58,7 @@ class Desk:
     @property
     def log(self) -> ProjectLog:
         """As the project has it."""
-        return self.screen.log(self.file)
+        return self.shelf.log(self.file)
 
     async def draw(self) -> None:
         """Pictures first; what takes longer comes after them."""
@@ -73,7 +74,7 @@ class Desk:
             self._robot = ui.column().classes("data-robot")
         with part("Columns"):
             self._about = ui.column().classes("w-full gap-1")
-            joints, columns = self.screen.joints, self.guess.columns
+            joints, columns = self.shelf.joints, self.guess.columns
             self._table = MappingTable(joints, columns, self.chosen, self._ranged(), self._mapped)
             self._said = command_line(())
         with part("What modeler log says"):
@@ -81,7 +82,7 @@ class Desk:
         self._say()
         self.judged()
         await self._curves()
-        if not self.screen.live or self.screen.desk is not self:
+        if self._robot.is_deleted:
             return  # another log was opened meanwhile
         with self._robot:
             if self.studio.project.robot:
@@ -96,7 +97,7 @@ class Desk:
         """What the viewer answers of this log; None where it has no answer, which is told."""
         try:
             return await self.studio.view(
-                question, self.screen.path(self.file), *arguments, kind=kind
+                question, self.shelf.path(self.file), *arguments, kind=kind
             )
         except ModelerError as error:
             self.studio.show_error(str(error))
@@ -104,13 +105,13 @@ class Desk:
     def _columns(self, kinds: Sequence[str]) -> dict[str, Choice]:
         """Our name -> column, of those kinds, where the log has it."""
         own = {own: one for own, one in self.chosen.items() if one.column in self.guess.columns}
-        return {o: one for o, one in own.items() if kind_of(o, self.screen.joints)[0] in kinds}
+        return {o: one for o, one in own.items() if kind_of(o, self.shelf.joints)[0] in kinds}
 
     def _values(self, own: str, values: np.ndarray) -> np.ndarray:
         """A column as it is mapped."""
         one = self.chosen[own]
         stated = self.known.units.get(one.column, "")
-        return as_mapped(values, stated, one, own, self.screen.joints)
+        return as_mapped(values, stated, one, own, self.shelf.joints)
 
     async def _curves(self) -> None:
         """Asks for the window that is looked at, and draws it."""
@@ -123,7 +124,7 @@ class Desk:
 
     def _picture(self, raw: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
         """Positions, speeds and torques as they are mapped, one below the other."""
-        joints = self.screen.joints
+        joints = self.shelf.joints
         curves: dict[str, list[Curve]] = {kind: [] for kind in _PANELS}
         for own, one in self._columns([*_PANELS]).items():
             kind, joint = kind_of(own, joints)
@@ -167,14 +168,14 @@ class Desk:
             self._line.show(film["time"], {own.removeprefix("q"): v for own, v in q.items()})
 
     def _offer(self) -> None:
-        count = len(self.screen.joints)
+        count = len(self.shelf.joints)
         ui.label("There is no robot yet: no fit, and nothing moves.").classes("studio-soft")
         title = f"A robot with {count} joint{'s' * (count != 1)} to start from"
         ui.button(title, on_click=self._start).props("no-caps outline")
         _small("Describe it", lambda: self.studio.go("robot"))
 
     async def _start(self) -> None:
-        asked = commands.new_robot(len(self.screen.joints))
+        asked = commands.new_robot(len(self.shelf.joints))
         if await self.studio.run(asked) is not None:
             self.studio.change(redraw=True, robot=asked.words[1])
 
@@ -229,14 +230,14 @@ class Desk:
             self._become(lambda log: timeline.painted(log, held, role))
 
     def _become(self, change: Callable[[ProjectLog], ProjectLog]) -> None:
-        self.screen.renew(change(self.log))
+        self._renew(change(self.log))
         self._drawn()
 
     # The columns.
 
     def _ranged(self) -> Sequence[str]:
         """Our names whose unit is a guess by range alone, while the mapping is one."""
-        return self.guess.ranged if self.screen.is_guess(self.guess) else ()
+        return self.guess.ranged if self.shelf.is_guess(self.guess) else ()
 
     def _say(self) -> None:
         """What the mapping is, in words of people and of commands."""
@@ -248,20 +249,21 @@ class Desk:
             if "auto" in words:
                 text = "The logs name their columns differently: each is taken by its own guess."
                 ui.label(text).classes("studio-soft")
-            elif self.screen.is_guess(self.guess):
+            elif self.shelf.is_guess(self.guess):
                 ranged = ", dotted units by range alone" if self.guess.ranged else ""
                 ui.label(f"A guess by names{ranged}: check it.").classes("studio-soft")
             if lacking and "auto" not in words:
                 doubt_lines([_ABSENT.format(self.chosen[lacking[0]].column, lacking[0])])
-                _small("each by its own guess", self.screen.guess_each)
+                _small("each by its own guess", self.shelf.guess_each)
 
     async def _mapped(self, chosen: Mapping[str, Choice]) -> None:
         """Other columns, units or signs: words of `--map`, and the pictures at once."""
-        screen, joints = self.screen, self.screen.joints
+        shelf, joints = self.shelf, self.shelf.joints
         try:
             for own, one in chosen.items():
                 as_mapped(np.empty(0), "", one, own, joints)  # says which units cannot be
-            words = (*screen.settings, *words_of(chosen, screen.under(self.guess), joints))
+            words = words_of(chosen, shelf.under(self.guess), joints)
+            words = (*shelf.kept(self.guess), *words)
             changed = self.studio.change(mapping=words)
         except ModelerError as error:
             self.studio.show_error(str(error))
@@ -279,18 +281,18 @@ class Desk:
         await self._curves()
         if self.studio.project.robot:
             await self._film()
-        screen.look()
+        self._again()
 
     # The doubts.
 
     def marks(self) -> list[Mapping[str, Any]]:
         """Doubts that have a place in time."""
-        return list(self.screen.result(self.file).get("marks", ()))
+        return list(self.shelf.result(self.file).get("marks", ()))
 
     def judged(self) -> None:
         """What `modeler log` says, anew."""
         self._drawn()
-        result, marks = self.screen.result(self.file), self.marks()
+        result, marks = self.shelf.result(self.file), self.marks()
         doubts = result.get("doubts", self.guess.doubts)
         rows = {line: [m for m in marks if line.endswith(m["line"])] for line in doubts}
         told = [id(mark) for own in rows.values() for mark in own]

@@ -104,7 +104,7 @@ class MappingTable:
     def _cell(self, own: str) -> None:
         """Where one of ours is said; a column can be dropped here."""
         self._cells[own] = cell = ui.element("div").classes("mapping-cell")
-        cell.props(f'data-own="{own}"')
+        cell.props["data-own"] = own
         cell.on("dragover", js_handler="(event) => event.preventDefault()")
         let = "(event) => { event.preventDefault(); emit(); }"
         cell.on("drop", lambda: self._take(own, self._dragged), js_handler=let)
@@ -122,7 +122,7 @@ class MappingTable:
                 names, value=one and one.column, with_input=True, clearable=own != "time",
                 on_change=lambda event: self._take(own, event.value),
             )  # fmt: skip
-            menu.props(f'dense options-dense aria-label="column of {own}"')
+            menu.props("dense options-dense").props["aria-label"] = f"column of {own}"
             menu.classes("mapping-column")
             if one is None:
                 return
@@ -130,7 +130,8 @@ class MappingTable:
                 menu.props("error").tooltip("this log has no such column")
             self._unit(own, one)
             if own != "time":
-                sign = ui.button(_SIGNS[one.sign]).props(f'dense flat aria-label="sign of {own}"')
+                sign = ui.button(_SIGNS[one.sign]).props("dense flat")
+                sign.props["aria-label"] = f"sign of {own}"
                 sign.on_click(lambda: self._turn(own, sign))
 
     def _in_unit(self, own: str, one: Choice, unit: str | None) -> Choice:
@@ -150,7 +151,7 @@ class MappingTable:
 
         menu = ui.select(units, value=shown, with_input=True, new_value_mode="add-unique",
                          on_change=take)  # fmt: skip
-        menu.props(f'dense options-dense hide-dropdown-icon aria-label="unit of {own}"')
+        menu.props("dense options-dense hide-dropdown-icon").props["aria-label"] = f"unit of {own}"
         menu.classes("mapping-unit")
 
     async def _take(self, own: str, column: str | None) -> None:

@@ -193,9 +193,8 @@ def _bans(studio: Studio) -> None:
         for ban in studio.project.without:
             left = tuple(own for own in studio.project.without if own != ban)
             button = ui.button(ban, on_click=lambda _, left=left: studio.change(True, without=left))
-            button.props(
-                f"no-caps outline dense icon=close aria-label='take back the ban of {ban}'"
-            )
+            button.props("no-caps outline dense icon=close")
+            button.props["aria-label"] = f"take back the ban of {ban}"
             elements.busy_with(studio, button)
 
 

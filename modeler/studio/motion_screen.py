@@ -97,11 +97,15 @@ def _wish(studio: Studio) -> None:
         ui.label(
             "Where a diagnosis cannot tell two effects apart, the motion that does is offered here."
         ).classes("studio-soft studio-small")
+
+    def change() -> None:
+        studio.kept["robot tab"] = "Limits"
+        studio.go("robot")
+
     with ui.row().classes("items-center"):
         whose = "as the model was fitted with it" if project.model else "as it is"
         ui.label(f"Its limits are those of the robot {whose}.").classes("studio-soft")
-        go_button(studio, "Change them", "robot")
-    studio.kept["robot tab"] = "Limits"
+        ui.button("Change them", on_click=change).props("no-caps flat icon-right=east")
     renew = run_button(
         studio, "Find the motion",
         lambda: excite(studio.project, chosen["between"], chosen["duration"]),
@@ -173,7 +177,9 @@ async def _shown(studio: Studio, step: Step, look: MotionLook) -> None:
             with ui.row().classes("items-center no-wrap w-full"):
                 button = ui.button(icon="play_arrow").props("round aria-label='play the motion'")
                 ends = float(look.time[0]), float(look.time[-1])
-                line = Timeline(name, ends).classes("w-full")
+                line = Timeline(name, ends).style(
+                    "flex: 1 1 0; min-width: 0; margin: 8px 0 16px 8px"
+                )
             line.frame = frame.id
             button.on_click(lambda: line.play(1.0))
 

@@ -1,6 +1,7 @@
 """The screen "robot": its table, edited beside its picture, and what it can be identified by."""
 
 import asyncio
+import contextlib
 import json
 from functools import partial
 from typing import Any
@@ -65,8 +66,6 @@ class _Desk:
     async def draw(self) -> None:
         """The screen of a robot that there is."""
         studio = self.studio
-        dark = "matchMedia('(prefers-color-scheme: dark)').matches"
-        self.theme: Any = "vscodeDark" if await ui.run_javascript(dark) else "vscodeLight"
         with ui.row().classes("items-center w-full"):
             self.title = ui.label().classes("studio-head")
             ui.space()
@@ -92,6 +91,10 @@ class _Desk:
         for button in self.changing:
             button.set_enabled(not studio.read_only)
         await self.check()
+        dark = "matchMedia('(prefers-color-scheme: dark)').matches"
+        with contextlib.suppress(TimeoutError):  # over a slow line the text stays light
+            if await ui.run_javascript(dark, timeout=20.0):
+                self.editor.set_theme("vscodeDark")
 
     def _tabs(self) -> None:
         names = ("Table", "Effects", "Limits", "Base parameters", "Text")
@@ -132,7 +135,7 @@ class _Desk:
             pass
         with panel("Text"):
             self.editor = ui.codemirror(
-                self.kept.text, language="TOML", on_change=self._typed, theme=self.theme
+                self.kept.text, language="TOML", on_change=self._typed, theme="vscodeLight"
             ).classes("studio-text w-full")
             self.editor.set_enabled(not self.studio.read_only)
 
@@ -337,7 +340,8 @@ class _Desk:
                         ui.label(name)
             with ui.element("tbody"):
                 for joint in look.joints:
-                    with ui.element("tr").props(f'data-rows="{joint.name}"'):
+                    with ui.element("tr") as row:
+                        row.props["data-rows"] = joint.name
                         with ui.element("th").props("scope=row"):
                             ui.label(joint.name if joint.actuated else f"{joint.name} (passive)")
                         for effect in BASIC_EFFECTS:
@@ -345,7 +349,8 @@ class _Desk:
                                 self._box(effect, joint.name, effect in joint.effects)
 
     def _box(self, effect: str, joint: str, has: bool) -> None:
-        box = ui.checkbox(value=has).props(f'dense aria-label="{effect} of joint {joint}"')
+        box = ui.checkbox(value=has).props("dense")
+        box.props["aria-label"] = f"{effect} of joint {joint}"
         box.set_enabled(not self.studio.read_only)
         box.on_value_change(lambda event: self._effect(effect, joint, bool(event.value)))
 

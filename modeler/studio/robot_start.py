@@ -8,6 +8,7 @@ from nicegui import background_tasks, ui
 from modeler.core.builtin import CONVENTIONS, TEMPLATES, builtin_names, builtin_text
 from modeler.core.errors import ModelerError
 from modeler.robot import pasted_robot, pasted_table, with_pasted
+from modeler.studio.chooser import choose
 from modeler.studio.commands import Asked
 from modeler.studio.dropped import drop_zone
 from modeler.studio.elements import part
@@ -17,6 +18,7 @@ from modeler.studio.studio import Studio
 Taken = Callable[[str, tuple[str, ...]], Awaitable[None]]
 """Is called with the text of a robot file, and notes on how it was made."""
 
+_FILES = (".urdf", ".xml", ".mjcf", ".par", ".toml")
 _AS_HEADED = "as its headings say"
 _EXAMPLE = "i\t\u03b1 [deg]\ta [mm]\td [mm]\t\u03b8\n1\t0\t0\t333\tq1\n2\t-90\t0\t0\tq2"
 
@@ -103,6 +105,12 @@ def _file(studio: Studio, taken: Taken) -> None:
         lambda files: background_tasks.create(came(files)), studio.show_error,
     )  # fmt: skip
     zone.props(remove="multiple").classes("w-full")
+    ui.button(
+        "Choose where it lies", icon="folder_open",
+        on_click=lambda: choose(
+            studio, _FILES, lambda files: background_tasks.create(came(files))
+        ),
+    ).props("no-caps outline")  # fmt: skip
 
 
 def _builtin(taken: Taken) -> None:

@@ -41,6 +41,7 @@ class Hub:
         workspace: the folder.
         viewer: the process that holds logs and predictions.
         running: the command that runs; None: none.
+        last: words of the command that was asked for last, a step or not.
         gives_way: whether it is cancelled as soon as another one is asked for.
         studios: of the windows, the first of which may change things.
         sheets: HTML of frames inside the page, by its digest.
@@ -61,6 +62,7 @@ class Hub:
         self.running: Running | None = None
         self.own: Callable[[], bool] = lambda: False
         self.gives_way = False
+        self.last: tuple[str, ...] = ()
         self.studios: list[Studio] = []
         self.sheets: OrderedDict[str, str] = OrderedDict()
         self.downloads: OrderedDict[str, tuple[Path | bytes, str]] = OrderedDict()
@@ -133,7 +135,7 @@ class Hub:
         parent = self.project.current if asked.about is None else asked.about
         more, result, pictures = commands.bookkeeping(asked.words, number)
         self._prepare(asked, number)
-        self.gives_way = aside
+        self.gives_way, self.last = aside, asked.words
         self.running = Running([*asked.words, *more], self.workspace.folder, asked.title)
         self.tell()
         begun = time.perf_counter()
@@ -362,6 +364,7 @@ class Studio:
         if self.room is not None:
             with self.room:  # the button that was pressed may be gone
                 ui.navigate.history.push(f"/{screen}")
+                ui.run_javascript("window.scrollTo(0, 0)")
         self.redraw()
 
     def redraw(self) -> None:

@@ -46,18 +46,15 @@ class Viewer:
         async with self._turn:
             if kind and self._newest[kind] != number:
                 return None
-            try:
-                return await self._answered(function, arguments)
-            except BrokenProcessPool:
-                self.end()
-            try:
-                return await self._answered(function, arguments)
-            except BrokenProcessPool:
-                self.end()
-                raise DataError(
-                    "the process that draws logs ended in the middle of its work, twice, as when "
-                    "memory runs out; close other programs, or look at a shorter stretch"
-                ) from None
+            for _ in range(2):
+                try:
+                    return await self._answered(function, arguments)
+                except BrokenProcessPool:
+                    self.end()
+            raise DataError(
+                "the process that draws logs ended in the middle of its work, twice, as when "
+                "memory runs out; close other programs, or look at a shorter stretch"
+            )
 
     async def warm(self) -> None:
         """Starts the process, before it is needed."""
@@ -105,14 +102,11 @@ def answer(function: str, arguments: tuple[Any, ...]) -> Any:
     found = getattr(viewing, function)
     try:
         return found(*arguments)
-    except MemoryError as error:
+    except (MemoryError, OSError, RuntimeError) as error:
+        if not short_of_memory(error):
+            raise DataError(f"{function}: {error}") from error
         viewing.forget()
         raise DataError(
             "memory ran out while a log was drawn; close other programs, or look at a shorter "
             "stretch"
         ) from error
-    except (OSError, RuntimeError) as error:
-        if not short_of_memory(error):
-            raise DataError(f"{function}: {error}") from error
-        viewing.forget()
-        raise DataError(f"memory ran out while a log was drawn ({error})") from error

@@ -274,9 +274,6 @@ def _read(place: str, words: Sequence[str], robot: str) -> _Log:
         stated = _robot(robot)
         mapping = mapping.overriding(map_from_table(stated.log_words, f"{robot}: [log]"))
     joints = robot_joints(robot)
-    if mapping.auto:
-        guessed = log_maps.look_at(place, None, LogMap(names=mapping.names)).suggested
-        mapping = log_maps.suggested_map(guessed, mapping)
     return _read_as(place, mapping, joints)
 
 
@@ -383,7 +380,8 @@ class Verdict:
         sentences: of each, as `modeler compare` says it.
         channels: of each: id and label of what its residual can be drawn over.
         start, end: of the time axis of the pictures, s.
-        kinds: of each, what is left: "pattern", "noise" or "other".
+        kinds: of each, what is left: "pattern", "noise", "other", or "untold" by too few samples.
+        unjudged: lines on joints that cannot be judged, and why.
     """
 
     joints: tuple[str, ...]
@@ -393,6 +391,7 @@ class Verdict:
     start: float
     end: float
     kinds: tuple[str, ...]
+    unjudged: tuple[str, ...]
 
 
 def verdict(model: str, logs: Sequence[str]) -> Verdict:
@@ -405,7 +404,11 @@ def verdict(model: str, logs: Sequence[str]) -> Verdict:
         tuple(float(item.relative_error) for item in items),
         tuple(validation.joint_verdict(item) for item in items),
         tuple(_channels(judged)), float(time.min()), float(time.max()),
-        tuple(map(validation.kind_of_residual, items)),
+        tuple(
+            validation.kind_of_residual(item) if item.structure is not None else "untold"
+            for item in items
+        ),
+        tuple(f"Joint {name}: not judged: {why}" for name, why in judged.comparison.unjudged),
     )  # fmt: skip
 
 

@@ -47,7 +47,7 @@ function recall() {
   page.pose(kept.q);
   fit();
   Object.assign(page.view, { scale: kept.scale, centre: kept.centre });
-  if (page.view.filled(page.poses()) === 0) fit();
+  if (page.view.filled(page.poses()) < 0.3) fit();
   redraw();
 }
 

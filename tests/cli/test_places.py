@@ -51,8 +51,8 @@ READING = {  # what each command reads; outputs come after it
     "physical": "physical arm.toml",
     "show": "show arm.toml",
     "completion": "completion bash",
+    "studio": "studio arm",
     "fleet": "fleet arm.toml a.parquet b.csv@0:4 --map names.toml",
-    "studio": "studio folder",
 }
 
 

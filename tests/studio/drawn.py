@@ -11,9 +11,11 @@ Y = np.where(np.abs(X - 3.0) < 0.35, np.nan, np.sin(X) / 3.0)
 MOTION = Panel(
     "Torque <b>&</b>", "time [s]", "torque [N m]",
     (Band("band", X, Y - 0.1, Y + 0.1, Style(SKY, opacity=0.4)),
-     Curve("measured", X, Y, Style(BLACK)), Curve("predicted", X, Y * 1.1, Style(ORANGE, dash=True))),
+     Curve("measured", X, Y, Style(BLACK)),
+     Curve("predicted", X, Y * 1.1, Style(ORANGE, dash=True))),
     marks=((2.0, "second log"),), shade=(4.0, 4.5), zero=True, x_range=(0.0, 6.0),
-    y_range=(-1.0, 1.0), spans=(Span("low speed", np.array([[0.5, 1.0], [5.0, 5.5]]), PALE["blue"]),),
+    y_range=(-1.0, 1.0),
+    spans=(Span("low speed", np.array([[0.5, 1.0], [5.0, 5.5]]), PALE["blue"]),),
 )  # fmt: skip
 CLOUD = Panel(
     "Cloud", "speed [rad/s]", "residual [N m]",

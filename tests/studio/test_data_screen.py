@@ -127,9 +127,8 @@ def test_three_formats_from_the_drop_to_the_fit(
     # Another unit, by the menu: the picture follows, and the words.
     field(w, "unit of q1").click()
     page.get_by_role("option", name="rad", exact=True).click()
-    page.wait_for_function(
-        "Math.max(...(document.querySelector('.data-pictures .js-plotly-plot')?.data?.[0]?.y ?? [])) > 10"
-    )
+    plot = "document.querySelector('.data-pictures .js-plotly-plot')"
+    page.wait_for_function(f"Math.max(...({plot}?.data?.[0]?.y ?? [])) > 10")
     np.testing.assert_allclose(curves(w)["joint 1y"]["y"], np.rad2deg(at), atol=1e-3)
     words = until(w, studio, lambda p: "q1=Winkel_1" in " ".join(p.mapping)).mapping
     assert "q2=Winkel_2:deg" in words
@@ -191,8 +190,11 @@ def plays(w: Window, run: dict[str, np.ndarray]) -> None:
     page = w.page
     page.wait_for_function("document.querySelector('iframe.studio-robot')?.ready")
     page.evaluate(
-        """() => { const frame = document.querySelector('iframe.studio-robot'), tell = window.toRobot;
-             window.posed = []; window.toRobot = (id, m) => { posed.push([id === frame.id, m]); tell(id, m); }; }"""
+        """() => {
+          const frame = document.querySelector('iframe.studio-robot'), tell = window.toRobot;
+          window.posed = [];
+          window.toRobot = (id, m) => { posed.push([id === frame.id, m]); tell(id, m); };
+        }"""
     )
     line = page.locator(".timeline-active")
     line.scroll_into_view_if_needed()
@@ -287,28 +289,48 @@ def test_what_cannot_be_read_is_told_in_place(
     assert [c for c in w.complaints if "400" not in c] == []
 
 
-def test_logs_of_other_names_are_each_taken_by_their_own_guess(
-    window: Callable[..., Window], studio: Served, measured: dict[str, np.ndarray], tmp_path: Path
+@pytest.mark.slow
+def test_logs_of_other_names_chosen_where_they_lie_are_each_taken_by_their_own_guess(
+    window: Callable[..., Window], measured: dict[str, np.ndarray], tmp_path: Path
 ) -> None:
-    w = window().open(studio)
-    w.go("Data")
     other = {"t": measured["time"]} | {"pos": np.column_stack([measured[f"q{j}"] for j in JOINTS])}
     other["torque"] = np.column_stack([measured[f"tau{j}"] for j in JOINTS])
-    files = [german(tmp_path / "a.csv", as_logged(measured)), mat(tmp_path / "b.mat", other)]
-    drop(w, files)
-    pictured(w)
-    w.sees("The logs name their columns differently")
-    assert studio.project.mapping == ("auto",)
-    first = curves(w)["joint 2y"]
-    w.click("logs/b.mat", exact=True)
-    w.page.wait_for_function("document.querySelectorAll('.mapping-chip').length === 7")
-    pictured(w)
-    second = curves(w)["joint 2y"]
-    np.testing.assert_allclose(
-        np.interp(second["x"], first["x"], first["y"]), second["y"], atol=2e-3
-    )
+    place = tmp_path / "elsewhere"
+    (place / "deep").mkdir(parents=True)
+    german(place / "deep" / "a.csv", as_logged(measured))
+    far = mat(place / "deep" / "b.mat", other)
+    with served(project(tmp_path / "arm"), "--allow", str(place)) as studio:
+        w = window().open(studio)
+        w.go("Data")
+        w.click("Choose where it lies")
+        dialog = w.page.get_by_role("dialog")
+        dialog.get_by_role("button", name=str(place)).click()
+        dialog.get_by_role("button", name="deep").click()
+        for name in ("a.csv", "b.mat"):
+            dialog.get_by_role("checkbox", name=name).click()
+        dialog.get_by_role("button", name="Take", exact=True).click()
+        pictured(w)
+        w.sees("The logs name their columns differently")
+        assert studio.project.mapping == ("auto",)
+        assert [log.file for log in studio.project.logs] == [str(far.parent / "a.csv"), str(far)]
+        first = curves(w)["joint 2y"]
+        w.click("b.mat", exact=True)
+        w.page.locator(".mapping-chip", has_text="torque[2]").wait_for()
+        pictured(w)
+        second = curves(w)["joint 2y"]
+        between = np.interp(second["x"], first["x"], first["y"])
+        np.testing.assert_allclose(between, second["y"], atol=2e-3)
+        # A unit of one, said beside the guess, is no matter of the other.
+        field(w, "unit of tau2").click()
+        w.page.get_by_role("option", name="mN m", exact=True).click()
+        until(w, studio, lambda p: p.mapping == ("auto", "tau2=torque[2]:mN m"))
+        w.click("a.csv", exact=True)
+        w.page.locator(".mapping-chip", has_text="Drehmoment_2").wait_for()
+        assert field(w, "column of tau2").input_value() == "Drehmoment_2"
+        assert w.complaints == []
 
 
+@pytest.mark.slow
 def test_many_files_at_once_and_a_robot_to_start_from(
     window: Callable[..., Window], measured: dict[str, np.ndarray], tmp_path: Path
 ) -> None:

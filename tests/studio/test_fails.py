@@ -6,12 +6,14 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from modeler.api import load, simulate
 from modeler.core.builtin import builtin_text
-from modeler.robot import robot_from_text, with_parameters
+from modeler.robot import robot_from_text
+from modeler.robot.edit import with_parameters
 from modeler.studio.project import FOLDERS, Project, ProjectLog, Step, Stretch, Workspace
 from tests.studio.window import Served, Window, served
 
@@ -76,6 +78,15 @@ def drawn(window: Window, title: str) -> None:
     window.page.locator(".picture", has_text=title).locator(".main-svg").first.wait_for()
 
 
+def until(frame: Any, expression: str) -> None:
+    """Until that is so in a frame, whose page allows no script to be made of text."""
+    for _ in range(300):
+        if frame.evaluate(expression):
+            return
+        frame.page.wait_for_timeout(100)
+    raise AssertionError(f"never so: {expression}")
+
+
 def test_where_it_fails_is_seen_by_joint_and_channel(look) -> None:
     own = look()
     page = own.page
@@ -87,7 +98,7 @@ def test_where_it_fails_is_seen_by_joint_and_channel(look) -> None:
     # Another joint, by its sentence; then a cell of the map, which is a joint and a channel.
     said.nth(0).click()
     drawn(own, "Joint 1: measured and predicted")
-    drawn(own, "Joint 1: residual over velocity")
+    drawn(own, "Joint 1: residual over")
     heat = page.locator(".picture", has_text="which joint follows what")
     heat.scroll_into_view_if_needed()
     at = heat.locator(".js-plotly-plot").evaluate(
@@ -101,6 +112,11 @@ def test_where_it_fails_is_seen_by_joint_and_channel(look) -> None:
     page.get_by_label("residual over").click()
     page.get_by_role("option", name="qc3").click()
     drawn(own, "Joint 2: residual over qc3")
+    # The command itself, and all that it draws.
+    own.click("Compare", exact=True)
+    page.get_by_text("All that the command drew").click()
+    drawn(own, "All joints")
+    drawn(own, "Joint 3: does the residual still have structure?")
     # The training stretch instead of the held-out one.
     page.get_by_role("button", name="training").click()
     page.get_by_text("modeler compare models/1.json logs/monday.parquet").wait_for()
@@ -154,17 +170,15 @@ def test_the_robot_plays_along_and_its_joints_are_clicked(look) -> None:
     own.go("Where it fails")
     drawn(own, "Joint 2: measured and predicted")
     frame = page.locator("iframe.studio-robot").element_handle().content_frame()
-    frame.wait_for_function("window.modelerShow && modelerShow.view.lit.size === 1")
+    until(frame, "window.modelerShow && modelerShow.view.lit.size === 1")
     before = frame.evaluate("[...modelerShow.u]")
     page.get_by_role("button", name="play").click()
     page.wait_for_function("document.querySelector('.studio-cursor:not([hidden])')")
-    frame.wait_for_function(
-        f"modelerShow.u.some((u, k) => Math.abs(u - {before}[k]) > 0.02)", timeout=20_000
-    )
+    until(frame, f"modelerShow.u.some((u, k) => Math.abs(u - {before}[k]) > 0.02)")
     page.get_by_role("button", name="play").click()
     frame.evaluate("tell('joint', { name: '3' })")  # what a click on it does
     drawn(own, "Joint 3: measured and predicted")
-    frame.wait_for_function("[...modelerShow.view.lit].join() === '2'")
+    until(frame, "[...modelerShow.view.lit].join() === '2'")
     assert own.complaints == []
 
 

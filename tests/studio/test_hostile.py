@@ -1,5 +1,6 @@
 """A project that somebody else made to do harm: nothing of it is run, nothing outside touched."""
 
+import ast
 import asyncio
 import json
 from dataclasses import replace
@@ -7,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from modeler import studio
 from modeler.core.errors import DataError, ModelerError
 from modeler.studio.commands import Asked
 from modeler.studio.places import Roots
@@ -133,8 +135,6 @@ def test_a_notebook_holds_words_as_words(tmp_path: Path) -> None:
     )
     project = Project("robot.toml", 3, steps=steps, logs=(ProjectLog("logs/a.csv", (Stretch(),)),))
     book = json.loads(notebook(recipe(project, tmp_path / evil, {})))
-    import ast
-
     for cell in book["cells"]:
         if cell["cell_type"] == "code":
             for node in ast.walk(ast.parse("".join(cell["source"]))):
@@ -144,3 +144,24 @@ def test_a_notebook_holds_words_as_words(tmp_path: Path) -> None:
     )
     with pytest.raises(ValueError, match="could not convert"):
         notebook(recipe(replace(project, steps=(number, *steps[1:]), logs=()), tmp_path, {}))
+
+
+# Parts of an attribute that are no names of anybody's.
+OURS = {
+    "kind", "endings", "named", "NAME", "address", "'-alone' * alone", "number",
+    "'true' if here else 'false'", "'pause' if event.args else 'play_arrow'",
+}  # fmt: skip
+
+
+def test_names_are_no_part_of_a_text_of_attributes() -> None:
+    """What stands in `props(...)` is parsed: a quote in a name would begin a program there."""
+    found = set()
+    for path in Path(studio.__file__).parent.glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "props":
+                for part in (part for word in node.args for part in ast.walk(word)):
+                    if isinstance(part, ast.FormattedValue):
+                        found.add(ast.unparse(part.value))
+                    assert not isinstance(part, ast.BinOp | ast.Mod) or "alone" in ast.unparse(part)
+    assert found <= OURS, "write element.props[NAME] = TEXT, which is not parsed"
+    assert len(found) > 4

@@ -18,6 +18,7 @@ RUN = "window.pwned=1"
 TAG = f"<img src=x onerror={RUN}>"
 TEMPLATE = f"{{{{constructor.constructor('{RUN}')()}}}}"
 QUOTED = f'" :onmouseover="{RUN}" x="'
+SINGLE = f"' :onmouseover='{RUN}' :style='{RUN}' x='"
 HARM = f"{TAG} {TEMPLATE} {QUOTED} '+{RUN}+' `${{{RUN}}}` <!--"
 FOLDER = f"{TAG} '+{RUN}+' {TEMPLATE}"
 CLOSING = f"</title></script><script>{RUN}</script>"
@@ -45,7 +46,7 @@ def hostile(tmp_path_factory) -> Path:
         own.writerow([*head, HARM, f"q9 {TAG}", f"temp{CLOSING.replace('/', '|')}"])
         own.writerows([*row, row[0], row[1], "20"] for row in rows)
     log = ProjectLog(name, (Stretch(0.0, 3.0),), (Stretch(3.5, 6.0),), (Stretch(1.0, 1.1),))
-    project = Project("robot.toml", logs=(log,), without=(TAG,), mapping=())
+    project = Project("robot.toml", logs=(log,), without=(TAG, QUOTED, SINGLE), mapping=())
 
     async def work() -> None:
         hub = Hub(Workspace(folder), (), {})
@@ -99,6 +100,8 @@ def test_a_report_that_somebody_wrote_reaches_nothing(hostile: Path, window) -> 
             "Content-Security-Policy", "x-none"
         )  # what a page of ours forbids itself
         report.write_text(free + REACHING, encoding="utf-8")
+        page.go("Watch it fall")
+        page.go("Take away")
         with page.page.context.expect_page() as opened:
             page.page.get_by_text("Open the report page").first.click()
         shown = opened.value

@@ -1,8 +1,10 @@
 """The studio killed at any moment: the project opens, and at most the step that ran is lost."""
 
+import asyncio
 import contextlib
 import json
 import random
+import resource
 import shutil
 import subprocess
 import sys
@@ -13,9 +15,12 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.builtin import builtin_text
+from modeler.core.errors import ModelerError
 from modeler.estimation import load_model
+from modeler.studio import commands
 from modeler.studio.places import folder_lock
 from modeler.studio.project import FILE, FOLDERS, Project, ProjectLog, Stretch, Workspace
+from modeler.studio.studio import Hub
 from tests.studio.test_dropped import wait_until
 
 # What windows do to a project, without windows: a fit, an effect more, back again, and so on.
@@ -105,3 +110,28 @@ def test_killed_at_random_moments(begun: Path, tmp_path: Path, times: int) -> No
         wait_until(lambda: not working_in(folder))
         held = check(folder, max([held, *told]))
     assert (held > 0 or times < 20) and (folder / FILE).exists()
+
+
+def test_a_full_disk_is_a_line_and_the_project_stays(begun: Path, tmp_path: Path) -> None:
+    """Larger files than so are not written, by the command neither: what needs no rights for it."""
+    folder = tmp_path / "project"
+    shutil.copytree(begun, folder)
+
+    async def work() -> None:
+        hub = Hub(Workspace(folder), (), {})
+        await hub.run(commands.fit(hub.project))
+        held, kept = hub.project, (folder / FILE).read_bytes()
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
+        try:
+            with pytest.raises(ModelerError, match=r"^models/2.json: cannot be written \("):
+                await hub.run(commands.fit(hub.project))
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        assert hub.project == held and (folder / FILE).read_bytes() == kept
+        assert check(folder, 1) == 1
+        await hub.run(commands.fit(hub.project))
+        hub.close()
+
+    asyncio.run(work())
+    assert check(folder, 2) == 2

@@ -150,7 +150,10 @@ def test_a_file_gets_another_table_and_keeps_the_rest() -> None:
         ("hello", "pasted table: got no cells"),
         ("alpha\td\ttheta\tr", "pasted table: got headings alone"),
         ("alpha\td\ttheta\tr\tcolour\n0\t0\tq1\t0\tred", 'pasted table, headings: got "colour"'),
-        ("alpha\td\td\ttheta\n0\t0\t0\tq1", "pasted table, headings: d stands twice"),
+        (
+            "alpha\td\td\ttheta\n0\t0\t0\tq1",
+            "pasted table, headings: got alpha, d, d, theta; expected each once",
+        ),
         ("\t".join("0" * 12), "pasted table: got 12 columns without headings"),
         ("parent\tgamma\talpha\td\ttheta\n0\t0\t0\t0\tq1", None),
     ],
@@ -162,15 +165,17 @@ def test_what_cannot_be_a_table_is_told(text: str, line: str | None) -> None:
     with pytest.raises(RobotError) as told:
         pasted_table(text)
     assert str(told.value).startswith(line)
-    assert "; expected " in str(told.value) or "twice" in line
+    assert "; expected " in str(told.value)
 
 
-def test_nothing_in_a_table_is_evaluated() -> None:
+def test_nothing_in_a_table_is_evaluated(tmp_path, monkeypatch) -> None:
     """Words of Python are names without a value, for the reader to refuse."""
-    evil = '__import__("os").system("touch /tmp/evil")'
+    monkeypatch.chdir(tmp_path)
+    evil = '__import__("os").system("touch evil")'
     table = pasted_table(f"alpha\td\ttheta\tr\n0\t{evil}\tq1\t0\n=1+1\t0\tq2\t0")
     with pytest.raises(RobotError):
         robot_from_text(pasted_robot(table, "x"), "x")
+    assert not [*tmp_path.iterdir()]
 
 
 def test_a_block_for_some_cells_keeps_what_it_says() -> None:

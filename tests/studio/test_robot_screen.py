@@ -235,6 +235,8 @@ def test_the_next_motion_is_found_played_and_downloaded(window, tmp_path) -> Non
         w.sees(f"Condition number {found['condition_scaled']:.4g}")
         w.page.wait_for_selector(".js-plotly-plot .scatterlayer")
         motion = np.loadtxt(folder / "motions" / "1.csv", delimiter=",", skiprows=1)
+        w.idle()
+        w.page.wait_for_selector(".timeline")
         w.click("play the motion")
         w.page.wait_for_function("document.querySelector('.timeline-cursor')")
         w.page.wait_for_function(

@@ -39,6 +39,13 @@ def downloaded(seat: Window, button: str) -> tuple[str, bytes]:
     return coming.value.suggested_filename, Path(coming.value.path()).read_bytes()
 
 
+def drawn(seat: Window, count: int) -> None:
+    """Waits for so many pictures: while they come, the page moves under the mouse."""
+    seat.page.wait_for_function(
+        f"document.querySelectorAll('.js-plotly-plot .draglayer').length >= {count}"
+    )
+
+
 def test_five_clicks_to_a_named_effect(studio, seat):
     seat.click("Try the demo")
     seat.page.wait_for_url("**/data")
@@ -56,6 +63,7 @@ def test_five_clicks_to_a_named_effect(studio, seat):
     seat.sees("friction that grows with the load on the gear: joint 2")
     seat.sees("fact: it is stated as missing")
     assert seat.page.evaluate("window.clicks") <= 5
+    drawn(seat, 2)  # evidence, and the torque before and after
     (step,) = [step for step in studio.project.steps if step.kind == "diagnose"]
     assert step.words == ("diagnose", "models/3.json", "logs/train.parquet", "--holdout",
                           "logs/held_out.parquet")  # fmt: skip
@@ -65,6 +73,7 @@ def test_a_ban_is_remembered_and_taken_back(studio, seat):
     seat.click("Not on this joint")
     seat.sees("stretches or bans were changed since this was found; look again")
     assert studio.project.without == ("load_friction@2",)
+    drawn(seat, 2)
     line = seat.page.locator(".studio-command", has_text="--without load_friction@2")
     line.first.wait_for()
     seat.click("take back the ban of load_friction@2")
@@ -74,8 +83,10 @@ def test_a_ban_is_remembered_and_taken_back(studio, seat):
 
 def test_a_preview_is_a_ghost_and_add_takes_it(studio, seat):
     before = studio.project
+    drawn(seat, 2)
     seat.click("Preview", exact=True)
     seat.sees("Preview. Joint 2: measured and predicted")
+    drawn(seat, 3)
     tried = studio.project.steps[-1]
     assert studio.project.current == before.current and tried.kind == "add"
     assert (studio.folder / tried.model).is_file()
@@ -87,7 +98,7 @@ def test_a_preview_is_a_ghost_and_add_takes_it(studio, seat):
 
 def test_the_error_falls_and_undo_loses_nothing(studio, seat):
     seat.sees("Error after every effect")
-    seat.page.locator(".js-plotly-plot .bars").first.wait_for()
+    drawn(seat, 2)
     steps, last = studio.project.steps, studio.project.current
     seat.click(f"Undo to step {studio.project.path()[0].number}")
     seat.sees("Set aside")
@@ -96,6 +107,7 @@ def test_the_error_falls_and_undo_loses_nothing(studio, seat):
     seat.click(f"Go to step {last}")
     seat.sees("Error after every effect")
     assert (studio.project.steps, studio.project.current) == (steps, last)
+    drawn(seat, 2)
     bar = seat.page.locator(".js-plotly-plot .bars .point path").first  # "as fitted"
     bar.scroll_into_view_if_needed()
     box = bar.bounding_box()

@@ -176,6 +176,16 @@ def test_the_verdict_is_that_of_the_command(folder, capsys) -> None:
     }
 
 
+def test_a_joint_that_rests_is_not_judged(folder, tmp_path) -> None:
+    table = pyarrow.parquet.read_table("b.parquet")
+    rest = pa.array(np.full(table.num_rows, 0.3))
+    place = str(tmp_path / "rest.parquet")
+    pyarrow.parquet.write_table(table.set_column(table.column_names.index("q3"), "q3", rest), place)
+    found = viewing.verdict("m.json", [place])
+    assert found.joints == ("1", "2")
+    assert found.unjudged[0].startswith("Joint 3: not judged: ")
+
+
 def test_torques_are_those_of_the_comparison(folder) -> None:
     comparison = checks.compare(load_model("m.json"), ["b.parquet"])
     p = comparison.prediction
