@@ -150,13 +150,11 @@ def stale(studio: Studio) -> None:
         "the robot was": studio.text(copy) != studio.text(project.robot),
         "the mapping of columns was": (*maps,) != project.mapping,
         "the training stretches were": [*logs] != project.words("train"),
-        **{f"the file {log.file} was": studio.newer(log.file, last) for log in project.logs},
     }
-    doubt_lines(
-        f"{what} changed since this model was fitted; fit again"
-        for what, so in changed.items()
-        if so
-    )
+    lines = [f"{what} changed since this model was fitted" for what, so in changed.items() if so]
+    newer = [log.file for log in project.logs if studio.newer(log.file, last)]
+    lines += [f"the file {file} is newer than this model" for file in newer]
+    doubt_lines(f"{line}; fit again" for line in lines)
 
 
 def told(lines: Iterable[str]) -> None:

@@ -10,7 +10,7 @@ from modeler import excitation
 from modeler.core.errors import ModelerError
 from modeler.studio import figures
 from modeler.studio.commands import Asked, robot_copy
-from modeler.studio.elements import go_button, head, part, run_button, table
+from modeler.studio.elements import go_button, head, part, run_button, stale, table
 from modeler.studio.project import Project, Step
 from modeler.studio.robot_frame import robot_frame
 from modeler.studio.robot_views import MotionLook
@@ -34,6 +34,8 @@ async def draw(studio: Studio) -> None:
         ui.label("There is no robot yet.")
         go_button(studio, "To the robot", "robot")
         return
+    if project.model:
+        stale(studio)
     with part("What it shall tell"):
         _wish(studio)
     step = project.about("excite")
@@ -101,7 +103,8 @@ def _wish(studio: Studio) -> None:
         studio.go("robot")
 
     with ui.row().classes("items-center"):
-        ui.label("Its limits are those of the robot.").classes("studio-soft")
+        whose = "as the model was fitted with it" if project.model else "as it is"
+        ui.label(f"Its limits are those of the robot {whose}.").classes("studio-soft")
         ui.button("Change them", on_click=change).props("no-caps flat icon-right=east")
     renew = run_button(
         studio, "Find the motion",
