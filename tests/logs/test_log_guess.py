@@ -39,12 +39,7 @@ def test_numbers_tell_joints_apart_before_words() -> None:
 
 
 def test_german_units() -> None:
-    for text, same in (
-        ("Grad", "deg"),
-        ("Nmm", "mN m"),
-        ("Newtonmeter", "N m"),
-        ("Grad/s", "deg/s"),
-    ):
-        one, other = find_unit(text), find_unit(same)
+    same = {"Grad": "deg", "Nmm": "mN m", "Newtonmeter": "N m", "Grad/s": "deg/s"}
+    for one, other in ((find_unit(text), find_unit(like)) for text, like in same.items()):
         assert one is not None and other is not None
-        assert (one.factor, one.powers) == pytest.approx((other.factor, other.powers))
+        assert one.powers == other.powers and one.factor == pytest.approx(other.factor)
