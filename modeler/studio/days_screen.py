@@ -81,8 +81,9 @@ async def _logs(studio: Studio, kept: dict[str, Any]) -> None:
     chosen = {kept["first log"], kept["second log"]}
     words = [word for log in project.logs if log.file in chosen for word in _words(log)]
     run_button(studio, "Compare", lambda: commands.compare(project, words), small=True)
-    verdict = await studio.view("verdict", project.model, words)
-    errors = await studio.view("log_errors", project.model, words)
+    judged = [*words, *commands.guessing(project)]
+    verdict = await studio.view("verdict", project.model, judged)
+    errors = await studio.view("log_errors", project.model, judged)
     with part("Relative error"):
         rows = [[f"joint {joint}", *(percent(each[joint]) for _, _, each in errors)]
                 for joint in verdict.joints]  # fmt: skip
@@ -91,7 +92,7 @@ async def _logs(studio: Studio, kept: dict[str, Any]) -> None:
 
     async def residuals() -> None:
         picture = await asked(
-            studio, "residual_picture", [project.model], words, kept["joint"],
+            studio, "residual_picture", [project.model], judged, kept["joint"],
             kept["residual over"], True, kind="days",
         )  # fmt: skip
         if picture is not None:
@@ -124,17 +125,18 @@ async def _models(studio: Studio, kept: dict[str, Any]) -> None:
     if pair[0] == pair[1]:
         ui.label("Choose two different models.")
         return None
-    words = ("compare", *pair, *logs, *commands.guessing(project))
+    judged = [*logs, *commands.guessing(project)]
+    words = ("compare", *pair, *judged)
     wanted = Asked("contest", words, "compare two models")
     run_button(studio, "Compare both", lambda: wanted)
     own = [s for s in project.steps if (s.kind, s.words) == (wanted.kind, wanted.words)]
     if own:
         _contest(studio, own[-1])
-    found = await studio.view("verdict", pair[0], logs)
+    found = await studio.view("verdict", pair[0], judged)
 
     async def window(*ends: float) -> Any:
         return await asked(
-            studio, "torque_picture", pair, logs, kept["joint shown"], *ends, kind="days torque"
+            studio, "torque_picture", pair, judged, kept["joint shown"], *ends, kind="days torque"
         )
 
     async def torques() -> None:

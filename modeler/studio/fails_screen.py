@@ -56,18 +56,19 @@ async def draw(studio: Studio) -> None:
         with ui.element("div").classes("col"):
             run_button(studio, "Compare", lambda: commands.compare(project, logs), small=True)
     stale(studio)
+    judged = [*logs, *commands.guessing(project)]
     with ui.row().classes("items-center") as waiting:
         ui.spinner(size="sm")
         ui.label("predicting ...")
     try:
-        found: Verdict = await studio.view("verdict", project.model, logs)
+        found: Verdict = await studio.view("verdict", project.model, judged)
     finally:
         waiting.delete()
     if found.joints:
-        await _Fails(studio, project.model, logs, found, kept).draw()
+        await _Fails(studio, project.model, judged, found, kept).draw()
     told(found.unjudged)
     step = project.about("compare")
-    if step is not None and step.words[2:] == tuple(logs):
+    if step is not None and step.words[2:] == tuple(judged):
         more = ui.expansion("All that the command drew: spectra, waves per turn, shares")
         more.classes("w-full").on_value_change(lambda: _more(studio, more, step))
 

@@ -9,6 +9,7 @@ from modeler.core.errors import ModelerError
 from modeler.core.picture_file import pictures_from_json
 from modeler.core.table import percent
 from modeler.studio import elements, figures
+from modeler.studio.commands import guessing
 from modeler.studio.project import MAKING, Step
 from modeler.studio.studio import Studio
 
@@ -35,7 +36,7 @@ async def draw(studio: Studio) -> None:
                 _step(studio, step, f"Go to step {step.number}")
     logs = project.words("test") or project.words("train")
     with elements.part("What is left" + (" on held-out motion" if project.words("test") else "")):
-        found = await studio.view("verdict", project.model, logs)
+        found = await studio.view("verdict", project.model, [*logs, *guessing(project)])
         for joint, error, kind, sentence in zip(
             found.joints, found.errors, found.kinds, found.sentences, strict=True
         ):

@@ -207,7 +207,7 @@ async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
     falls = studio.result(step)["waterfall"][-1]["joints"]
     most = max(falls, key=lambda name: falls[name]["before"] - falls[name]["after"])
     shown = joint if joint in falls else most
-    logs = project.words("test") or project.words("train")
+    logs = [*(project.words("test") or project.words("train")), *commands.guessing(project)]
     models = [project.model, step.model]
     elements.told(
         f"joint {name}: {_fall(own['before'], own['after'])}" for name, own in falls.items()

@@ -625,12 +625,16 @@ def _number(prediction: Prediction, joint: str) -> int:
 
 
 def _judged(model: str, logs: Sequence[str]) -> _Judged:
+    """The model on logs; behind them may stand words of `--map`, as in a command."""
+    cut = list(logs).index("--map") if "--map" in logs else len(logs)
+    files, mapping = tuple(logs[:cut]), tuple(logs[cut + 1 :: 2])
+
     def compared() -> _Judged:
         loaded, compiled = _model(model)
-        comparison, _ = checks.compared(loaded, list(logs), compiled)
-        return _Judged(comparison, model, compiled, tuple(logs))
+        comparison, _ = checks.compared(loaded, list(files), compiled, mapping)
+        return _Judged(comparison, model, compiled, files)
 
-    return _kept("judged", (_state(model), tuple(map(_state, logs))), compared, 4)
+    return _kept("judged", (_state(model), tuple(map(_state, files)), mapping), compared, 4)
 
 
 def _model(place: str) -> tuple[IdentifiedModel, CompiledModel]:

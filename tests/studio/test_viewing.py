@@ -340,3 +340,16 @@ def test_memory_that_runs_out_is_one_line(monkeypatch) -> None:
     monkeypatch.setattr(viewing, "log_facts", broken)
     with pytest.raises(DataError, match="memory ran out"):
         answer("log_facts", ("a",))
+
+
+def test_a_log_that_is_called_differently_is_judged_as_the_command_judges_it(folder: Path) -> None:
+    table = pa.parquet.read_table("b.parquet")
+    names = [name.replace("tau", "effort_") for name in table.column_names]
+    names = [
+        f"joint_pos_{name[1:]}" if name[:1] == "q" and len(name) == 2 else name for name in names
+    ]
+    pa.parquet.write_table(table.rename_columns(names), "other.parquet")
+    with pytest.raises(DataError, match="no column"):
+        viewing.verdict("m.json", ["other.parquet"])
+    found = viewing.verdict("m.json", ["other.parquet", "--map", "auto"])
+    assert found.errors == viewing.verdict("m.json", ["b.parquet"]).errors
