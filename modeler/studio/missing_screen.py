@@ -209,6 +209,8 @@ async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
     shown = joint if joint in falls else most
     logs = [*(project.words("test") or project.words("train")), *commands.guessing(project)]
     models = [project.model, step.model]
+    where = "held-out" if project.words("test") else "the fitted"
+    ui.label(f"As `modeler add` fits it, in its band, on {where} logs:").classes("studio-soft")
     elements.told(
         f"joint {name}: {_fall(own['before'], own['after'])}" for name, own in falls.items()
     )

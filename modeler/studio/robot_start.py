@@ -58,6 +58,11 @@ def _pasted(studio: Studio, before: str, taken: Taken) -> None:
                 table = pasted_table(
                     str(area.value or ""), "" if whose.value == _AS_HEADED else str(whose.value)
                 )
+                if not table.headed and whose.value == _AS_HEADED:
+                    raise ModelerError(
+                        "the table has no headings, and books order their columns differently: "
+                        "choose whose table it is, or paste the headings too"
+                    )
                 text = with_pasted(before, table) if before else pasted_robot(table, "robot")
             except ModelerError as error:
                 studio.show_error(str(error))

@@ -379,11 +379,16 @@ class Studio:
     async def _drawn(self, room: Element) -> None:
         with room:
             room.clear()
-            with ui.column().classes("studio-screen"):
-                try:
+            waiting = ui.spinner(size="2rem").classes("studio-waiting")
+            try:
+                with ui.column().classes("studio-screen"):
                     await self.hub.screens[self.screen](self)
-                except ModelerError as error:
+            except ModelerError as error:
+                with ui.column().classes("studio-screen"):
                     ui.label(str(error)).classes("studio-error").props("role=alert")
+            finally:
+                if not waiting.is_deleted:
+                    waiting.delete()
 
     def told(self) -> None:
         """What stands around the screen is written anew."""

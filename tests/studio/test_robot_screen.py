@@ -306,6 +306,6 @@ def test_a_full_disk_and_another_window_lose_nothing(window, tmp_path) -> None:
         cell(w, 2, "d").fill("0.6")
         cell(w, 2, "d").press("Tab")
         w.page.wait_for_function(
-            "[...document.querySelectorAll('.studio-error')].every((e) => !e.offsetParent)"
+            "[...document.querySelectorAll('.studio-error')].every((e) => !e.innerText.trim())"
         )
         assert (folder / "robot.toml").read_text() == before.replace('"D2",', "0.6, ")

@@ -46,7 +46,7 @@ def drawn(seat: Window, count: int) -> None:
     )
 
 
-def test_five_clicks_to_a_named_effect(studio, seat):
+def five_clicks_to_a_named_effect(studio, seat):
     seat.click("Try the demo")
     seat.page.wait_for_url("**/data")
     seat.page.get_by_role("button", name="3  Fit").click()
@@ -69,7 +69,7 @@ def test_five_clicks_to_a_named_effect(studio, seat):
                           "logs/held_out.parquet")  # fmt: skip
 
 
-def test_a_ban_is_remembered_and_taken_back(studio, seat):
+def a_ban_is_remembered_and_taken_back(studio, seat):
     seat.click("Not on this joint")
     seat.sees("stretches or bans were changed since this was found; look again")
     assert studio.project.without == ("load_friction@2",)
@@ -81,7 +81,7 @@ def test_a_ban_is_remembered_and_taken_back(studio, seat):
     assert studio.project.without == ()
 
 
-def test_a_preview_is_a_ghost_and_add_takes_it(studio, seat):
+def a_preview_is_a_ghost_and_add_takes_it(studio, seat):
     before = studio.project
     drawn(seat, 2)
     seat.click("Preview", exact=True)
@@ -96,7 +96,7 @@ def test_a_preview_is_a_ghost_and_add_takes_it(studio, seat):
     assert studio.project.steps[-1] == tried
 
 
-def test_the_error_falls_and_undo_loses_nothing(studio, seat):
+def the_error_falls_and_undo_loses_nothing(studio, seat):
     seat.sees("Error after every effect")
     drawn(seat, 2)
     steps, last = studio.project.steps, studio.project.current
@@ -118,7 +118,7 @@ def test_the_error_falls_and_undo_loses_nothing(studio, seat):
     seat.sees("Error after every effect")
 
 
-def test_what_is_taken_away(studio, seat, tmp_path):
+def what_is_taken_away(studio, seat, tmp_path):
     seat.page.get_by_role("button", name="9  Take away").click()
     seat.click("Write C", exact=True)
     name, content = downloaded(seat, "Download demo-arm_c.zip")
@@ -135,8 +135,7 @@ def test_what_is_taken_away(studio, seat, tmp_path):
     assert not seat.complaints
 
 
-@pytest.mark.slow
-def test_the_report_page_opens_in_a_tab(studio, seat):
+def the_report_page_opens_in_a_tab(studio, seat):
     seat.page.get_by_role("button", name="9  Take away").click()
     seat.click("Report page")
     link = seat.page.get_by_role("link", name="Open the report page")
@@ -151,8 +150,7 @@ def test_the_report_page_opens_in_a_tab(studio, seat):
     assert studio.project.steps[-1].parent == kept.number
 
 
-@pytest.mark.slow
-def test_the_script_of_the_demonstration_makes_the_same(studio, seat, tmp_path):
+def the_script_of_the_demonstration_makes_the_same(studio, seat, tmp_path):
     name, content = downloaded(seat, "Shell script")
     assert name == "steps.sh" and content.startswith(b"#!/bin/sh")
     (tmp_path / name).write_bytes(content)
@@ -172,7 +170,7 @@ def values(model: Path) -> dict[str, float]:
     return {one["name"]: one["value"] for one in fit["parameters"]}
 
 
-def test_a_result_that_is_gone_is_told_in_place(studio, seat):
+def a_result_that_is_gone_is_told_in_place(studio, seat):
     step = studio.project.path()[-1]
     place, aside = (studio.folder / f"{step.result}{end}" for end in ("", ".aside"))
     place.rename(aside)
@@ -185,7 +183,27 @@ def test_a_result_that_is_gone_is_told_in_place(studio, seat):
     seat.sees("What it is worth")
 
 
-def test_no_address_but_that_of_what_was_made(studio, seat):
+def no_address_but_that_of_what_was_made(studio, seat):
     for path in ("/download/x", "/download/..%2f..%2frobot.toml", "/download/robot.toml"):
         answer = seat.page.request.get(studio.root + path)
         assert answer.status in (403, 404), path
+
+
+def test_from_the_empty_page_to_what_is_taken_away(studio, seat, tmp_path):
+    """One story, in its order, in one process."""
+    five_clicks_to_a_named_effect(studio, seat)
+    a_ban_is_remembered_and_taken_back(studio, seat)
+    a_preview_is_a_ghost_and_add_takes_it(studio, seat)
+    the_error_falls_and_undo_loses_nothing(studio, seat)
+    what_is_taken_away(studio, seat, tmp_path)
+    a_result_that_is_gone_is_told_in_place(studio, seat)
+    no_address_but_that_of_what_was_made(studio, seat)
+
+
+@pytest.mark.slow
+def test_the_report_and_the_script_of_the_story(studio, seat, tmp_path):
+    if not studio.project.current:
+        five_clicks_to_a_named_effect(studio, seat)
+        a_preview_is_a_ghost_and_add_takes_it(studio, seat)
+    the_report_page_opens_in_a_tab(studio, seat)
+    the_script_of_the_demonstration_makes_the_same(studio, seat, tmp_path)
