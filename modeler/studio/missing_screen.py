@@ -102,8 +102,10 @@ async def _card(
         with ui.row().classes("items-baseline"):
             ui.label(_fall(one["error_before"], one["error_after"])).classes("studio-figure")
             ui.label("expected error of its joints on motion that was not fitted")
+        law = effect_named(effect)
+        meant = {} if law is None else {shape.name: f": {shape.meaning}" for shape in law.shapes}
         for name, value in one["parameters"].items():
-            ui.label(f"{name} = {_value(one, name, value)}")
+            ui.label(f"{name} = {_value(one, name, value)}{meant.get(name, '')}")
         ui.label(one["evidence"])
         elements.doubt_lines([one["objection"]] if one["objection"] else [])
         if one["ties"]:
