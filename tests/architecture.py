@@ -92,7 +92,7 @@ MOST_CIRCLES = 0
 # Rooms without a face: their modules are collections by subject, each imported by its own name.
 COLLECTIONS = {"core", "numerics"}
 
-# The face of the API is what users were promised; the command line and the studio are its other skins.
+# The face of the API is what users were promised; the command line and the studio are other skins.
 SKINS = (("cli", "api"), ("studio", "api"))
 
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}

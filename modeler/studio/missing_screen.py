@@ -103,7 +103,11 @@ async def _card(
             ui.label(_fall(one["error_before"], one["error_after"])).classes("studio-figure")
             ui.label("expected error of its joints on motion that was not fitted")
         law = effect_named(effect)
-        meant = {} if law is None else {shape.name: f": {shape.meaning}" for shape in law.shapes}
+        meant = (
+            {}
+            if law is None
+            else {shape.name: f": {shape.meaning}" for form in law.forms for shape in form.shapes}
+        )
         for name, value in one["parameters"].items():
             ui.label(f"{name} = {_value(one, name, value)}{meant.get(name, '')}")
         ui.label(one["evidence"])
