@@ -13,10 +13,10 @@ from modeler.studio import commands
 from modeler.studio.chooser import choose
 from modeler.studio.dropped import drop_zone
 from modeler.studio.elements import head, part
-from modeler.studio.log_desk import Desk
-from modeler.studio.log_shelf import AUTO, Shelf
+from modeler.studio.log_view import LogView
 from modeler.studio.places import size_text
 from modeler.studio.project import ProjectLog
+from modeler.studio.project_logs import AUTO, ProjectLogs
 from modeler.studio.studio import Studio
 from modeler.studio.timeline import ALL, Timeline, by_default, legend, told
 
@@ -33,17 +33,17 @@ async def draw(studio: Studio) -> None:
     await DataScreen(studio).draw()
 
 
-class DataScreen(Shelf):
+class DataScreen(ProjectLogs):
     """One drawing of it.
 
     Attributes:
-        desk: of the log that is looked at.
+        view: of the log that is looked at.
     """
 
     def __init__(self, studio: Studio) -> None:
         super().__init__(studio)
         self._rows: dict[str, Element] = {}
-        self.desk: Desk | None = None
+        self.view: LogView | None = None
         studio.kept["data"] = self
 
     @property
@@ -179,8 +179,8 @@ class DataScreen(Shelf):
             self.studio.kept["log"] = file
             self._detail.clear()
             with self._detail:
-                self.desk = desk = Desk(self, file, self.renew, self.look)
-                await desk.draw()
+                self.view = view = LogView(self, file, self.renew, self.look)
+                await view.draw()
 
     # What `modeler log` says.
 
@@ -216,8 +216,8 @@ class DataScreen(Shelf):
                 studio.listeners.remove(leave)
             if self.live:
                 self.row(left[0].words[1])
-                if self.desk is not None and self.desk.file == left[0].words[1]:
-                    self.desk.judged()
+                if self.view is not None and self.view.file == left[0].words[1]:
+                    self.view.judged()
 
     def _unseen(self, words: tuple[str, ...]) -> bool:
         file, step = words[1], self.checked(words[1])

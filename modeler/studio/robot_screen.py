@@ -46,15 +46,15 @@ async def draw(studio: Studio) -> None:
         kept = studio.kept["robot"] = RobotText(now)
     elif now:
         kept.change(now)  # where somebody else wrote it
-    desk = _Desk(studio, kept)
+    editor = _RobotEditor(studio, kept)
     if kept.text:
-        await desk.draw()
+        await editor.draw()
         return
     head("The robot", "Its table, as a paper or a drawing has it. How does it come in?")
-    robot_start.start(studio, "", desk.take)
+    robot_start.start(studio, "", editor.take)
 
 
-class _Desk:
+class _RobotEditor:
     """The table, the text and the picture of one robot, in one window."""
 
     def __init__(self, studio: Studio, kept: RobotText) -> None:

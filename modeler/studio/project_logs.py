@@ -22,7 +22,7 @@ _SETTINGS = ("topic=", "rate=", "names=")
 
 
 @dataclass(frozen=True)
-class Known:
+class KnownLog:
     """A log as far as it could be read; else the line that says why not.
 
     Attributes:
@@ -44,7 +44,7 @@ class Known:
     error: str = ""
 
 
-class Shelf:
+class ProjectLogs:
     """The logs of a project.
 
     Attributes:
@@ -58,7 +58,7 @@ class Shelf:
         self.studio = studio
         self.joints: tuple[JointSpec, ...] = ()
         self.stated: Mapping[str, Any] = {}
-        self.logs: dict[str, Known] = {}
+        self.logs: dict[str, KnownLog] = {}
 
     def path(self, file: str) -> str:
         """Of a file of the project, wherever it lies."""
@@ -69,11 +69,11 @@ class Shelf:
         robot, place = self.studio.project.robot, self.path(file)
         try:
             guess = await self.studio.view("log_guess", place, robot and self.path(robot))
-            self.logs[file] = Known(guess, size=Path(place).stat().st_size)
+            self.logs[file] = KnownLog(guess, size=Path(place).stat().st_size)
             if not robot:
                 self.joints = anybody(max(len(self.joints), guess.joints))
         except (ModelerError, OSError) as error:
-            self.logs[file] = Known(error=str(error))
+            self.logs[file] = KnownLog(error=str(error))
 
     async def read(self, file: str) -> None:
         """Reads its time, as the mapping says it."""
@@ -89,7 +89,7 @@ class Shelf:
             found = {"ends": (facts.start, facts.end), **entries(facts, "rows units")}
             self.logs[file] = replace(known, clock=clock, **found)
         except ModelerError as error:
-            self.logs[file] = Known(error=str(error))
+            self.logs[file] = KnownLog(error=str(error))
 
     def kept(self, guess: LogGuess) -> tuple[str, ...]:
         """Words of the mapping that are about no column, or about one of other logs."""

@@ -15,9 +15,9 @@ from modeler.core.style import BLACK, BLUE, GREEN, ORANGE, PINK, VERMILLION, Sty
 from modeler.studio import commands, figures, timeline
 from modeler.studio.elements import command_line, doubt_lines, folded, part, table
 from modeler.studio.log_mapping import Choice, as_mapped, kind_of, words_of
-from modeler.studio.log_shelf import Shelf
 from modeler.studio.mapping_table import MappingTable
 from modeler.studio.project import ProjectLog, Stretch
+from modeler.studio.project_logs import ProjectLogs
 from modeler.studio.robot_frame import robot_frame
 from modeler.studio.timeline import Timeline
 
@@ -34,23 +34,27 @@ _ABSENT = (
 )
 
 
-class Desk:
+class LogView:
     """One drawing of a log.
 
     Args:
-        shelf: that the log is from.
+        project_logs: that the log is from.
         file: of the log.
         renew: is called with the log as it shall be.
         look: is called when the mapping was changed.
     """
 
     def __init__(
-        self, shelf: Shelf, file: str, renew: Callable[[ProjectLog], Any], look: Callable[[], Any]
+        self,
+        project_logs: ProjectLogs,
+        file: str,
+        renew: Callable[[ProjectLog], Any],
+        look: Callable[[], Any],
     ) -> None:
-        self.shelf, self.studio, self.file = shelf, shelf.studio, file
+        self.project_logs, self.studio, self.file = project_logs, project_logs.studio, file
         self._renew, self._again = renew, look
-        self.known, self.guess = shelf.logs[file], shelf.guess(file)
-        self.chosen = shelf.chosen(self.guess)
+        self.known, self.guess = project_logs.logs[file], project_logs.guess(file)
+        self.chosen = project_logs.chosen(self.guess)
         self.window: tuple[float, float] | None = None
         self.brush: Stretch | None = None
         self._turn = 0  # of the picture: another one forgets its zoom
@@ -58,11 +62,11 @@ class Desk:
     @property
     def log(self) -> ProjectLog:
         """As the project has it."""
-        return self.shelf.log(self.file)
+        return self.project_logs.log(self.file)
 
     async def draw(self) -> None:
         """Pictures first; what takes longer comes after them."""
-        with part(self.file), ui.row().classes("w-full no-wrap items-start data-desk"):
+        with part(self.file), ui.row().classes("w-full no-wrap items-start data-log-view"):
             with ui.column().classes("data-pictures gap-2"):
                 self._plot = ui.plotly(figures.figure(self._picture({}), self.file))
                 self._plot.classes("w-full").on("plotly_relayout", self._zoomed)
@@ -74,7 +78,7 @@ class Desk:
             self._robot = ui.column().classes("data-robot")
         with part("Columns"):
             self._about = ui.column().classes("w-full gap-1")
-            joints, columns = self.shelf.joints, self.guess.columns
+            joints, columns = self.project_logs.joints, self.guess.columns
             self._table = MappingTable(joints, columns, self.chosen, self._ranged(), self._mapped)
             self._said = command_line(())
         with part("What modeler log says"):
@@ -97,7 +101,7 @@ class Desk:
         """What the viewer answers of this log; None where it has no answer, which is told."""
         try:
             return await self.studio.view(
-                question, self.shelf.path(self.file), *arguments, kind=kind
+                question, self.project_logs.path(self.file), *arguments, kind=kind
             )
         except ModelerError as error:
             self.studio.show_error(str(error))
@@ -105,13 +109,15 @@ class Desk:
     def _columns(self, kinds: Sequence[str]) -> dict[str, Choice]:
         """Our name -> column, of those kinds, where the log has it."""
         own = {own: one for own, one in self.chosen.items() if one.column in self.guess.columns}
-        return {o: one for o, one in own.items() if kind_of(o, self.shelf.joints)[0] in kinds}
+        return {
+            o: one for o, one in own.items() if kind_of(o, self.project_logs.joints)[0] in kinds
+        }
 
     def _values(self, own: str, values: np.ndarray) -> np.ndarray:
         """A column as it is mapped."""
         one = self.chosen[own]
         stated = self.known.units.get(one.column, "")
-        return as_mapped(values, stated, one, own, self.shelf.joints)
+        return as_mapped(values, stated, one, own, self.project_logs.joints)
 
     async def _curves(self) -> None:
         """Asks for the window that is looked at, and draws it."""
@@ -124,7 +130,7 @@ class Desk:
 
     def _picture(self, raw: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
         """Positions, speeds and torques as they are mapped, one below the other."""
-        joints = self.shelf.joints
+        joints = self.project_logs.joints
         curves: dict[str, list[Curve]] = {kind: [] for kind in _PANELS}
         for own, one in self._columns([*_PANELS]).items():
             kind, joint = kind_of(own, joints)
@@ -168,14 +174,14 @@ class Desk:
             self._line.show(film["time"], {own.removeprefix("q"): v for own, v in q.items()})
 
     def _offer(self) -> None:
-        count = len(self.shelf.joints)
+        count = len(self.project_logs.joints)
         ui.label("There is no robot yet: no fit, and nothing moves.").classes("studio-soft")
         title = f"A robot with {count} joint{'s' * (count != 1)} to start from"
         ui.button(title, on_click=self._start).props("no-caps outline")
         _small("Describe it", lambda: self.studio.go("robot"))
 
     async def _start(self) -> None:
-        asked = commands.new_robot(len(self.shelf.joints))
+        asked = commands.new_robot(len(self.project_logs.joints))
         if await self.studio.run(asked) is not None:
             self.studio.change(redraw=True, robot=asked.words[1])
 
@@ -237,7 +243,7 @@ class Desk:
 
     def _ranged(self) -> Sequence[str]:
         """Our names whose unit is a guess by range alone, while the mapping is one."""
-        return self.guess.ranged if self.shelf.is_guess(self.guess) else ()
+        return self.guess.ranged if self.project_logs.is_guess(self.guess) else ()
 
     def _say(self) -> None:
         """What the mapping is, in words of people and of commands."""
@@ -249,21 +255,21 @@ class Desk:
             if "auto" in words:
                 text = "The logs name their columns differently: each is taken by its own guess."
                 ui.label(text).classes("studio-soft")
-            elif self.shelf.is_guess(self.guess):
+            elif self.project_logs.is_guess(self.guess):
                 ranged = ", dotted units by range alone" if self.guess.ranged else ""
                 ui.label(f"A guess by names{ranged}: check it.").classes("studio-soft")
             if lacking and "auto" not in words:
                 doubt_lines([_ABSENT.format(self.chosen[lacking[0]].column, lacking[0])])
-                _small("each by its own guess", self.shelf.guess_each)
+                _small("each by its own guess", self.project_logs.guess_each)
 
     async def _mapped(self, chosen: Mapping[str, Choice]) -> None:
         """Other columns, units or signs: words of `--map`, and the pictures at once."""
-        shelf, joints = self.shelf, self.shelf.joints
+        project_logs, joints = self.project_logs, self.project_logs.joints
         try:
             for own, one in chosen.items():
                 as_mapped(np.empty(0), "", one, own, joints)  # says which units cannot be
-            words = words_of(chosen, shelf.under(self.guess), joints)
-            words = (*shelf.kept(self.guess), *words)
+            words = words_of(chosen, project_logs.under(self.guess), joints)
+            words = (*project_logs.kept(self.guess), *words)
             changed = self.studio.change(mapping=words)
         except ModelerError as error:
             self.studio.show_error(str(error))
@@ -287,12 +293,12 @@ class Desk:
 
     def marks(self) -> list[Mapping[str, Any]]:
         """Doubts that have a place in time."""
-        return list(self.shelf.result(self.file).get("marks", ()))
+        return list(self.project_logs.result(self.file).get("marks", ()))
 
     def judged(self) -> None:
         """What `modeler log` says, anew."""
         self._drawn()
-        result, marks = self.shelf.result(self.file), self.marks()
+        result, marks = self.project_logs.result(self.file), self.marks()
         doubts = result.get("doubts", self.guess.doubts)
         rows = {line: [m for m in marks if line.endswith(m["line"])] for line in doubts}
         told = [id(mark) for own in rows.values() for mark in own]
