@@ -1,6 +1,6 @@
 """The screen "next motion": the one that tells most, or tells two effects apart."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +8,7 @@ from nicegui import ui
 
 from modeler import excitation
 from modeler.core.errors import ModelerError
+from modeler.robot import robot_from_text
 from modeler.studio import figures
 from modeler.studio.commands import Asked, robot_copy
 from modeler.studio.elements import go_button, head, part, run_button, stale, table
@@ -51,15 +52,17 @@ async def draw(studio: Studio) -> None:
         ui.label(str(error)).classes("studio-error").props("role=alert")
 
 
-def excite(project: Project, between: str, duration: float) -> Asked:
+def excite(project: Project, between: str, duration: float, limits: Sequence[str] = ()) -> Asked:
     """The search for a motion.
 
     Args:
         project: with a robot; its current model knows which parameters are essential.
         between: two effects to be told apart, "a@1,b@2"; "": all parameters.
         duration: s, from rest to rest.
+        limits: words of `--limit`.
     """
     words = ["excite", project.model or robot_copy(project)]
+    words += [word for own in limits for word in ("--limit", own)]
     words += ["--between", between] if between else []
     words += ["--duration", f"{duration:g}", "--out", f"motions/{project.next_number}.csv"]
     one, _, other = between.partition(",")
@@ -103,12 +106,13 @@ def _wish(studio: Studio) -> None:
         studio.go("robot")
 
     with ui.row().classes("items-center"):
-        whose = "as the model was fitted with it" if project.model else "as it is"
-        ui.label(f"Its limits are those of the robot {whose}.").classes("studio-soft")
+        ui.label("Its limits are those of the robot file.").classes("studio-soft")
         ui.button("Change them", on_click=change).props("no-caps flat icon-right=east")
     renew = run_button(
         studio, "Find the motion",
-        lambda: excite(studio.project, chosen["between"], chosen["duration"]),
+        lambda: excite(
+            studio.project, chosen["between"], chosen["duration"], changed_limits(studio)
+        ),
     )  # fmt: skip
 
     def changed() -> None:
@@ -117,6 +121,23 @@ def _wish(studio: Studio) -> None:
 
     between.on_value_change(changed)
     duration.on_value_change(changed)
+
+
+def changed_limits(studio: Studio) -> list[str]:
+    """What `--limit` says where the robot file has other limits by now than the model knows.
+
+    Raises:
+        ModelerError: the robot file cannot be read as it is.
+    """
+    if not studio.project.model:
+        return []
+    known = robot_from_text(str(studio.model(studio.project.path()[-1])["robot_text"]), "model")
+    robot = robot_from_text(studio.text(studio.project.robot), studio.project.robot)
+    return [
+        f"{joint}={','.join(f'{value:.6g}' for value in vars(own).values())}"
+        for joint, own in robot.limits.items()
+        if known.limits.get(joint) != own
+    ]
 
 
 def _file(step: Step) -> str:

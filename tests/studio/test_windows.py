@@ -1,9 +1,14 @@
 """Two windows on one folder: one writes, the other reads and follows; either may take over."""
 
+import json
 from pathlib import Path
 
 import pytest
 
+from modeler.core.builtin import builtin_text
+from modeler.studio.motion_screen import changed_limits, excite
+from modeler.studio.project import Project, Step, Workspace
+from modeler.studio.studio import Hub, Studio
 from tests.studio.window import served
 
 
@@ -46,3 +51,21 @@ def test_a_second_studio_reads_and_follows_and_takes_over_when_the_first_ends(
         reader.click("Fit", exact=True)
         reader.sees("What it is worth")
         assert other.project.steps[: len(steps)] == steps and other.project.current
+
+
+def test_a_motion_keeps_to_the_limits_that_the_robot_file_has_now(tmp_path: Path) -> None:
+    text = builtin_text("demo-arm")
+    model = {"robot_text": text}
+    (tmp_path / "robot.toml").write_text(
+        text.replace("1 = [-2.6, 2.6, 2.5, 10.0]", "1 = [-0.3, 0.3, 0.5, 4]"), encoding="utf-8"
+    )
+    (tmp_path / "1.json").write_text(json.dumps(model), encoding="utf-8")
+    steps = (Step(1, 0, "fit", (), model="1.json"),)
+    workspace = Workspace(tmp_path)
+    workspace.project = Project(robot="robot.toml", steps=steps, current=1)
+    studio = Studio(Hub(workspace, (), {}), "motion")
+    assert changed_limits(studio) == ["1=-0.3,0.3,0.5,4"]
+    words = excite(studio.project, "", 5.0, changed_limits(studio)).words
+    assert words[:4] == ("excite", "1.json", "--limit", "1=-0.3,0.3,0.5,4")
+    (tmp_path / "robot.toml").write_text(text, encoding="utf-8")
+    assert changed_limits(studio) == []
