@@ -116,7 +116,7 @@ def light(which: Light, text: str = "") -> None:
 _LEFT: Mapping[str, tuple[Light | None, str]] = {
     "noise": ("good", "what is left looks like noise"),
     "pattern": ("doubtful", "what is left has a pattern"),
-    "other": ("doubtful", "what is left is neither noise nor a pattern that was tried"),
+    "other": ("doubtful", "what is left is no noise, and no pattern that was tried"),
     "untold": (None, "too few samples tell what is left"),
 }
 

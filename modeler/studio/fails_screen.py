@@ -119,9 +119,12 @@ class _Fails:
         with part("What the residual follows"), ui.row().classes("w-full fails-halves"):
             with ui.column().classes("fails-half"):
                 where = await self.studio.view("where_picture", self.model, self.logs)
-                cells = figures.draw(where)
-                cells.on("plotly_click", self._cell)
-                self._strongest(where.panels[0][0].series[0])
+                heat = where.panels[0][0].series[0]
+                if np.isnan(heat.values).all():
+                    ui.label("These stretches have too few samples to tell what it follows.")
+                else:
+                    figures.draw(where).on("plotly_click", self._cell)
+                self._strongest(heat)
             with ui.column().classes("fails-half"):
                 choice = dict(self.found.channels)
                 self.channel = ui.select(

@@ -1,5 +1,6 @@
 """One log on the screen "data": its pictures and its time, its columns, its doubts."""
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from typing import Any
@@ -27,7 +28,6 @@ _COLORS = (BLUE, VERMILLION, GREEN, ORANGE, PINK, BLACK)  # SKY is what BLUE is 
 _PANELS = {"q": "position", "qd": "speed", "tau": "torque or force", "current": "current"}
 _SPEEDS = {speed: f"{speed:g} x" for speed in (0.1, 0.5, 1.0, 2.0, 5.0)}
 _ROOM = 0.02  # s beside a doubt that is left out too
-_MOST = 30  # marks that are listed; the line has all
 _ABSENT = (
     "this log has no column {} for {}: the mapping is that of all logs; take this one off the "
     "list, or let each be taken by its own guess"
@@ -302,8 +302,12 @@ class LogView:
         doubts = result.get("doubts", self.guess.doubts)
         rows = {line: [m for m in marks if line.endswith(m["line"])] for line in doubts}
         told = [id(mark) for own in rows.values() for mark in own]
-        left = [mark for mark in marks if id(mark) not in told]
-        rows |= {f"{mark['start']:.4f} s: {mark['line']}": [mark] for mark in left[:_MOST]}
+        alike: dict[str, list[Mapping[str, Any]]] = {}
+        for mark in (mark for mark in marks if id(mark) not in told):
+            alike.setdefault(re.sub(r"[\d.]+", "#", mark["line"]), []).append(mark)
+        for own in alike.values():
+            more = f", and {len(own) - 1} like it" if len(own) > 1 else ""
+            rows[f"{own[0]['start']:.4f} s: {own[0]['line']}{more}"] = own
         self._words.clear()
         with self._words:
             for line, own in rows.items():

@@ -404,12 +404,16 @@ def verdict(model: str, logs: Sequence[str]) -> Verdict:
         tuple(float(item.relative_error) for item in items),
         tuple(validation.joint_verdict(item) for item in items),
         tuple(_channels(judged)), float(time.min()), float(time.max()),
-        tuple(
-            validation.kind_of_residual(item) if item.structure is not None else "untold"
-            for item in items
-        ),
+        tuple(map(_kind, items)),
         tuple(f"Joint {name}: not judged: {why}" for name, why in judged.comparison.unjudged),
     )  # fmt: skip
+
+
+def _kind(item: validation.JointComparison) -> str:
+    """What is left of a joint, which too few samples may not tell; a large error is no noise."""
+    found = validation.kind_of_residual(item)
+    told = found != "other" or item.structure is not None or validation.too_large(item)
+    return found if told else "untold"
 
 
 def torque_picture(

@@ -57,6 +57,7 @@ from .verdict import (
     joint_verdict as joint_verdict,
     kind_of_residual as kind_of_residual,
     looks_like_noise as looks_like_noise,
+    too_large as too_large,
     verdict as verdict,
     wrong_scale as wrong_scale,
 )

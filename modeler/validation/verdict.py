@@ -149,6 +149,11 @@ def kind_of_residual(item: JointComparison) -> str:
     return "noise" if looks_like_noise(item) else "other"
 
 
+def too_large(item: JointComparison) -> bool:
+    """Whether so much is left that noise is no excuse."""
+    return item.relative_error >= _TOO_LARGE
+
+
 def looks_like_noise(item: JointComparison) -> bool:
     """No pattern, no memory, no line: as far as this page can see, noise."""
     return (
@@ -156,7 +161,7 @@ def looks_like_noise(item: JointComparison) -> bool:
         and not _patterns(item)
         and not _remembers(item)
         and _oscillation(item) is None
-        and item.relative_error < _TOO_LARGE
+        and not too_large(item)
         and item.worst.energy_share < _BURST
     )
 
