@@ -24,7 +24,7 @@ __version__ = "0.1.0"
 _ROOMS = (
     "api", "cli", "codegen", "core", "derivation", "diagnosis", "effects", "estimation",
     "excitation", "exports", "fleet", "formulas", "logs", "numerics", "observation", "papers",
-    "report", "robot", "runtime", "simulation", "validation",
+    "report", "robot", "runtime", "simulation", "studio", "validation",
 )  # fmt: skip
 
 

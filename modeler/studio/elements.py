@@ -1,12 +1,12 @@
 """What several screens are made of: command lines, buttons that run them, lights, doubts."""
 
-import html
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import pairwise, takewhile
 from typing import Literal
 
 from nicegui import ui
 from nicegui.element import Element
+from nicegui.elements.mixins.text_element import TextElement
 
 from modeler.core.errors import ModelerError
 from modeler.core.table import percent
@@ -190,20 +190,27 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], faint: Sequence[b
         rows: of texts.
         faint: by row, True for what is of less weight.
     """
+    with ui.element("table").classes("studio-table"):
+        if any(heads):
+            with ui.element("tr"):
+                for name in heads:
+                    TextElement(tag="th", text=name).props("scope=col")
+        for k, row in enumerate(rows):
+            with ui.element("tr") as line:
+                line.classes("studio-faint" if k < len(faint) and faint[k] else "")
+                for text in row:
+                    with ui.element("td"):
+                        _cell(text)
 
-    def cell(text: str) -> str:
-        if isinstance(text, Markup):
-            return f"<td>{text}</td>"
-        shown, _, hint = text.partition("\t")
-        title = f' title="{html.escape(hint)}" class=studio-hint tabindex=0' if hint else ""
-        return f"<td><span{title}>{html.escape(shown)}</span></td>"
 
-    lines = ["".join(f"<th scope=col>{html.escape(name)}</th>" for name in heads)] * any(heads)
-    lines = [f"<tr>{line}</tr>" for line in lines]
-    for k, row in enumerate(rows):
-        mark = " class=studio-faint" if k < len(faint) and faint[k] else ""
-        lines.append(f"<tr{mark}>{''.join(map(cell, row))}</tr>")
-    ui.html(f"<table class=studio-table>{''.join(lines)}</table>", sanitize=False)
+def _cell(text: str) -> None:
+    if isinstance(text, Markup):
+        ui.html(text, sanitize=False)
+        return
+    shown, _, hint = text.partition("\t")
+    own = TextElement(tag="span", text=shown)
+    if hint:
+        own.classes("studio-hint").props("tabindex=0").props["title"] = hint
 
 
 def page_button(studio: Studio, step: Step) -> None:
