@@ -2,6 +2,7 @@
 
 import json
 import signal
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -33,11 +34,19 @@ def project(folder: Path, robot: str) -> Path:
 
 def inside(window: Window) -> Any:
     """The page in the frame of the robot, drawn."""
-    window.page.wait_for_selector("iframe.studio-robot")
-    window.page.wait_for_function(f"{STANDING} !== undefined")
-    frame = window.page.query_selector("iframe.studio-robot").content_frame()
-    until(frame, "window.modelerShow && modelerShow.view.items.length > 0")
-    return frame
+    drawn = "window.modelerShow && modelerShow.view.items.length > 0"
+    for _ in range(300):
+        window.page.wait_for_timeout(100)
+        found = window.page.query_selector("iframe.studio-robot")
+        with suppress(Exception):  # a screen that is drawn anew has another frame
+            frame = None if found is None else found.content_frame()
+            if (
+                frame
+                and window.page.evaluate(f"{STANDING} !== undefined")
+                and frame.evaluate(drawn)
+            ):
+                return frame
+    raise TimeoutError("no robot is drawn")
 
 
 def picture(frame: Any) -> str:

@@ -168,7 +168,8 @@ def test_endless_lines_are_no_trouble(tmp_path: Path, monkeypatch) -> None:
 
 
 SERVER = """
-import asyncio, sys
+import asyncio, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # tests may run where it is ignored
 from pathlib import Path
 from modeler.studio.running import Running
 async def main():
