@@ -644,7 +644,7 @@ _STUDIO = Command(
         flag("--demo", "begin with the built-in arm that has a hidden effect"),
         repeated("--allow", "DIR", places.Word, "folder whose files may be chosen where they lie, "
                  "besides FOLDER and the current one; may be repeated"),
-        value("--port", "N", int, "at which it answers (default: one that is free)", default=0),
+        value("--port", "N", int, "at which it answers; 0: one that is free", default=0),
         flag("--no-open", "print the address, open no browser"),
     ),
     "write its address, before it serves, for machines",

@@ -225,6 +225,12 @@ def page_button(studio: Studio, step: Step) -> None:
         command_line(written.words)
 
 
+def lacks_model(studio: Studio) -> None:
+    """What a screen says before there is a model, and the way to one."""
+    ui.label("There is no model yet: fit one first.")
+    go_button(studio, "To the fit", "fit")
+
+
 def go_button(studio: Studio, title: str, screen: str) -> None:
     """To another screen."""
     ui.button(title, on_click=lambda: studio.go(screen)).props("no-caps flat icon-right=east")

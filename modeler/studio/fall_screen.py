@@ -21,8 +21,7 @@ async def draw(studio: Studio) -> None:
         "Watch it fall", "The error after every step; press a bar, or a step, to go back to it."
     )
     if not path:
-        ui.label("There is no model yet: fit one first.")
-        elements.go_button(studio, "To the fit", "fit")
+        elements.lacks_model(studio)
         return
     elements.stale(studio)
     with elements.part("The way of this model"):

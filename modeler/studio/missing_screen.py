@@ -39,8 +39,7 @@ async def draw(studio: Studio) -> None:
         "What is missing", "Which physical effect the model lacks, on which joint, how large."
     )
     if not project.model:
-        ui.label("There is no model yet: fit one first.")
-        elements.go_button(studio, "To the fit", "fit")
+        elements.lacks_model(studio)
         return
     step = project.about("diagnose")
     elements.stale(studio)

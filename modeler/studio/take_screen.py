@@ -23,8 +23,7 @@ async def draw(studio: Studio) -> None:
         "Take away", "Everything leaves as files; the script and the notebook do it all again."
     )
     if not project.model:
-        ui.label("There is no model yet: fit one first.")
-        elements.go_button(studio, "To the fit", "fit")
+        elements.lacks_model(studio)
     else:
         name = re.sub(r"[^\w.-]", "_", str(studio.model(studio.made)["robot"]))
         _commanded(studio, name)
