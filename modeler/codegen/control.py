@@ -3,12 +3,12 @@
 Fits do without them, so they are emitted only where a folder for a controller is written.
 """
 
-import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
 from modeler.codegen import functions as layout
+from modeler.codegen.forward import forward_functions, without_beta
 from modeler.codegen.functions import Arguments, CFunction, entries_of
 from modeler.core.manifest import ArgumentSpec, FittedSpec
 from modeler.derivation import BaseParameters, Expr, SymbolicModel, derivatives
@@ -55,14 +55,7 @@ def fitted_control_functions(
         parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
         for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
     }
-    return tuple(
-        dataclasses.replace(
-            function,
-            role=f"fitted_{function.role}",
-            inputs=tuple(a for a in function.inputs if a.name != "beta"),
-        )
-        for function in _dynamics(model, values, given)
-    )
+    return tuple(map(without_beta, _dynamics(model, values, given)))
 
 
 def _dynamics(
@@ -80,4 +73,5 @@ def _dynamics(
             ArgumentSpec("C", (n, n), "kg m2/s, kg m/s or kg/s", "Coriolis matrix"),
             entries_of([columns[j][i] for i in range(n) for j in range(n)]),
         ),
+        *forward_functions(model, beta, given),
     )  # fmt: skip

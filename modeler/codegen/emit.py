@@ -146,7 +146,8 @@ def function_specs(
     }
     found = []
     for function in (function for function, _ in blocks if not function.internal):
-        calls = (function.role,) if function.closed is None else function.closed.calls
+        made = function.closed or function.composed
+        calls = (function.role,) if made is None else made.calls
         parts = [own[role] for role in calls if role in own]
         found.append(
             FunctionSpec(
@@ -155,7 +156,7 @@ def function_specs(
                 outputs=(function.output,),
                 additions=sum(additions for additions, _ in parts),
                 multiplications=sum(multiplications for _, multiplications in parts),
-                status=function.closed is not None,
+                status=function.status,
             )
         )
     return tuple(found)
@@ -449,6 +450,7 @@ def _fitted_unit(
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
     blocks = [(f, _block(f, values["places"], spec.precision, turning)) for f in functions]
+    values["fitted_blocks"] = blocks
     written = [_written(prefix, f, block) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
@@ -497,8 +499,11 @@ def _control_unit(
         "widths": tuple(dict.fromkeys(found.values())),
     }
     files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}
+    folder = resource_dir("csrc") / "include"
+    files |= {name: (folder / name).read_text("utf-8") for name in manifest.CONTROL_RUNTIME}
     files = of_precision(spec.precision, files)
-    control = manifest.ControlSpec(function_specs(prefix, blocks), manifest.code_digest(files))
+    known = [*values["blocks"], *values.get("fitted_blocks", ())]
+    control = manifest.ControlSpec(function_specs(prefix, blocks, known), manifest.code_digest(files))
     return dataclasses.replace(spec, control=control), files
 
 
@@ -551,8 +556,8 @@ def _block(
 
 def _written(prefix: str, function: CFunction, block: Block) -> _Written:
     name = f"{prefix}_{function.role}"
-    returns = "void" if function.closed is None else "int"
-    if function.internal and function.unit == UNIT:
+    returns = "int" if function.status else "void"
+    if function.internal and function.unit in (UNIT, CONTROL_UNIT):
         returns = "static void"
     return _Written(
         **vars(function),
@@ -560,7 +565,7 @@ def _written(prefix: str, function: CFunction, block: Block) -> _Written:
         arguments=layout.argument_lines(function),
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
-        lines=[] if function.closed else layout.body_lines(function, block),
+        lines=[] if function.status else layout.body_lines(function, block),
         **entries(block, "symbols additions multiplications"),
     )
 

@@ -321,7 +321,7 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     """
     if spec.closure is not None:
         return None
-    functions = spec.every_function
+    functions = [f for f in spec.every_function if not f.status]
     return {
         "states": 16,
         "largest": max(f.outputs[0].size for f in functions),

@@ -125,9 +125,12 @@ _MATH_CALLS = (
 )  # fmt: skip
 _NAMES = {"double": "float", "DOUBLE": "double", "atof": "(float)atof"}
 
+_SHARED = ("modeler_status", "modeler_first")
+"""Names of the runtime that both precisions have."""
+
 # Bounds of the closing of loops that follow from the precision: the correction after which the
 # error is its square, one that is not worth making, pivots that are zero, the shortest step.
-_BOUNDS = {"CONVERGED": "2e-4", "EXACT": "2e-6", "FLAT": "1e-4", "SHORTEST": "1e-4"}
+_BOUNDS = {"MODELER_SMALLEST_PIVOT": "1e-5", "MODELER_CONVERGED": "1e-4", "CONVERGED": "2e-4", "EXACT": "2e-6", "FLAT": "1e-4", "SHORTEST": "1e-4"}
 
 
 def of_precision(precision: Precision, files: Mapping[str, str]) -> dict[str, str]:
@@ -154,6 +157,8 @@ def single_text(text: str) -> str:
 def _word(match: re.Match[str]) -> str:
     word = match[0]
     if match["name"]:
+        if word in _SHARED:
+            return word
         called = match.string[match.end() : match.end() + 1] == "("
         if called and word in _MATH_CALLS:
             return f"{word}f"
