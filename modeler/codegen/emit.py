@@ -16,6 +16,7 @@ from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
+from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import package_files, render
 from modeler.codegen.targets import OF_PRECISION, WIDE, of_precision
 from modeler.codegen.vectors import stored_states
@@ -287,6 +288,7 @@ class _Written(CFunction):
     symbols: frozenset[str]
     additions: int
     multiplications: int
+    letters: frozenset[Letters]
 
 
 def emit(
@@ -311,16 +313,17 @@ def emit(
     """
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
-    values = _module(model, base, precision)
-    spec: ModuleSpec = values["spec"]
-    code = _code(spec, values)
-    kernels = cuda_files(values) if cuda else {}
-    functions = [function for function, _ in values["blocks"]]
-    if fitted is not None:
-        spec, unit = _fitted_unit(model, base, fitted, values)
-        functions += fitted_functions(model, base, fitted)
-        values |= {"spec": spec}
-        code |= unit
+    with model.labelled():
+        values = _module(model, base, precision)
+        spec: ModuleSpec = values["spec"]
+        code = _code(spec, values)
+        kernels = cuda_files(values) if cuda else {}
+        functions = [function for function, _ in values["blocks"]]
+        if fitted is not None:
+            spec, unit = _fitted_unit(model, base, fitted, values)
+            functions += fitted_functions(model, base, fitted)
+            values |= {"spec": spec}
+            code |= unit
 
     def others() -> dict[str, str]:
         stored = {**values, "vectors": stored_states(model, functions)}
@@ -450,6 +453,7 @@ def _fitted_unit(
         "outer": [f for f in written if not f.internal],
         "constants": _constants(written, values, values["symbols"].texts),
         "geometry": list(values["symbols"].macros),
+        "letters": _letters(written),
     }
     # The signature stands in the unit, so it comes last: it covers all the rest.
     fitted = dataclasses.replace(
@@ -475,6 +479,7 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
     for unit in ("", "_regressor", "_base_regressor"):
         own = [f for f in functions if f.unit == unit]
         more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
+        more["letters"] = _letters(own)
         files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
     runtime: tuple[str, ...] = manifest.RUNTIME
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops
@@ -519,8 +524,13 @@ def _written(prefix: str, function: CFunction, block: Block) -> _Written:
         declaration=layout.prototype(name, layout.arguments(function, ""), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
         lines=[] if function.closed else layout.body_lines(function, block),
-        **entries(block, "symbols additions multiplications"),
+        **entries(block, "symbols additions multiplications letters"),
     )
+
+
+def _letters(functions: Sequence[_Written]) -> list[str]:
+    """What the names of the temporaries of these functions are made of."""
+    return legend(letter for function in functions for letter in function.letters)
 
 
 def _constants(
