@@ -12,6 +12,12 @@ import sympy
 from modeler.codegen import functions as layout
 from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import closed_functions, closure_tables, solving_of
+from modeler.codegen.control import (
+    UNIT as CONTROL_UNIT,
+    Control,
+    control_functions,
+    fitted_control_functions,
+)
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
@@ -297,6 +303,7 @@ def emit(
     fitted: FittedSpec | None = None,
     precision: Precision = "double",
     cuda: bool = False,
+    control: Control | None = None,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -306,6 +313,7 @@ def emit(
         fitted: their values, of a model; the unit with them is added.
         precision: of the numbers: all `double`, or all `float`.
         cuda: add the kernels of `codegen.cuda`, of a robot without loops.
+        control: add the controller's unit.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -322,8 +330,14 @@ def emit(
         if fitted is not None:
             spec, unit = _fitted_unit(model, base, fitted, values)
             functions += fitted_functions(model, base, fitted)
-            values |= {"spec": spec}
             code |= unit
+        if control is not None:
+            found = [*control_functions(model, base, control)]
+            found += fitted_control_functions(model, base, fitted) if fitted is not None else []
+            spec, unit = _control_unit(model, spec, found, values)
+            functions += found
+            code |= unit
+        values |= {"spec": spec}
 
     def others() -> dict[str, str]:
         stored = {**values, "vectors": stored_states(model, functions)}
@@ -462,6 +476,35 @@ def _fitted_unit(
     spec = dataclasses.replace(spec, fitted=fitted)
     fitted = dataclasses.replace(fitted, signature=manifest.text_digest(spec.to_json()))
     return dataclasses.replace(spec, fitted=fitted), _fitted_files(prefix, values, fitted)
+
+
+def _control_unit(
+    model: SymbolicModel, spec: ModuleSpec, functions: Sequence[CFunction], values: dict[str, Any]
+) -> tuple[ModuleSpec, dict[str, str]]:
+    """The manifest with the controller's unit, and its C."""
+    prefix = spec.prefix
+    fitted = [f for f in functions if f.role.startswith("fitted_")]
+    found = widths(prefix, model, fitted)
+    turning = {speed: width.constant for speed, width in found.items()}
+    blocks = [
+        (f, _block(f, values["places"], spec.precision, turning if f in fitted else None))
+        for f in functions
+    ]
+    written = [_written(prefix, f, block) for f, block in blocks]
+    texts = values["symbols"].texts if fitted else values["symbols"].initial
+    values = values | {
+        "spec": spec,
+        "fitted": spec.fitted,
+        "functions": written,
+        "constants": _constants(written, values, texts),
+        "geometry": list(values["symbols"].macros) if fitted else [],
+        "widths": tuple(dict.fromkeys(found.values())),
+        "letters": _letters(written),
+    }
+    files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}
+    files = of_precision(spec.precision, files)
+    control = manifest.ControlSpec(function_specs(prefix, blocks), manifest.code_digest(files))
+    return dataclasses.replace(spec, control=control), files
 
 
 def _fitted_files(prefix: str, values: dict[str, Any], fitted: FittedSpec) -> dict[str, str]:

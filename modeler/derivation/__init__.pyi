@@ -48,6 +48,7 @@ from .graph import (
     GraphAlgebra as GraphAlgebra,
     Node as Node,
     Vector as Vector,
+    derivatives as derivatives,
 )
 from .kinematics import (
     Composite as Composite,
