@@ -1,11 +1,11 @@
-"""A robot or a model as a file for another program: URDF, MJCF, SDF, CasADi."""
+"""A robot or a model as a file for another program: URDF, MJCF, SDF, CasADi, FMU."""
 
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
-from modeler.api.code_exports import TITLES, code_exported
+from modeler.api.code_exports import OF_EQUATIONS, code_exported
 from modeler.api.workflow import observe, recompile
 from modeler.core.errors import DataError
 from modeler.core.files import write_unless_other
@@ -30,7 +30,7 @@ def export(
     Args:
         thing: a robot with values, or a model.
         out: the file that is written; None: none.
-        to: "urdf", "mjcf", "sdf", "casadi"; None: by the original, or the ending of `out`.
+        to: "urdf", "mjcf", "sdf", "casadi", "fmu", "simulink"; None: by the original, or the ending of `out`.
         like: a file of the same robot, of which only the numbers are replaced.
         force: write also over a file with another content.
 
@@ -40,7 +40,7 @@ def export(
         ModelerError: there is such a file, or it cannot be written.
     """
     kind = format_of(to, str(like or ""), str(out or ""))
-    if kind in TITLES:
+    if kind in OF_EQUATIONS:
         found = _of_equations(thing, kind, like)
     else:
         if isinstance(thing, Robot) and thing.loops:

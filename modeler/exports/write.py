@@ -18,10 +18,11 @@ from modeler.robot import Robot
 
 ENDINGS = {
     ".urdf": "urdf", ".xml": "mjcf", ".mjcf": "mjcf", ".sdf": "sdf", ".casadi": "casadi",
+    ".fmu": "fmu",
 }  # fmt: skip
 """Formats by the ending of a file."""
 
-FORMATS = ("urdf", "mjcf", "sdf", "casadi")
+FORMATS = ("urdf", "mjcf", "sdf", "casadi", "fmu", "simulink")
 """All that --to may name."""
 
 
