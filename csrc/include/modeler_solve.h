@@ -10,27 +10,22 @@
 
 #include <math.h>
 
+#include "modeler_real.h"
 #include "modeler_status.h"
 
-/* A pivot below this share of the entry it is left of is zero: rounding leaves as much. */
-#define MODELER_SMALLEST_PIVOT 1e-13
-
-/* A correction after which the error is far smaller, where Newton converges. */
-#define MODELER_CONVERGED 1e-9
-
 /* 1 if all are finite. */
-static inline int modeler_numbers(const double *x, int n)
+static inline int modeler_numbers(const modeler_real *x, int n)
 {
     int bad = 0;
 
     for (int i = 0; i < n; i++)
-        bad |= !(x[i] - x[i] == 0.0);
+        bad |= !(x[i] - x[i] == MODELER_REAL(0.0));
     return !bad;
 }
 
 /* What a function returns: the status, or MODELER_NOT_FINITE. `x` is NaN then unless it is
  * MODELER_DONE. */
-static inline int modeler_outcome(int status, double *x, int n)
+static inline int modeler_outcome(int status, modeler_real *x, int n)
 {
     if (status == MODELER_DONE && !modeler_numbers(x, n))
         status = MODELER_NOT_FINITE;
@@ -40,24 +35,24 @@ static inline int modeler_outcome(int status, double *x, int n)
 }
 
 /* Status of n pivots, each left of an entry of the diagonal. */
-static inline int modeler_pivots(const double *pivot, const double *diagonal, int n)
+static inline int modeler_pivots(const modeler_real *pivot, const modeler_real *diagonal, int n)
 {
     int status = modeler_numbers(pivot, n) ? MODELER_DONE : MODELER_NOT_FINITE;
 
     for (int i = 0; status == MODELER_DONE && i < n; i++)
-        if (!(pivot[i] > 0.0) || !(pivot[i] > MODELER_SMALLEST_PIVOT * diagonal[i]))
+        if (!(pivot[i] > MODELER_REAL(0.0)) || !(pivot[i] > MODELER_PIVOT * diagonal[i]))
             status = MODELER_SINGULAR;
     return status;
 }
 
 /* Factors of A in its place: L below the diagonal, 1/pivots on it, U = D L' above. */
-static inline int modeler_factor(double *A, int n)
+static inline int modeler_factor(modeler_real *A, int n)
 {
     int status = MODELER_DONE;
 
     for (int i = 0; i < n && status == MODELER_DONE; i++) {
-        double *const row = A + i * n;
-        const double diagonal = row[i];
+        modeler_real *const row = A + i * n;
+        const modeler_real diagonal = row[i];
 
         for (int k = 0; k < i; k++) {
             row[k] *= A[k * n + k];
@@ -65,13 +60,13 @@ static inline int modeler_factor(double *A, int n)
                 row[j] -= row[k] * A[k * n + j];
         }
         status = modeler_pivots(row + i, &diagonal, 1);
-        row[i] = 1.0 / row[i];
+        row[i] = MODELER_REAL(1.0) / row[i];
     }
     return status;
 }
 
 /* X = A^-1 X of the factors; X is n x columns. */
-static inline void modeler_solve(const double *A, int n, double *X, int columns)
+static inline void modeler_solve(const modeler_real *A, int n, modeler_real *X, int columns)
 {
     for (int i = 0; i < n; i++)
         for (int k = 0; k < i; k++)

@@ -22,8 +22,9 @@ from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
+from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import package_files, render
-from modeler.codegen.targets import OF_PRECISION, WIDE, of_precision
+from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states
 from modeler.core import manifest
 from modeler.core.errors import EmitError, Precision
@@ -196,7 +197,7 @@ class SymbolLines:
 
 
 def symbol_lines(
-    model: SymbolicModel, base: BaseParameters, macros: Mapping[str, str]
+    model: SymbolicModel, base: BaseParameters, macros: Mapping[str, str], target: Target
 ) -> SymbolLines:
     """What is written of every declared symbol.
 
@@ -207,11 +208,12 @@ def symbol_lines(
         model: as derived.
         base: the base parameters of the same model.
         macros: of all declared symbols.
+        target: the number type.
     """
     values = model.geometry.values
     exact = base.proof.kind == "exact"
     stay = deciding_symbols(model.geometry) if exact else frozenset(values)
-    texts = {name: float_text(value) for name, value in values.items()}
+    texts = {name: float_text(value, target) for name, value in values.items()}
     return SymbolLines(
         free=tuple((macros[name], text) for name, text in texts.items() if name not in stay),
         fixed=tuple(
@@ -276,9 +278,6 @@ def _leaves(robot: Robot, cell: Expression) -> set[str]:
     return found
 
 
-_CLOSED = {"double": 1e-9, "single": 1e-5}
-"""Residual of a closed loop, relative to the robot's size."""
-
 _RESTRICT = "MODELER_RESTRICT "
 
 
@@ -294,6 +293,7 @@ class _Written(CFunction):
     symbols: frozenset[str]
     additions: int
     multiplications: int
+    letters: frozenset[Letters]
 
 
 def emit(
@@ -320,25 +320,26 @@ def emit(
     """
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
-    values = _module(model, base, precision)
-    spec: ModuleSpec = values["spec"]
-    code = _code(spec, values)
-    kernels = cuda_files(values) if cuda else {}
-    functions = [function for function, _ in values["blocks"]]
-    if fitted is not None:
-        spec, unit = _fitted_unit(model, base, fitted, values)
-        functions += fitted_functions(model, base, fitted)
-        code |= unit
-    if control is not None:
-        found = [*control_functions(model, base, control)]
-        found += fitted_control_functions(model, base, fitted) if fitted is not None else []
-        spec, unit = _control_unit(model, spec, found, values)
-        functions += found
-        code |= unit
-    values |= {"spec": spec}
+    with model.labelled():
+        values = _module(model, base, precision)
+        spec: ModuleSpec = values["spec"]
+        code = _code(spec, values)
+        kernels = cuda_files(values) if cuda else {}
+        functions = [function for function, _ in values["blocks"]]
+        if fitted is not None:
+            spec, unit = _fitted_unit(model, base, fitted, values)
+            functions += fitted_functions(model, base, fitted)
+            code |= unit
+        if control is not None:
+            found = [*control_functions(model, base, control)]
+            found += fitted_control_functions(model, base, fitted) if fitted is not None else []
+            spec, unit = _control_unit(model, spec, found, values)
+            functions += found
+            code |= unit
+        values |= {"spec": spec}
 
     def others() -> dict[str, str]:
-        stored = {**values, "vectors": stored_states(model, functions)}
+        stored = {**values, "vectors": stored_states(model, functions, OF_PRECISION[precision])}
         return {
             **package_files(spec, code, stored),
             "base_parameters.md": render("base_parameters.md", **values),
@@ -375,7 +376,7 @@ class _Files(Mapping[str, str]):
 
 def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) -> dict[str, Any]:
     """What the templates read; the functions' bodies and the places of symbols with it."""
-    prefix = layout.module_prefix(model.robot.name)
+    prefix, target = layout.module_prefix(model.robot.name), OF_PRECISION[precision]
     macros = layout.symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
@@ -388,20 +389,18 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
         closed_functions(model, base, solving) if solving is not None
         else layout.tree_functions(model, base)
     )  # fmt: skip
-    blocks = [(f, _block(f, places, precision)) for f in functions]
+    blocks = [(f, _block(f, places, target)) for f in functions]
     spec = dataclasses.replace(module_spec(model, base, blocks), precision=precision)
-    symbols = symbol_lines(model, base, macros)
-    written = [_written(prefix, f, block) for f, block in blocks]
+    symbols = symbol_lines(model, base, macros, target)
+    written = [_written(prefix, f, block, target) for f, block in blocks]
     relations = [layout.relation(parameter) for parameter in base.parameters]
     chi, beta = layout.parameter_lines(spec, relations)
-    states = [f"const double *{name}" for name in ("q", "qd", "qdd")]
-    states += ["const double *s"] if spec.signals else []
+    states = [f"const {target.number} *{name}" for name in ("q", "qd", "qdd")]
+    states += [f"const {target.number} *s"] if spec.signals else []
     status = ["int *status"] if spec.closure is not None else []
-    single = precision == "single"
     values = {
+        **target.words,
         "spec": spec,
-        "single": single,
-        "wide": WIDE if single else "",
         "prefix": prefix,
         "macro": prefix.upper(),
         "title": layout.comment_text(spec.title or spec.robot),
@@ -419,19 +418,19 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
         "observation": [
             layout.prototype(
                 f"{prefix}_observation",
-                ["size_t samples", *states, f"double *{restrict}W", *status],
+                ["size_t samples", *states, f"{target.number} *{restrict}W", *status],
             )
             for restrict in ("", _RESTRICT)
         ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros]),
         "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros]),
-        "loops": closure_tables(model, solving, _CLOSED[precision]) if solving else None,
+        "loops": closure_tables(model, solving, target) if solving else None,
         "names": constants,
         "signature": "",
         "blocks": blocks,
         "places": places,
-        "tile": None if single else tile_of(functions, places, spec.nonzeros),
+        "tile": None if target.suffix else tile_of(functions, places, spec.nonzeros),
     }
     spec = dataclasses.replace(spec, code=manifest.code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
@@ -443,15 +442,15 @@ def _fitted_unit(
 ) -> tuple[ModuleSpec, dict[str, str]]:
     """The manifest with the values, and the C of the functions that have them."""
     spec: ModuleSpec = values["spec"]
-    prefix = spec.prefix
+    prefix, target = spec.prefix, OF_PRECISION[spec.precision]
     check_values(base, fitted)
     functions = fitted_functions(model, base, fitted)
     found = widths(prefix, model, functions)
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
-    blocks = [(f, _block(f, values["places"], spec.precision, turning)) for f in functions]
+    blocks = [(f, _block(f, values["places"], target, turning)) for f in functions]
     values["fitted_blocks"] = blocks
-    written = [_written(prefix, f, block) for f, block in blocks]
+    written = [_written(prefix, f, block, target) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
         widths=tuple(width.macro for width in every),
@@ -466,6 +465,7 @@ def _fitted_unit(
         "outer": [f for f in written if not f.internal],
         "constants": _constants(written, values, values["symbols"].texts),
         "geometry": list(values["symbols"].macros),
+        "letters": _letters(written),
     }
     # The signature stands in the unit, so it comes last: it covers all the rest.
     fitted = dataclasses.replace(
@@ -480,15 +480,15 @@ def _control_unit(
     model: SymbolicModel, spec: ModuleSpec, functions: Sequence[CFunction], values: dict[str, Any]
 ) -> tuple[ModuleSpec, dict[str, str]]:
     """The manifest with the controller's unit, and its C."""
-    prefix = spec.prefix
+    prefix, target = spec.prefix, OF_PRECISION[spec.precision]
     fitted = [f for f in functions if f.role.startswith("fitted_")]
     found = widths(prefix, model, fitted)
     turning = {speed: width.constant for speed, width in found.items()}
     blocks = [
-        (f, _block(f, values["places"], spec.precision, turning if f in fitted else None))
+        (f, _block(f, values["places"], target, turning if f in fitted else None))
         for f in functions
     ]
-    written = [_written(prefix, f, block) for f, block in blocks]
+    written = [_written(prefix, f, block, target) for f, block in blocks]
     texts = values["symbols"].texts if fitted else values["symbols"].initial
     values = values | {
         "spec": spec,
@@ -497,22 +497,20 @@ def _control_unit(
         "constants": _constants(written, values, texts),
         "geometry": list(values["symbols"].macros) if fitted else [],
         "widths": tuple(dict.fromkeys(found.values())),
+        "letters": _letters(written),
     }
     files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}
-    folder = resource_dir("csrc") / "include"
-    files |= {name: (folder / name).read_text("utf-8") for name in manifest.CONTROL_RUNTIME}
-    files = of_precision(spec.precision, files)
+    files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
     known = [*values["blocks"], *values.get("fitted_blocks", ())]
     control = manifest.ControlSpec(function_specs(prefix, blocks, known), manifest.code_digest(files))
     return dataclasses.replace(spec, control=control), files
 
 
 def _fitted_files(prefix: str, values: dict[str, Any], fitted: FittedSpec) -> dict[str, str]:
-    files = {
+    return {
         f"{prefix}{UNIT}.{kind}": render(f"fitted.{kind}", **{**values, "fitted": fitted})
         for kind in ("h", "c")
     }
-    return of_precision(values["spec"].precision, files)
 
 
 def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
@@ -522,6 +520,7 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
     for unit in ("", "_regressor", "_base_regressor"):
         own = [f for f in functions if f.unit == unit]
         more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
+        more["letters"] = _letters(own)
         files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
     runtime: tuple[str, ...] = manifest.RUNTIME
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops
@@ -535,27 +534,30 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
         for kind in ("h", "c"):
             files[f"{prefix}{TILE_UNIT}.{kind}"] = render(f"tile.{kind}", **given)
         runtime += manifest.TILE_RUNTIME
+    return files | {name: _runtime(name, spec.precision) for name in runtime}
+
+
+def _runtime(name: str, precision: Precision) -> str:
+    """A hand-written file: its own in that precision, where it has one."""
     folder = resource_dir("csrc")
-    for name in runtime:  # its own in that precision, where it has one
-        source = folder / spec.precision / name
-        if not source.is_file():
-            source = (folder / "include" if name.endswith(".h") else folder) / name
-        files[name] = source.read_text("utf-8")
-    return of_precision(spec.precision, files)
+    source = folder / precision / name
+    if not source.is_file():
+        source = (folder / "include" if name.endswith(".h") else folder) / name
+    return source.read_text("utf-8")
 
 
 def _block(
     function: CFunction,
     places: dict[str, str],
-    precision: Precision,
+    target: Target,
     turning: Mapping[int, str] | None = None,
 ) -> Block:
     outputs = [(f"{function.output.name}[{index}]", value) for index, value in function.entries]
-    return make_block(outputs, places, turning, OF_PRECISION[precision])
+    return make_block(outputs, places, turning, target)
 
 
-def _written(prefix: str, function: CFunction, block: Block) -> _Written:
-    name = f"{prefix}_{function.role}"
+def _written(prefix: str, function: CFunction, block: Block, target: Target) -> _Written:
+    name, number = f"{prefix}_{function.role}", target.number
     returns = "int" if function.status else "void"
     if function.internal and function.unit in (UNIT, CONTROL_UNIT):
         returns = "static void"
@@ -563,11 +565,16 @@ def _written(prefix: str, function: CFunction, block: Block) -> _Written:
         **vars(function),
         name=name,
         arguments=layout.argument_lines(function),
-        declaration=layout.prototype(name, layout.arguments(function, ""), returns),
-        definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
-        lines=[] if function.status else layout.body_lines(function, block),
-        **entries(block, "symbols additions multiplications"),
+        declaration=layout.prototype(name, layout.arguments(function, "", number), returns),
+        definition=layout.prototype(name, layout.arguments(function, _RESTRICT, number), returns),
+        lines=[] if function.status else layout.body_lines(function, block, target),
+        **entries(block, "symbols additions multiplications letters"),
     )
+
+
+def _letters(functions: Sequence[_Written]) -> list[str]:
+    """What the names of the temporaries of these functions are made of."""
+    return legend(letter for function in functions for letter in function.letters)
 
 
 def _constants(
