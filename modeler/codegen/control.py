@@ -10,6 +10,7 @@ from fractions import Fraction
 from modeler.codegen import functions as layout
 from modeler.codegen.forward import forward_functions, without_beta
 from modeler.codegen.functions import Arguments, CFunction, entries_of
+from modeler.codegen.parameter_set import smooth_functions
 from modeler.core.manifest import ArgumentSpec, FittedSpec
 from modeler.derivation import BaseParameters, Expr, SymbolicModel, derivatives
 
@@ -41,7 +42,8 @@ def control_functions(
     if model.closure is not None:
         return ()
     given = layout.arguments_of(model.robot.free, model, base)
-    return _dynamics(model, layout.beta_symbols(model, base), given)
+    beta = layout.beta_symbols(model, base)
+    return (*_dynamics(model, beta, given), *smooth_functions(model, beta, given))
 
 
 def fitted_control_functions(
