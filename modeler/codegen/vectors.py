@@ -142,7 +142,7 @@ def _tables(
             signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")})
             for role, f in roles.items():
                 c = f.closed or _DIRECT
-                if f.internal or role in _OTHERWISE or c.q != name:
+                if f.internal or f.composed or role in _OTHERWISE or c.q != name:
                     continue
                 state = standing if c.qdd == "standing" else moving
                 tree = f"{c.tree}_{c.role}" if f.closed else role
