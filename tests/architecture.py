@@ -46,7 +46,7 @@ PACKAGES: dict[str, set[str]] = {
     "robot": {"numpy", "mujoco"},
     "derivation": {"numpy", "sympy", "casadi", "flint"},
     "formulas": {"numpy", "sympy"},
-    "codegen": {"numpy", "sympy", "jinja2"},
+    "codegen": {"numpy", "sympy", "jinja2", "casadi"},
     "runtime": {"numpy", "cffi", "cupy"},
     "logs": {"numpy", "scipy", "pyarrow", "h5py", "rosbags", "python_calamine"},
     "observation": {"numpy", "scipy"},
@@ -69,7 +69,7 @@ ONLY_IN = {
     "jinja2": ("codegen/package.py", "report/page.py"),
     "cupy": ("runtime/gpu.py",),
     "cffi": ("runtime/bind.py",),
-    "casadi": ("derivation/lagrange.py", "simulation/"),
+    "casadi": ("derivation/lagrange.py", "codegen/casadi_functions.py", "simulation/"),
     "clarabel": ("estimation/nearest_body.py",),
     "cvxpy": ("estimation/consistent.py", "simulation/completion.py", "exports/completion.py"),
     "flint": ("derivation/precise.py",),
@@ -85,8 +85,8 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 22  # the workbench in the browser
-MOST_MODULES = 395  # the workbench in the browser
-MOST_CODE_LINES = 65_030  # the workbench in the browser
+MOST_MODULES = 412  # everything a controller calls, three doors
+MOST_CODE_LINES = 67_830  # everything a controller calls, three doors
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

@@ -12,10 +12,17 @@ import sympy
 from modeler.codegen import functions as layout
 from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import closed_functions, closure_tables, solving_of
+from modeler.codegen.control import (
+    UNIT as CONTROL_UNIT,
+    Control,
+    control_functions,
+    fitted_control_functions,
+)
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
+from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import package_files, render
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states
@@ -285,6 +292,7 @@ class _Written(CFunction):
     symbols: frozenset[str]
     additions: int
     multiplications: int
+    letters: frozenset[Letters]
 
 
 def emit(
@@ -293,6 +301,7 @@ def emit(
     fitted: FittedSpec | None = None,
     precision: Precision = "double",
     cuda: bool = False,
+    control: Control | None = None,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -302,6 +311,7 @@ def emit(
         fitted: their values, of a model; the unit with them is added.
         precision: of the numbers: all `double`, or all `float`.
         cuda: add the kernels of `codegen.cuda`, of a robot without loops.
+        control: add the controller's unit.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -309,16 +319,23 @@ def emit(
     """
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
-    values = _module(model, base, precision)
-    spec: ModuleSpec = values["spec"]
-    code = _code(spec, values)
-    kernels = cuda_files(values) if cuda else {}
-    functions = [function for function, _ in values["blocks"]]
-    if fitted is not None:
-        spec, unit = _fitted_unit(model, base, fitted, values)
-        functions += fitted_functions(model, base, fitted)
+    with model.labelled():
+        values = _module(model, base, precision)
+        spec: ModuleSpec = values["spec"]
+        code = _code(spec, values)
+        kernels = cuda_files(values) if cuda else {}
+        functions = [function for function, _ in values["blocks"]]
+        if fitted is not None:
+            spec, unit = _fitted_unit(model, base, fitted, values)
+            functions += fitted_functions(model, base, fitted)
+            code |= unit
+        if control is not None:
+            found = [*control_functions(model, base, control)]
+            found += fitted_control_functions(model, base, fitted) if fitted is not None else []
+            spec, unit = _control_unit(model, spec, found, values)
+            functions += found
+            code |= unit
         values |= {"spec": spec}
-        code |= unit
 
     def others() -> dict[str, str]:
         stored = {**values, "vectors": stored_states(model, functions, OF_PRECISION[precision])}
@@ -446,6 +463,7 @@ def _fitted_unit(
         "outer": [f for f in written if not f.internal],
         "constants": _constants(written, values, values["symbols"].texts),
         "geometry": list(values["symbols"].macros),
+        "letters": _letters(written),
     }
     # The signature stands in the unit, so it comes last: it covers all the rest.
     fitted = dataclasses.replace(
@@ -454,6 +472,34 @@ def _fitted_unit(
     spec = dataclasses.replace(spec, fitted=fitted)
     fitted = dataclasses.replace(fitted, signature=manifest.text_digest(spec.to_json()))
     return dataclasses.replace(spec, fitted=fitted), _fitted_files(prefix, values, fitted)
+
+
+def _control_unit(
+    model: SymbolicModel, spec: ModuleSpec, functions: Sequence[CFunction], values: dict[str, Any]
+) -> tuple[ModuleSpec, dict[str, str]]:
+    """The manifest with the controller's unit, and its C."""
+    prefix, target = spec.prefix, OF_PRECISION[spec.precision]
+    fitted = [f for f in functions if f.role.startswith("fitted_")]
+    found = widths(prefix, model, fitted)
+    turning = {speed: width.constant for speed, width in found.items()}
+    blocks = [
+        (f, _block(f, values["places"], target, turning if f in fitted else None))
+        for f in functions
+    ]
+    written = [_written(prefix, f, block, target) for f, block in blocks]
+    texts = values["symbols"].texts if fitted else values["symbols"].initial
+    values = values | {
+        "spec": spec,
+        "fitted": spec.fitted,
+        "functions": written,
+        "constants": _constants(written, values, texts),
+        "geometry": list(values["symbols"].macros) if fitted else [],
+        "widths": tuple(dict.fromkeys(found.values())),
+        "letters": _letters(written),
+    }
+    files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}
+    control = manifest.ControlSpec(function_specs(prefix, blocks), manifest.code_digest(files))
+    return dataclasses.replace(spec, control=control), files
 
 
 def _fitted_files(prefix: str, values: dict[str, Any], fitted: FittedSpec) -> dict[str, str]:
@@ -470,6 +516,7 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
     for unit in ("", "_regressor", "_base_regressor"):
         own = [f for f in functions if f.unit == unit]
         more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
+        more["letters"] = _letters(own)
         files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
     runtime: tuple[str, ...] = manifest.RUNTIME
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops
@@ -514,8 +561,13 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         declaration=layout.prototype(name, layout.arguments(function, "", number), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT, number), returns),
         lines=[] if function.closed else layout.body_lines(function, block, target),
-        **entries(block, "symbols additions multiplications"),
+        **entries(block, "symbols additions multiplications letters"),
     )
+
+
+def _letters(functions: Sequence[_Written]) -> list[str]:
+    """What the names of the temporaries of these functions are made of."""
+    return legend(letter for function in functions for letter in function.letters)
 
 
 def _constants(

@@ -542,6 +542,6 @@ def symbol_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
 
 def graph_places(joints: int, symbols: dict[str, str], arrays: Iterable[str]) -> dict[str, str]:
     """C text of every graph symbol: entries of arrays as they are named, geometric symbols."""
-    kinds = ("q", "qd", "qdd", "dq")
+    kinds = ("q", "qd", "qdd", "dq", "v", "a")
     inputs = [f"{kind}[{i}]" for kind in kinds for i in range(joints)]
     return {**symbols, **{name: name for name in (*inputs, *arrays)}}

@@ -13,7 +13,7 @@ import jinja2
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
-from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec
+from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec, text_digest
 
 # The programs of a folder.
 
@@ -127,7 +127,8 @@ def _unwanted(emitted: Emitted) -> set[str]:
     And programs that stand among the library's files, as earlier versions wrote them.
     """
     prefix = emitted.spec.prefix
-    names = {f"{prefix}_fitted.c", f"{prefix}_fitted.h", f"{prefix}.cu"}
+    names = {f"{prefix}_{unit}.{kind}" for unit in ("fitted", "control") for kind in "hc"}
+    names |= {f"{prefix}.cu"}
     names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
     return names - emitted.files.keys()
 
@@ -235,7 +236,7 @@ def package_files(
     """
     prefix = spec.prefix
     examples, count = examples_of(spec), count_values(spec)
-    every = (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
+    every = spec.every_function
     given = {
         **values,
         "package": _package(spec, code),
@@ -281,7 +282,9 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
     headers, of which those that a controller includes are public, and installed.
     """
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
-    heads = (f"{spec.prefix}.h", f"{spec.prefix}_fitted.h", f"{spec.prefix}_tile.h")
+    if spec.control is not None:
+        signature = text_digest(spec.to_json())
+    heads = [f"{spec.prefix}{unit}.h" for unit in ("", "_fitted", "_control", "_tile")]
     public = [name for name in heads if name in code]
     for name in public:  # grows while it is read
         included = re.findall(r'^#include "([^"]+)"', code[name], flags=re.MULTILINE)
@@ -317,7 +320,7 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     """
     if spec.closure is not None:
         return None
-    functions = (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
+    functions = spec.every_function
     return {
         "states": 16,
         "largest": max(f.outputs[0].size for f in functions),

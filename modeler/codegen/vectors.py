@@ -90,6 +90,8 @@ def _inputs(model: SymbolicModel) -> dict[str, Table]:
         "q": table(coordinates, spread(11, 1 / 8)),
         "qd": table(coordinates, speed),
         "qdd": table(coordinates, spread(5, 1 / 4)),
+        "v": table(coordinates, lambda i, state: speed(i + 2, state)),
+        "a": table(coordinates, spread(9, 1 / 4)),
         "s": table(len(model.signals), lambda i, state: (i + 1 + 2 * state) / 16),
         "dq": table(coordinates, spread(3, 1 / 512)),
         "dt": table(1, lambda i, state: (state + 1) / 256),
@@ -136,7 +138,7 @@ def _tables(
             u = near if closure is None else _closed(closure, near, places, inputs[name][k])
             qd, qdd = np.array(inputs["qd"][k]), np.array(inputs["qdd"][k])
             moving, standing = (enclosures.state(u, qd, a) for a in (qdd, 0.0 * qdd))
-            signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt")})
+            signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")})
             for role, f in roles.items():
                 c = f.closed or _DIRECT
                 if f.internal or role in _OTHERWISE or c.q != name:

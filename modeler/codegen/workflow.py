@@ -3,7 +3,7 @@
 import dataclasses
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from modeler.core.errors import Precision
 from modeler.core.formula import Formulas
@@ -20,6 +20,9 @@ from modeler.derivation import (
     relations,
 )
 from modeler.robot import Robot, read_robot
+
+if TYPE_CHECKING:
+    from modeler.codegen.control import Control
 
 
 @dataclass(frozen=True)
@@ -92,8 +95,9 @@ def generate(
     fitted: FittedSpec | None = None,
     precision: Precision = "double",
     cuda: bool = False,
+    control: "Control | None" = None,
 ) -> Emitted:
-    """The C module; written to `folder` if one is given.
+    """The C module; written to `folder` if one is given, with the controller's unit.
 
     Args:
         derivation: of the robot.
@@ -102,15 +106,19 @@ def generate(
         fitted: values of its base parameters; functions that have them are added.
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
+        control: what of the controller's unit is emitted; where a folder is given, all.
 
     Raises:
         ModelerError: the folder holds files of these names that no earlier `generate` wrote, or
             that were edited since, and `force` is not given; or it cannot be written.
     """
-    from modeler.codegen.emit import emit  # who derives need not wait for it
+    from modeler.codegen.control import Control  # who derives need not wait for it
+    from modeler.codegen.emit import emit
     from modeler.codegen.package import write_emitted
 
-    emitted = emit(derivation.model, derivation.base, fitted, precision, cuda)
+    if control is None and folder is not None:
+        control = Control()
+    emitted = emit(derivation.model, derivation.base, fitted, precision, cuda, control)
     emitted = dataclasses.replace(emitted, log=derivation.robot.log_words)
     if folder is not None:
         write_emitted(emitted, Path(folder), force)

@@ -186,6 +186,17 @@ class FittedSpec(Brief):
 
 
 @dataclass(frozen=True)
+class ControlSpec(Brief):
+    """What a controller calls besides: the unit `<prefix>_control`, which Python's fits do without.
+
+    It is tied to the robot's signature when it is compiled; `code` is the digest of its text.
+    """
+
+    functions: tuple[FunctionSpec, ...]
+    code: str = ""
+
+
+@dataclass(frozen=True)
 class ModuleSpec(Brief):
     """The manifest of one robot."""
 
@@ -205,6 +216,13 @@ class ModuleSpec(Brief):
     fitted: FittedSpec | None = None  # where it was generated from a model
     precision: Precision = "double"  # of all numbers of the C
     inertial_uncertainty: float | None = None  # of every body, over its scale
+    control: ControlSpec | None = None  # where `modeler generate` wrote it
+
+    @property
+    def every_function(self) -> tuple[FunctionSpec, ...]:
+        """Those of the robot, of the fitted values, of the controller's unit."""
+        more = (unit.functions for unit in (self.fitted, self.control) if unit is not None)
+        return (*self.functions, *(function for unit in more for function in unit))
 
     @property
     def nonzeros(self) -> tuple[tuple[int, int], ...]:
@@ -224,6 +242,7 @@ class ModuleSpec(Brief):
         """Names of the C files that the library is compiled from, headers included."""
         units = [".h", ".c", "_regressor.c", "_base_regressor.c"]
         units += ["_fitted.h", "_fitted.c"] if self.fitted is not None else []
+        units += ["_control.h", "_control.c"] if self.control is not None else []
         runtime = list(RUNTIME)
         if self.closure is not None:
             units += ["_tree.h", "_loops.c"]
@@ -245,8 +264,9 @@ class ModuleSpec(Brief):
     @cached_property
     def _text(self) -> str:
         entries = dataclasses.asdict(self)
-        if self.fitted is None:
-            del entries["fitted"]
+        for name in ("fitted", "control"):
+            if entries[name] is None:
+                del entries[name]
         if self.precision == "double":
             del entries["precision"]
         for entry, name in [
@@ -261,12 +281,13 @@ class ModuleSpec(Brief):
     def signature(self) -> str:
         """Hash that the emitted library repeats, so that a stale library is noticed.
 
-        Of the whole manifest but the fitted values, which have a signature of their own, and with
-        it of the whole C text: two robots of the same signature have the same C. It is the same on
-        every machine.
+        Of the whole manifest but the fitted values, which have a signature of their own, and the
+        controller's unit, and with it of the whole C text but these: two robots of the same
+        signature have the same C. It is the same on every machine.
         """
-        robot = self if self.fitted is None else dataclasses.replace(self, fitted=None)
-        return text_digest(robot.to_json())
+        if self.fitted is None and self.control is None:
+            return text_digest(self.to_json())
+        return dataclasses.replace(self, fitted=None, control=None).signature()
 
 
 def text_digest(text: str) -> str:

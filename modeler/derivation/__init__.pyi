@@ -43,11 +43,14 @@ from .geometry import (
     quarter_turns as quarter_turns,
 )
 from .graph import (
+    Arithmetic as Arithmetic,
     Expr as Expr,
     Graph as Graph,
     GraphAlgebra as GraphAlgebra,
     Node as Node,
+    Plan as Plan,
     Vector as Vector,
+    derivatives as derivatives,
 )
 from .kinematics import (
     Composite as Composite,
@@ -65,6 +68,7 @@ from .kinematics import (
     screws as screws,
     times as times,
 )
+from .labels import Label as Label
 from .lagrange import lagrange_torque as lagrange_torque
 from .model import SymbolicModel as SymbolicModel, along as along, effect_entries as effect_entries
 from .numeric_rank import random_states as random_states, regressor_values as regressor_values

@@ -108,7 +108,8 @@ def _standard_table(derivation: Derivation) -> Table:
 
 def _emitted_summary(emitted: Emitted) -> str:
     spec, size = emitted.spec, sum(len(text) for text in emitted.files.values())
-    lines = [f"C of {spec.robot}: {len(spec.functions)} functions in {len(emitted.files)} files, "
+    count = len(spec.every_function)
+    lines = [f"C of {spec.robot}: {count} functions in {len(emitted.files)} files, "
              f"{size / 1000:.0f} kB, signature {spec.signature()[:12]}"]  # fmt: skip
     return "\n".join([*lines, _functions(spec)["functions"]().text()])
 
@@ -120,7 +121,7 @@ def _emitted_tables(emitted: Emitted) -> Tables:
 
 
 def _functions(spec: ModuleSpec) -> Tables:
-    rows = [(f.name, f.equation, f.additions, f.multiplications) for f in spec.functions]
+    rows = [(f.name, f.equation, f.additions, f.multiplications) for f in spec.every_function]
     head = "function, equation, additions, multiplications"
     return {"functions": lambda: Table.of(f"functions of {spec.robot}", head, rows)}
 

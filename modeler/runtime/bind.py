@@ -89,7 +89,7 @@ class Library:
                     f"{spec.robot}: the compiled code answers {answer}, the manifest expects "
                     f"{spec.signature()}; one of them is older, generate both again"
                 )
-            for function in spec.functions:
+            for function in spec.every_function:
                 getattr(self._library, function.name)
         except AttributeError as error:
             raise ManifestError(
@@ -193,7 +193,7 @@ def check_names(spec: ModuleSpec) -> None:
     Raises:
         ManifestError: a name is no C name, or a function is missing.
     """
-    inputs = {function.name: len(function.inputs) for function in spec.functions}
+    inputs = {function.name: len(function.inputs) for function in spec.every_function}
     for name in (spec.prefix, *inputs):
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
             raise ManifestError(f'{spec.robot}: got the name "{name}", expected a C name')
@@ -224,7 +224,7 @@ def _declarations(spec: ModuleSpec) -> str:
         f"void {spec.prefix}_observation(size_t, const double *, const double *, const double *, "
         f"{signals}double *{', int *' if loops else ''});",
     ]
-    for function in spec.functions:
+    for function in spec.every_function:
         inputs = ", ".join("const double *" for _ in function.inputs)
         returns = "int" if function.status else "void"
         lines.append(f"{returns} {function.name}({inputs}, double *);")

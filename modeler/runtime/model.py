@@ -48,7 +48,8 @@ class CompiledModel(Batches, Presented):
         self.log: Mapping[str, object] = log or {}
         self._library = library
         self._functions = {
-            function.name.removeprefix(f"{spec.prefix}_"): function for function in spec.functions
+            function.name.removeprefix(f"{spec.prefix}_"): function
+            for function in spec.every_function
         }
         self._joints = len(spec.joints)
 
@@ -192,6 +193,55 @@ class CompiledModel(Batches, Presented):
         out = np.empty((1, len(self.spec.signals)))
         self._library.batch(function, given, out)
         return out[0]
+
+    def evaluate(self, role: str, **arrays: Any) -> np.ndarray:
+        """What an emitted function gives, (n, ...) by its output's shape.
+
+        Args:
+            role: its name without the robot's, as in the manifest: "coriolis_matrix".
+            arrays: its inputs by name: (n, length), or (length,) where all samples have the same.
+
+        Raises:
+            ManifestError: the module has no such function.
+            ShapeError: an input is missing, or of another shape.
+            LoopError: the function returns a status that is not 0; names the sample.
+        """
+        out, status, inputs = self._called(role, arrays)
+        self._check(status, inputs[0])
+        return out
+
+    def statuses(self, role: str, **arrays: Any) -> np.ndarray:
+        """(n,) what an emitted function returns for each sample; as `evaluate`, never refused."""
+        _, status, inputs = self._called(role, arrays)
+        return np.zeros(len(inputs[0]), dtype=np.intc) if status is None else status
+
+    def _called(
+        self, role: str, arrays: Mapping[str, Any]
+    ) -> tuple[np.ndarray, np.ndarray | None, list[np.ndarray]]:
+        """Output, statuses, inputs."""
+        function = self._functions.get(role)
+        if function is None:
+            known = ", ".join(sorted(self._functions))
+            raise ManifestError(f"{self.spec.robot} has no function {role}; expected {known}")
+        wanted = {argument.name: argument.size for argument in function.inputs}
+        if wanted.keys() != arrays.keys():
+            raise ShapeError(
+                f"{role}: got {', '.join(arrays) or 'nothing'}; expected {', '.join(wanted)}"
+            )
+        given = {name: np.asarray(arrays[name], dtype=float) for name in wanted}
+        samples = max(len(x) if x.ndim == 2 else 1 for x in given.values())
+        inputs = []
+        for name, x in given.items():
+            if x.shape not in ((wanted[name],), (samples, wanted[name])):
+                raise ShapeError(
+                    f"{role}: {name} has the shape {x.shape}; expected ({wanted[name]},) or "
+                    f"({samples}, {wanted[name]})"
+                )
+            inputs.append(np.ascontiguousarray(x))
+        out = np.empty((samples, *function.outputs[0].shape))
+        status = np.zeros(samples, dtype=np.intc) if function.status else None
+        self._library.batch(function, inputs, out, status)
+        return out, status, inputs
 
     def _evaluate(
         self, role: str, states: Mapping[str, Any], beta: Any = None, s: Any = None

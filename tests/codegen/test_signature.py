@@ -72,7 +72,10 @@ def sources(made, signature=None):
     texts = {name: made.files[name] for name in (*made.spec.sources, *made.spec.tile_sources)}
     if signature is None:
         return texts
-    return {name: text.replace(own, f'"{signature}"') for name, text in texts.items()}
+    halves = [(f"0x{own[i : i + 8]}u", f"0x{signature[i - 1 : i + 7]}u") for i in (1, 9)]
+    for old, new in ((own, f'"{signature}"'), *halves):
+        texts = {name: text.replace(old, new) for name, text in texts.items()}
+    return texts
 
 
 @pytest.mark.parametrize(
