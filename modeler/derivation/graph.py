@@ -16,6 +16,7 @@ compared with other derivations anyway.)
 
 import hashlib
 import operator
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -595,6 +596,14 @@ def derivatives(values: Sequence[Expr], direction: Mapping[str, Expr]) -> list[E
             found[index] = zero  # most nodes depend on few symbols
         else:
             found[index] = _derivative(index, node, values[0], found)
+            if label := graph.labels.get(index):
+                unit = label.of + (
+                    re.sub(r"\W", "", min(direction)) if len(direction) == 1 else "t"
+                )
+                minus = -found[index] if label.minus else found[index]
+                named(
+                    label.quantity, label.link, [minus], f"{label.step}d", unit, [label.component]
+                )
     return [found[abs(v.ref)] if v.ref >= 0 else -found[-v.ref] for v in values]
 
 
