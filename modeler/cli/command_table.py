@@ -5,7 +5,7 @@ usage, come at once.
 """
 
 import argparse
-from typing import Any, get_args
+from typing import get_args
 
 from modeler.cli import places
 from modeler.cli.options import (
@@ -22,59 +22,31 @@ from modeler.cli.options import (
     several,
     value,
 )
+from modeler.cli.shared_arguments import (
+    CHANGED,
+    DASK,
+    DRAWN,
+    FORCE,
+    LOGS,
+    MAP,
+    MODEL,
+    PARALLEL,
+    REQUIRED,
+    ROBOT,
+    ROBOT_FILE,
+    ROBOT_OR_MODEL,
+    WINDOW,
+    logs,
+    page,
+    pictures,
+)
+from modeler.cli.use_commands import EXPORT, GENERATE
 from modeler.core import errors
 from modeler.core.builtin import CONVENTIONS, EFFECTS, MOTIONS, SIMULATED, TEMPLATES, paper_names
 from modeler.core.estimators import ABOUT, APART
 
 NOMINAL = ""
 """`--cad` without a file: the values of the robot file."""
-
-# What several commands share.
-
-_ROBOT_FILE = "a robot file, URDF or MJCF, or the name of a built-in robot"
-_ROBOT_OR_MODEL = f"{_ROBOT_FILE}, or a model file of `modeler fit`"
-_WINDOW = "FILE@START:END takes the rows between these seconds"
-_LOGS = f"Parquet, CSV, MAT, HDF5 or MCAP logs, ROS bags; {_WINDOW}"
-_EFFECTS = 'effects instead of those of the file, for all joints: "viscous,coulomb"'
-_PARALLEL = "the one low-pass of torques and all columns"
-_REQUIRED: dict[str, Any] = {"required": True}
-
-_ROBOT = value("robot", "ROBOT", places.RobotFile, _ROBOT_FILE)
-_CHANGED = value("--effects", "LIST", places.Word, f'{_EFFECTS}; "" for none')
-_MODEL = value("model", "MODEL", places.ModelFile, "a model file of `modeler fit`")
-_MAP = repeated(
-    "--map", "NAME=COLUMN[:UNIT]", places.MapWord,
-    "which column of the logs is ours, as 'q<j>=position_{j}:deg', or FILE.toml with such lines; "
-    "may be given several times; auto: what `modeler log` suggests for all else; over [log] of the "
-    "robot file; kept in the model",
-)  # fmt: skip
-_DASK = value(
-    "--dask", "ADDRESS", places.Word,
-    "a Dask scheduler whose workers read the logs, as tcp://host:8786; local: a cluster of this "
-    "machine's processors",
-)  # fmt: skip
-_FORCE = flag(
-    "--force", "write also over files of DIR that no earlier run wrote, or that were edited since"
-)
-_PICTURES = "folder for every picture as PNG, SVG and CSV; or a file for all as plain data"
-_OPEN = flag("--open", "show the page in the browser; without --report one in a temporary folder")
-_DRAWN = "draw it: .png, .svg or .pdf"
-
-
-def _logs(text: str, nargs: str = "+") -> Argument:
-    return value("logs", "LOG", places.LogFile, text, nargs=nargs)
-
-
-def _page(kind: type[places.Output] = places.Output) -> tuple[Argument, Argument]:
-    """`--report` and `--open`."""
-    text = "write one self-contained page"
-    return value("--report", "PAGE.html", kind, text, old=("--page",)), _OPEN
-
-
-def _pictures(kind: type[places.Pictures] = places.Pictures) -> Argument:
-    old = () if kind is places.Pictures else ("--pictures",)
-    return value("--picture", "DIR|FILE.json", kind, _PICTURES, old=old)
-
 
 # Of a robot: its model, its C, its pictures, its postures.
 
@@ -86,7 +58,7 @@ _DERIVE = Command(
     f"{FEW_JOINTS} joints also get their PG/PJ/PS coefficients, unless these are more than a page.",
     "modeler derive puma560 --format latex --document > puma560.tex",
     (
-        _ROBOT, _CHANGED,
+        ROBOT, CHANGED,
         Group("what is printed", None, (
             choice("--format", sorted(get_args(Form)), "of what is printed", "text"),
             flag("--document",
@@ -106,7 +78,7 @@ _DERIVE = Command(
         )),
         flag("--cut-loops", "cut the loops: the tree, as counted leg by leg"),
         value("--coefficients-out", "FILE.md", places.Output, "write the page of the coefficients"),
-        *_page(),
+        *page(),
     ),
 )  # fmt: skip
 
@@ -118,10 +90,10 @@ _SHOW = Command(
     "not close are drawn open, with the gap.",
     "modeler show orthoglide-2003 --picture orthoglide.pdf",
     (
-        _ROBOT,
+        ROBOT,
         value("--out", "PAGE", places.Output,
               "page to write (default NAME.html, if no picture is asked for)", old=("--report",)),
-        value("--picture", "FILE", places.Output, f"{_DRAWN}, one column wide", old=("--png",)),
+        value("--picture", "FILE", places.Output, f"{DRAWN}, one column wide", old=("--png",)),
         flag("--open", "show the page in the browser"),
     ),
     "write poses at home and gaps of loops for machines",
@@ -136,7 +108,7 @@ _HOME = Command(
     "near to it comes first.",
     "modeler home crank.toml --report modes.html --mode B --write",
     (
-        _ROBOT,
+        ROBOT,
         value("--near", "q1=0.3,...", places.Word,
               "values to stay near, rad and m, in place of the passive joints' in [home]"),
         flag("--anew", "as if the file had no [home]"),
@@ -144,50 +116,9 @@ _HOME = Command(
         flag("--write", "write it into the robot file as [home]"),
         value("--picture", "FILE", places.Output,
               "draw every mode, beside each other: .png, .svg or .pdf", old=("--pictures",)),
-        *_page(),
+        *page(),
     ),
     "write the modes for machines",
-)  # fmt: skip
-
-_GENERATE = Command(
-    "generate", "derive:run_generate",
-    "C source, header, manifest and build files",
-    "Writes dependency-free C99 for ROBOT: regressors, inverse dynamics, inertia matrix, gravity, "
-    "Coriolis, and the batch observation matrix, in a folder that builds by itself with make or "
-    "cmake. Of a MODEL also functions that have its fitted values: they take no parameters, and "
-    "their Coulomb friction can be smoothed.",
-    "modeler generate panda --out panda_c; of a fitted model: "
-    "modeler generate arm.model.json --out arm_c",
-    (
-        value("robot", "ROBOT|MODEL", places.RobotOrModel, _ROBOT_OR_MODEL),
-        _CHANGED,
-        value("--out", "DIR", places.ModuleFolder, "folder to write", **_REQUIRED),
-        choice("--precision", get_args(errors.Precision),
-               "of all numbers of the C: double, or float for a microcontroller", "double"),
-        flag("--cuda", "also the base regressor for graphics processors"),
-        _FORCE,
-    ),
-    "write the manifest for machines",
-)  # fmt: skip
-
-_EXPORT = Command(
-    "export", "export:run_export",
-    "the identified robot for another program: URDF, MJCF, SDF",
-    "Writes the masses, mass centres, inertias, friction and rotor inertias of MODEL as a machine "
-    "that could be built: into the bytes of an ORIGINAL, of which nothing else changes, or into a "
-    "file of its own whose links are capsules. Says what every number was and is, and which "
-    "effects the format cannot hold.",
-    "modeler export arm.model.json --like arm.urdf --out better.urdf",
-    (
-        value("source", "MODEL|ROBOT", places.RobotOrModel, _ROBOT_OR_MODEL),
-        choice("--to", ("urdf", "mjcf", "sdf"),
-               "format; by --like, or by the ending of --out (.xml is MJCF)"),
-        value("--like", "ORIGINAL", places.OriginalFile,
-              "a file of the same robot: only its numbers are replaced"),
-        value("--out", "FILE", places.OtherProgramsFile, "file to write", **_REQUIRED),
-        flag("--force", "write over a file that is there"),
-    ),
-    "write the numbers for machines",
 )  # fmt: skip
 
 _PHYSICAL = Command(
@@ -199,7 +130,7 @@ _PHYSICAL = Command(
     "set that suffices.",
     "modeler physical wrist --known am,bm,bl1,bt2,ct1,bJ33,cJ33,cm",
     (
-        value("source", "ROBOT|MODEL", places.RobotOrModel, _ROBOT_OR_MODEL),
+        value("source", "ROBOT|MODEL", places.RobotOrModel, ROBOT_OR_MODEL),
         value("--known", "LIST", places.Word,
               'parameters that are known, "am,bm"; with a MODEL their values in SI units, and '
               'standard deviations where they have one: "am=12+-0.1,bm=6"'),
@@ -245,7 +176,7 @@ _CONVERT = Command(
     "modeler convert arm.urdf --tip tool0 --out arm.toml",
     (
         value("file", "FILE", places.RobotFile, "a URDF, MJCF or SYMORO file"),
-        value("--out", "ROBOT.toml", places.Output, "robot file to write", **_REQUIRED),
+        value("--out", "ROBOT.toml", places.Output, "robot file to write", **REQUIRED),
         value("--base", "LINK", places.Word, "link that stands still; default: the first",
               default=""),
         value("--tip", "LINK", places.Word, "last link of the chain that is meant; default: all",
@@ -269,11 +200,11 @@ _LOG = Command(
     "modeler log run1.mat --robot arm.toml --report run1.html",
     (
         value("log", "LOG", places.LogFile,
-              f"Parquet, CSV, MAT, HDF5, numpy or MCAP file, or ROS bag; {_WINDOW}"),
+              f"Parquet, CSV, MAT, HDF5, numpy or MCAP file, or ROS bag; {WINDOW}"),
         value("--robot", "ROBOT", places.RobotFile,
-              f"{_ROBOT_FILE}: its [log], its joints, and doubts that a fit shows"),
+              f"{ROBOT_FILE}: its [log], its joints, and doubts that a fit shows"),
         flag("--write", "put the guessed [log] into the file of --robot, in place of its own"),
-        _MAP, *_page(), _pictures(places.LogPictures),
+        MAP, *page(), pictures(places.LogPictures),
     ),
     "write what is in it for machines",
 )  # fmt: skip
@@ -283,7 +214,7 @@ _PROCESSING = Group(
     (
         value("--cutoff", "HZ", float,
               "low-pass of the positions (zero phase, Butterworth order 4)"),
-        value("--parallel-cutoff", "HZ", float, _PARALLEL),
+        value("--parallel-cutoff", "HZ", float, PARALLEL),
         value("--decimate", "N", int, "keep every N-th row after it"),
         choice("--derivatives", get_args(errors.Derivatives),
                "logged velocities, or positions differentiated; auto: the quieter", "auto"),
@@ -327,7 +258,7 @@ _FIT = Command(
     "modeler fit ur10e run1.parquet run2.parquet --out ur10e.model.json; which estimator: "
     "modeler fit emps train.parquet --method all --holdout pulses.parquet",
     (
-        _ROBOT, _CHANGED, _logs(_LOGS), _MAP,
+        ROBOT, CHANGED, logs(LOGS), MAP,
         value("--out", "MODEL", places.Output, "model file to write; none of several methods"),
         value("--method", "METHOD[,METHOD...]", Methods,
               "; ".join(f"{about.id}: {about.title}" for about in (*ABOUT.values(), *APART))
@@ -348,7 +279,7 @@ _FIT = Command(
         value("--essential-below", "PERCENT", float,
               "keep in the reduced model what has a sigma below this share of its value (papers: "
               "15); left out: what an F-test misses"),
-        _PROCESSING, _LOAD, _DASK, *_page(), _pictures(),
+        _PROCESSING, _LOAD, DASK, *page(), pictures(),
     ),
     lacks=_out_of_fit,
 )  # fmt: skip
@@ -381,11 +312,11 @@ _COMPARE = Command(
     "modeler compare ur10e.model.json better.model.json held_out.parquet; "
     "modeler compare ur10e.model.json held_out.parquet --free-run --picture free_run",
     (
-        _MODEL,
+        MODEL,
         value("logs", "LOG", places.model_or_log,
-              f"{_LOGS}; before them perhaps further models, which are set beside the first",
+              f"{LOGS}; before them perhaps further models, which are set beside the first",
               nargs="+"),
-        _MAP, *_page(places.PageOrFolder), _pictures(places.PictureFolder),
+        MAP, *page(places.PageOrFolder), pictures(places.PictureFolder),
         flag("--essential",
              "predict with the reduced model of the fit: its essential parameters, all others 0"),
         flag("--run-embedded-c",
@@ -402,7 +333,7 @@ _FLEET = Command(
     "apart from those of the other machines, beyond doubt.",
     "modeler fleet ur10e plant/*/*.parquet --report fleet.html",
     (
-        _ROBOT, _CHANGED, _logs(f"logs, or folders of logs; {_WINDOW}", "*"),
+        ROBOT, CHANGED, logs(f"logs, or folders of logs; {WINDOW}", "*"),
         Group("names", "which machine and period a log is of", (
             value("--name", "PATTERN", places.Word,
                   "how paths end, as '{machine}-{period}.csv'; left out: the folder is the "
@@ -411,17 +342,17 @@ _FLEET = Command(
                   "logs by name, in place of LOG: .csv with machine, period, log in its first "
                   "line, or .toml with [[log]] tables"),
         )),
-        _MAP,
+        MAP,
         Group("processing", "chosen for each log, from its own noise", (
             value("--cutoff", "HZ", float, "low-pass of the positions"),
-            value("--parallel-cutoff", "HZ", float, _PARALLEL),
+            value("--parallel-cutoff", "HZ", float, PARALLEL),
         )),
         Group("workers", None, (
             value("--workers", "N", int,
                   "processes that read logs; left out: one for few logs, all processors for many"),
-            _DASK,
+            DASK,
         )),
-        *_page(), _pictures(),
+        *page(), pictures(),
     ),
 )  # fmt: skip
 
@@ -435,12 +366,12 @@ _DIAGNOSE = Command(
     "mistaken for, and what these logs cannot show.",
     "modeler diagnose arm.model.json train.parquet --holdout other.parquet",
     (
-        _MODEL, _logs(f"logs to explain; {_WINDOW}"),
+        MODEL, logs(f"logs to explain; {WINDOW}"),
         several("--holdout", "LOG", places.LogFile,
                 "logs of other motion: errors come from them, nothing is fitted to them"),
         repeated("--without", "EFFECT[@J]", places.Word,
                  "an effect that this robot does not have, on one joint or at all"),
-        _MAP, *_page(), _pictures(),
+        MAP, *page(), pictures(),
     ),
 )  # fmt: skip
 
@@ -453,15 +384,15 @@ _ADD = Command(
     "modeler add arm.model.json load_friction --joint 2 train.parquet "
     "--holdout other.parquet --out arm2.model.json",
     (
-        _MODEL,
+        MODEL,
         value("effect", "EFFECT", places.Word, "see `modeler effects`; auto; undo"),
-        _logs("logs to fit to"),
+        logs("logs to fit to"),
         value("--joint", "J", places.Word, "default: where it explains most"),
-        value("--out", "MODEL2", places.Output, "model file to write", **_REQUIRED),
+        value("--out", "MODEL2", places.Output, "model file to write", **REQUIRED),
         several("--holdout", "LOG", places.LogFile, "logs of other motion to judge on"),
         value("--robot-out", "FILE.toml", places.Output, "write the new robot file too",
               old=("--robot",)),
-        _MAP, *_page(), _pictures(),
+        MAP, *page(), pictures(),
     ),
 )  # fmt: skip
 
@@ -474,8 +405,8 @@ _EXCITE = Command(
     "apart. With --choose: the best of motions that there are.",
     "modeler excite panda --duration 10 --out motion.csv --picture motion.png",
     (
-        value("robot", "ROBOT|MODEL", places.RobotOrModel, _ROBOT_OR_MODEL),
-        _CHANGED,
+        value("robot", "ROBOT|MODEL", places.RobotOrModel, ROBOT_OR_MODEL),
+        CHANGED,
         value("--out", "MOTION", places.NewLog,
               "motion to write, .csv or .parquet: time, q, qd and qdd of every joint"),
         value("--picture", "FILE", places.Output, "draw it against its limits: .png, .svg or .pdf"),
@@ -525,8 +456,8 @@ _SIMULATE = Command(
     "seed.",
     "modeler simulate demo-arm --duration 30 --seed 1 --out run1.parquet",
     (
-        _ROBOT, _CHANGED,
-        value("--out", "LOG", places.NewLog, "log to write, .parquet or .csv", **_REQUIRED),
+        ROBOT, CHANGED,
+        value("--out", "LOG", places.NewLog, "log to write, .parquet or .csv", **REQUIRED),
         value("--truth-out", "FILE.json", places.Output, "write the true parameters",
               old=("--truth",)),
         Group("the motion", None, (
@@ -625,7 +556,7 @@ _DEMO = Command(
     "modeler demo --out demo",
     (
         value("--out", "DIR", places.DemoFolder, "folder (default %(default)s)", default="demo"),
-        _FORCE,
+        FORCE,
         flag("--open", "show the pages in the browser"),
         value("--duration", "S", float, "seconds of each simulated run", default=20.0),
     ),
@@ -672,7 +603,7 @@ FAMILIES: dict[str, tuple[Command, ...]] = {
     "measure": (_EXCITE, _SIMULATE, _LOG),
     "identify": (_FIT, _COMPARE),
     "understand": (_DIAGNOSE, _ADD, _PHYSICAL, _FLEET),
-    "use": (_GENERATE, _EXPORT),
+    "use": (GENERATE, EXPORT),
     "about": (_ROBOTS, _CATALOGUE, _ESTIMATORS, _REPRODUCE, _DEMO, _COMPLETION),
 }
 """What belongs together, in the order of `modeler --help`."""

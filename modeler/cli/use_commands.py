@@ -1,0 +1,49 @@
+"""The commands that hand a model to other programs: C for controllers, files of other formats."""
+
+from typing import get_args
+
+from modeler.cli import places
+from modeler.cli.options import Command, choice, flag, value
+from modeler.cli.shared_arguments import CHANGED, FORCE, REQUIRED, ROBOT_OR_MODEL
+from modeler.core import errors
+
+GENERATE = Command(
+    "generate", "derive:run_generate",
+    "C source, header, manifest and build files",
+    "Writes dependency-free C99 for ROBOT: regressors, inverse dynamics, inertia matrix, gravity, "
+    "Coriolis, and the batch observation matrix, in a folder that builds by itself with make or "
+    "cmake. Of a MODEL also functions that have its fitted values: they take no parameters, and "
+    "their Coulomb friction can be smoothed.",
+    "modeler generate panda --out panda_c; of a fitted model: "
+    "modeler generate arm.model.json --out arm_c",
+    (
+        value("robot", "ROBOT|MODEL", places.RobotOrModel, ROBOT_OR_MODEL),
+        CHANGED,
+        value("--out", "DIR", places.ModuleFolder, "folder to write", **REQUIRED),
+        choice("--precision", get_args(errors.Precision),
+               "of all numbers of the C: double, or float for a microcontroller", "double"),
+        flag("--cuda", "also the base regressor for graphics processors"),
+        FORCE,
+    ),
+    "write the manifest for machines",
+)  # fmt: skip
+
+EXPORT = Command(
+    "export", "export:run_export",
+    "the identified robot for another program: URDF, MJCF, SDF",
+    "Writes the masses, mass centres, inertias, friction and rotor inertias of MODEL as a machine "
+    "that could be built: into the bytes of an ORIGINAL, of which nothing else changes, or into a "
+    "file of its own whose links are capsules. Says what every number was and is, and which "
+    "effects the format cannot hold.",
+    "modeler export arm.model.json --like arm.urdf --out better.urdf",
+    (
+        value("source", "MODEL|ROBOT", places.RobotOrModel, ROBOT_OR_MODEL),
+        choice("--to", ("urdf", "mjcf", "sdf"),
+               "format; by --like, or by the ending of --out (.xml is MJCF)"),
+        value("--like", "ORIGINAL", places.OriginalFile,
+              "a file of the same robot: only its numbers are replaced"),
+        value("--out", "FILE", places.OtherProgramsFile, "file to write", **REQUIRED),
+        flag("--force", "write over a file that is there"),
+    ),
+    "write the numbers for machines",
+)  # fmt: skip
