@@ -20,6 +20,7 @@ Letters = tuple[str, str, str]
 
 _WIDTH = 96  # of a line without its indent
 _SHORT = re.compile(r"\b[tk]\d+\b")
+_GIVEN = re.compile(r"(?:const \w+ )?(\w+) :?= ")
 
 
 @cache
@@ -56,14 +57,19 @@ class Naming:
             taken.add(name.lower())
             self._names[short] = name
 
-    def written(self, lines: Sequence[str], remark: str = "/* {} */") -> tuple[str, ...]:
+    def written(self, lines: Sequence[str], remark: str) -> tuple[str, ...]:
         """The lines with the names, a comment before the first of each quantity of a link.
 
         As many as before: a comment, and what a line is too long for, stand within the line.
+
+        Args:
+            lines: some of the function.
+            remark: a comment, around `{}`.
         """
         found = []
         for line in lines:
-            label = self._labels.get(line.split(" = ")[0].split(" ")[-1])
+            given = _GIVEN.match(line)
+            label = self._labels.get(given[1]) if given else None
             text = _wrapped(_SHORT.sub(lambda match: self._names.get(match[0], match[0]), line))
             comment = "" if label is None else self._comment(label)
             found.append(f"{_wrapped(remark.format(comment))}\n{text}" if comment else text)
@@ -96,7 +102,8 @@ def _link(name: str) -> str:
 def _name(label: Label) -> str:
     component = re.sub(r"\W", "", label.of) + label.component
     name = f"{label.quantity}{_link(label.link)}{label.step}"
-    return "minus_" * label.minus + name + f"_{component}" * bool(component)
+    name = "minus_" * label.minus + name + f"_{component}" * bool(component)
+    return re.sub("__+", "_", name)  # which compilers keep for themselves
 
 
 def _wrapped(line: str, width: int = _WIDTH) -> str:

@@ -7,11 +7,9 @@ small letters from capital ones and have no two underscores in a row, as the sta
 import dataclasses
 import re
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
 
-from modeler.codegen import functions as layout
 from modeler.codegen.block import make_block
 from modeler.codegen.fitted import Width, fitted_texts, widths
 from modeler.codegen.functions import CFunction
@@ -52,7 +50,7 @@ def _target(prefix: str) -> Target:
     )
 
 
-def structured_text(
+def structured_texts(
     model: SymbolicModel, spec: ModuleSpec, values: Mapping[str, Any], fitted: Sequence[CFunction]
 ) -> dict[str, str]:
     """{name: text} of the function blocks; of a fitted model, those with its values.
@@ -78,8 +76,8 @@ def structured_text(
     own = {function.role: function for function, _ in values["blocks"]}
     functions = [*fitted, *(own[role] for role in _ROLES if role in own)]
     turning = widths(spec.prefix, model, fitted)
-    texts, prefix = values["symbols"].texts, identifier(spec.prefix)
-    lengths = {name: identifier(f"geo_{name}") for name in texts}
+    prefix, known = identifier(spec.prefix), model.geometry.values
+    lengths = {name: identifier(f"geo_{name}") for name in known}
     places = values["places"] | lengths
     places |= {f"s[{k}]": f"signals[{k}]" for k in range(len(spec.signals))}
     target = _target(prefix)
@@ -87,13 +85,14 @@ def structured_text(
         _function_block(function, prefix, places, turning if function in fitted else {}, target)
         for function in functions
     ]
-    read = frozenset[str]().union(*(each["symbols"] for each in made))
-    constants = [(lengths[n], target.signed(Fraction(texts[n]))) for n in texts if n in read]
-    unit = fitted_texts(spec, spec.fitted, ()) if spec.fitted is not None and fitted else {}
+    for each in made:
+        own_symbols = [name for name in known if name in each["symbols"]]
+        each["constants"] = [(lengths[n], target.literal(known[n])) for n in own_symbols]
+    unit = fitted_texts(spec, spec.fitted, ()) if spec.fitted is not None else {"remarks": []}
     letters = legend(letter for each in made for letter in each["letters"])
     text = render(
         "structured_text.st", **{**values, **unit, "spec": spec, "prefix": prefix, "made": made,
-        "constants": constants, "letters": letters},
+         "letters": letters},
     )  # fmt: skip
     return {f"{spec.prefix}.st": text}
 
