@@ -1,4 +1,4 @@
-"""A robot or a model for programs that compute with its equations: CasADi, FMU."""
+"""A robot or a model for programs that compute with its equations: CasADi, FMU, ROS 2."""
 
 import dataclasses
 import io
@@ -16,7 +16,7 @@ from modeler.exports import Exported, Value
 from modeler.robot import Robot
 from modeler.runtime import portable_library
 
-OF_EQUATIONS = ("casadi", "fmu", "simulink")
+OF_EQUATIONS = ("casadi", "fmu", "simulink", "ros2")
 """Formats that are made of the equations."""
 
 _BINARIES = {"linux": ("linux", "so"), "darwin": ("darwin", "dylib"), "win32": ("windows", "dll")}
@@ -35,6 +35,8 @@ def code_exported(thing: Robot | IdentifiedModel, to: str) -> Exported:
     """
     if to == "casadi":
         return _casadi(thing)
+    if to == "ros2":
+        return _ros2(thing)
     found = _fmu(thing)
     if to == "simulink":
         note = "Simulink imports FMUs: put this one into its block FMU"
@@ -82,6 +84,21 @@ def _fmu(thing: Robot | IdentifiedModel) -> Exported:
     except BuildError as error:
         notes.append(f"sources only, for nothing could be compiled here: {error}")
     return Exported(spec.robot, "fmu", "", _archive(files), values, (), 0.0, tuple(notes))
+
+
+def _ros2(thing: Robot | IdentifiedModel) -> Exported:
+    """A package with a chainable controller."""
+    from modeler.codegen import ros2_files  # jinja2
+
+    emitted = generate(_derivation(thing))
+    fitted = thing if isinstance(thing, IdentifiedModel) else None
+    values = tuple(_values(emitted.spec, fitted))
+    source = "Values of the robot file" if fitted is None else f"Values of a fit, {fitted.fit.method}"
+    texts = ros2_files(emitted, [value.now for value in values], source)
+    files = {name: text.encode() for name, text in texts.items()}
+    notes = ("the ROS part was never built or run with ROS; see README.md of the package",)
+    name = emitted.spec.robot
+    return Exported(name, "ros2", "", b"", values, (), 0.0, notes, files=files)
 
 
 def _archive(files: Mapping[str, bytes]) -> bytes:
