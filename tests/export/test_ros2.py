@@ -158,6 +158,7 @@ namespace trajectory_msgs::msg { struct JointTrajectoryPoint {
 }
 """Headers of ROS 2 Jazzy, as far as the controller uses them."""
 
+HOT = '[effects]\ntemperature_friction = "all"'
 WARNED = ("-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror")
 
 
@@ -215,7 +216,12 @@ def test_the_files_name_one_another(package) -> None:
 
 
 def test_what_is_refused(tmp_path) -> None:
-    text = load("two-link").text
-    robot = robot_from_text(f'{text}\n[own_effects.warm]\ncolumns = {{ Kw = "t*v" }}\n', "warm")
-    with pytest.raises(ModelerError, match="reads|read"):
-        export(robot, tmp_path / "p", to="ros2")
+    text = load("demo-arm").text
+    robot = robot_from_text(text.replace("[effects]", HOT), "hot")
+    for to in ("ros2", "fmu"):
+        with pytest.raises(ModelerError, match="its effects read temperature, which"):
+            export(robot, tmp_path / "p", to=to)
+        with pytest.raises(ModelerError, match="wrist: a robot without values; write"):
+            export(load("wrist"), tmp_path / "p", to=to)
+        with pytest.raises(ModelerError, match=f"arm.urdf: is for robot files, and --to says {to}"):
+            export(robot, tmp_path / "p", to=to, like="arm.urdf")
