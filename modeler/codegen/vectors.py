@@ -109,7 +109,8 @@ def _tables(
 
     @cache
     def steps(role: str) -> Callable[[Mapping[str, Ball]], list[Ball]]:
-        return ball_function(model.graph, [value for _, value in roles[role].entries], symbols)
+        values = [value for _, value in roles[role].entries]
+        return ball_function(values[0].graph if values else model.graph, values, symbols)
 
     def outputs(role: str, values: Mapping[str, Ball]) -> list[Ball]:
         out = [exact_ball(0)] * roles[role].output.size
