@@ -3,6 +3,7 @@
 from benchmarks import (
     answers,
     callgrind,
+    control,
     cortex,
     folder,
     least_squares,
@@ -17,6 +18,7 @@ from benchmarks import (
 LINES = (
     *start.LINES,
     *regressor.LINES,
+    *control.LINES,
     *callgrind.LINES,
     *cortex.LINES,
     *folder.LINES,

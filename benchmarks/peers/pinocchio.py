@@ -1,4 +1,4 @@
-"""Pinocchio's C++ regressor, compiled from the headers of the `pin` wheel."""
+"""Pinocchio's C++, compiled from the headers of the `pin` wheel."""
 
 import ctypes
 import hashlib
@@ -6,6 +6,7 @@ import importlib.util
 import os
 import shutil
 import subprocess
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -69,8 +70,14 @@ def _headers() -> list[Path]:
     return found
 
 
-def write_model(robot: Robot, place: Path) -> None:
-    """The robot as the peer reads it."""
+def write_model(robot: Robot, place: Path, bodies: Mapping[str, Sequence[float]] = {}) -> None:
+    """The robot as the peer reads it.
+
+    Args:
+        robot: without loops.
+        place: file to write.
+        bodies: {joint: mass, centre, inertia there as xx xy yy xz yz zz, rotor inertia}.
+    """
     values = robot.symbol_values()
     lines = [" ".join(repr(float(e.number(values))) for e in robot.gravity)]
     places: dict[str, tuple[int, np.ndarray]] = {"0": (0, np.eye(4))}
@@ -84,6 +91,7 @@ def write_model(robot: Robot, place: Path) -> None:
             continue
         count += 1
         cells = [*placement[:3, :3].ravel(), *placement[:3, 3]]
+        cells += bodies.get(joint.name, [0.0] * 11)
         turns = int(joint.angular)
         lines.append(f"{parent} {turns} " + " ".join(repr(float(cell)) for cell in cells))
         places[joint.name] = (count, np.eye(4))

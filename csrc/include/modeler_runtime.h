@@ -8,6 +8,8 @@
 
 #include <stddef.h>
 
+#include "modeler_real.h"
+
 #if (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
 #error "modeler: NaN must stay NaN: compile without -ffast-math and -ffinite-math-only (/fp:fast)"
 #endif
@@ -36,9 +38,11 @@
 #endif
 
 /* -1, 0 or 1; NaN where x is not finite. */
-static inline double modeler_sign(double x)
+static inline modeler_real modeler_sign(modeler_real x)
 {
-    return (x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0) + (x - x);
+    const modeler_real zero = 0, one = 1;
+
+    return (x > zero ? one : x < zero ? -one : zero) + (x - x);
 }
 
 #ifdef __cplusplus
@@ -46,33 +50,34 @@ extern "C" {
 #endif
 
 /* An emitted function with so many inputs. */
-typedef void (*modeler_function_1)(const double *, double *);
-typedef void (*modeler_function_2)(const double *, const double *, double *);
-typedef void (*modeler_function_3)(const double *, const double *, const double *, double *);
-typedef void (*modeler_function_4)(const double *, const double *, const double *, const double *,
-                                   double *);
-typedef void (*modeler_function_5)(const double *, const double *, const double *, const double *,
-                                   const double *, double *);
+typedef void (*modeler_function_1)(const modeler_real *, modeler_real *);
+typedef void (*modeler_function_2)(const modeler_real *, const modeler_real *, modeler_real *);
+typedef void (*modeler_function_3)(const modeler_real *, const modeler_real *, const modeler_real *,
+                                   modeler_real *);
+typedef void (*modeler_function_4)(const modeler_real *, const modeler_real *, const modeler_real *,
+                                   const modeler_real *, modeler_real *);
+typedef void (*modeler_function_5)(const modeler_real *, const modeler_real *, const modeler_real *,
+                                   const modeler_real *, const modeler_real *, modeler_real *);
 
 /* An input over samples: the values of sample i stand at data + i*step.
  * step 0: the same values for every sample, as for parameters. */
 typedef struct {
-    const double *data;
+    const modeler_real *data;
     size_t step;
 } modeler_input;
 
 /* Call `function` once per sample; inputs in its order. The result of sample i is written at
  * out + i*out_step. */
 void modeler_batch_1(modeler_function_1 function, size_t samples, const modeler_input inputs[1],
-                     double *out, size_t out_step);
+                     modeler_real *out, size_t out_step);
 void modeler_batch_2(modeler_function_2 function, size_t samples, const modeler_input inputs[2],
-                     double *out, size_t out_step);
+                     modeler_real *out, size_t out_step);
 void modeler_batch_3(modeler_function_3 function, size_t samples, const modeler_input inputs[3],
-                     double *out, size_t out_step);
+                     modeler_real *out, size_t out_step);
 void modeler_batch_4(modeler_function_4 function, size_t samples, const modeler_input inputs[4],
-                     double *out, size_t out_step);
+                     modeler_real *out, size_t out_step);
 void modeler_batch_5(modeler_function_5 function, size_t samples, const modeler_input inputs[5],
-                     double *out, size_t out_step);
+                     modeler_real *out, size_t out_step);
 
 #ifdef __cplusplus
 }

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "82bf655f05f1a68d"
+#define EVRA_SIGNATURE "d8bc365465081827"
 
 #define EVRA_JOINTS 8
 #define EVRA_STANDARD_PARAMETERS 210

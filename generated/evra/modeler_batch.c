@@ -5,35 +5,35 @@
 #define AT(which) (inputs[which].data + i * inputs[which].step)
 
 void modeler_batch_1(modeler_function_1 function, size_t samples, const modeler_input inputs[1],
-                     double *out, size_t out_step)
+                     modeler_real *out, size_t out_step)
 {
     for (size_t i = 0; i < samples; i++)
         function(AT(0), out + i * out_step);
 }
 
 void modeler_batch_2(modeler_function_2 function, size_t samples, const modeler_input inputs[2],
-                     double *out, size_t out_step)
+                     modeler_real *out, size_t out_step)
 {
     for (size_t i = 0; i < samples; i++)
         function(AT(0), AT(1), out + i * out_step);
 }
 
 void modeler_batch_3(modeler_function_3 function, size_t samples, const modeler_input inputs[3],
-                     double *out, size_t out_step)
+                     modeler_real *out, size_t out_step)
 {
     for (size_t i = 0; i < samples; i++)
         function(AT(0), AT(1), AT(2), out + i * out_step);
 }
 
 void modeler_batch_4(modeler_function_4 function, size_t samples, const modeler_input inputs[4],
-                     double *out, size_t out_step)
+                     modeler_real *out, size_t out_step)
 {
     for (size_t i = 0; i < samples; i++)
         function(AT(0), AT(1), AT(2), AT(3), out + i * out_step);
 }
 
 void modeler_batch_5(modeler_function_5 function, size_t samples, const modeler_input inputs[5],
-                     double *out, size_t out_step)
+                     modeler_real *out, size_t out_step)
 {
     for (size_t i = 0; i < samples; i++)
         function(AT(0), AT(1), AT(2), AT(3), AT(4), out + i * out_step);

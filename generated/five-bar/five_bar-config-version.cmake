@@ -1,6 +1,6 @@
 # find_package(five_bar) takes any, find_package(five_bar 1) any of this C interface,
-# find_package(five_bar 1.58679.42025.39382) only what has the signature e537a42999d61a9b.
-set(PACKAGE_VERSION 1.58679.42025.39382)
+# find_package(five_bar 1.40470.39856.16051) only what has the signature 9e169bb03eb3d09f.
+set(PACKAGE_VERSION 1.40470.39856.16051)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "e537a42999d61a9b"
+#define FIVE_BAR_SIGNATURE "9e169bb03eb3d09f"
 
 #define FIVE_BAR_JOINTS 2
 #define FIVE_BAR_STANDARD_PARAMETERS 40

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "9ba42646ae008e16"
+#define ORTHOGLIDE_2003_SIGNATURE "fdc416c6c8c9aeab"
 
 #define ORTHOGLIDE_2003_JOINTS 3
 #define ORTHOGLIDE_2003_STANDARD_PARAMETERS 163

@@ -94,7 +94,7 @@ static void base_rows(const double *u, const double *qd, const double *qdd, doub
 
 const char *orthoglide_2003_signature(void)
 {
-    return "9ba42646ae008e16";
+    return "fdc416c6c8c9aeab";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

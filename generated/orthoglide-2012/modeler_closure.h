@@ -35,33 +35,36 @@ enum {
  * row after row; sines and cosines for other functions. Where a pivot of `factor` is small, the
  * equations are solved densely, with rows exchanged. */
 typedef struct {
-    int unknowns;             /* length of u */
-    int given;                /* how many of u are given */
-    int solved;               /* the others: as many as independent equations */
-    const int *given_places;  /* in u */
-    const int *solved_places; /* in u */
-    const double *scale;      /* of u: 1 for angles in rad, the robot's size for travels in m */
-    int equations;            /* of all loops, in m or 1 */
-    int alignments;           /* cosines that are positive where axes point as they should */
-    double tolerance;         /* of the equations */
-    int nonzeros;             /* of df/du */
-    const int *row;           /* of each nonzero: equation */
-    const int *column;        /* of each nonzero: place in u */
-    int length;               /* of `values` */
-    void (*closure)(const double *u, double *values);
-    void (*residual)(const double *u, double *f); /* the independent equations alone */
-    int factors;                                  /* length of lu */
-    const double *limits; /* largest size of the first `solved` of lu, which are 1/pivot */
-    void (*factor)(const double *J, double *lu);
-    void (*solve)(const double *lu, const double *right, double *x); /* J_solved x = right */
+    int unknowns;              /* length of u */
+    int given;                 /* how many of u are given */
+    int solved;                /* the others: as many as independent equations */
+    const int *given_places;   /* in u */
+    const int *solved_places;  /* in u */
+    const modeler_real *scale; /* of u: 1 for angles in rad, the robot's size for travels in m */
+    int equations;             /* of all loops, in m or 1 */
+    int alignments;            /* cosines that are positive where axes point as they should */
+    modeler_real tolerance;    /* of the equations */
+    int nonzeros;              /* of df/du */
+    const int *row;            /* of each nonzero: equation */
+    const int *column;         /* of each nonzero: place in u */
+    int length;                /* of `values` */
+    void (*closure)(const modeler_real *u, modeler_real *values);
+    void (*residual)(const modeler_real *u, modeler_real *f); /* the independent equations alone */
+    int factors;                                              /* length of lu */
+    const modeler_real *limits; /* largest size of the first `solved` of lu, which are 1/pivot */
+    void (*factor)(const modeler_real *J, modeler_real *lu);
+    /* J_solved x = right */
+    void (*solve)(const modeler_real *lu, const modeler_real *right, modeler_real *x);
     int couplings;              /* nonzeros of G in solved rows */
     const int *coupling_row;    /* of each: place in u */
     const int *coupling_column; /* of each: place among the given */
-    void (*coupling)(const double *J, const double *lu, double *G);
+    void (*coupling)(const modeler_real *J, const modeler_real *lu, modeler_real *G);
     /* x: at least the sums of the absolute entries of each row of J_solved^-1 (K - J)_solved */
-    void (*turned)(const double *J, const double *K, const double *lu, double *x);
+    void (*turned)(const modeler_real *J, const modeler_real *K, const modeler_real *lu,
+                   modeler_real *x);
     /* sum of the squares of the entries of that matrix, in scaled variables */
-    void (*spread)(const double *J, const double *K, const double *lu, double *sum);
+    void (*spread)(const modeler_real *J, const modeler_real *K, const modeler_real *lu,
+                   modeler_real *sum);
 } modeler_closure;
 
 /* Numbers that `work` must hold. */
@@ -71,57 +74,61 @@ typedef struct {
 
 /* Closed posture u with the given variables at q, from the closed posture `start`.
  * u may be `start`. Returns a status; u is unchanged unless it is MODELER_CLOSED. */
-int modeler_close(const modeler_closure *loops, const double *q, const double *start, double *u,
-                  double *work);
+int modeler_close(const modeler_closure *loops, const modeler_real *q, const modeler_real *start,
+                  modeler_real *u, modeler_real *work);
 
 /* The same from the posture to which the last call with this `work` has come. */
-int modeler_close_next(const modeler_closure *loops, const double *q, double *u, double *work);
+int modeler_close_next(const modeler_closure *loops, const modeler_real *q, modeler_real *u,
+                       modeler_real *work);
 
 /* The functions below use what `work` holds of the closed posture that was found last. */
 
 /* G: ud = G qd; unknowns x given, row-major. */
-void modeler_coupling(const modeler_closure *loops, double *G, double *work);
+void modeler_coupling(const modeler_closure *loops, modeler_real *G, modeler_real *work);
 
 /* Velocities and accelerations: ud = G qd, udd = G qdd + gamma; `drift` writes d/dt(J) ud. */
 void modeler_follow(const modeler_closure *loops,
-                    void (*drift)(const double *u, const double *ud, double *values),
-                    const double *u, const double *qd, const double *qdd, double *G, double *ud,
-                    double *udd, double *work);
+                    void (*drift)(const modeler_real *u, const modeler_real *ud,
+                                  modeler_real *values),
+                    const modeler_real *u, const modeler_real *qd, const modeler_real *qdd,
+                    modeler_real *G, modeler_real *ud, modeler_real *udd, modeler_real *work);
 
 /* `values`, lu and the nonzeros of G in solved rows; returns 0 if the equations were solved densely,
  * so that there is no lu. */
-int modeler_eliminated(const modeler_closure *loops, double *work, const double **values,
-                       const double **lu, const double **G);
+int modeler_eliminated(const modeler_closure *loops, modeler_real *work,
+                       const modeler_real **values, const modeler_real **lu,
+                       const modeler_real **G);
 
 /* out = G^T rows: `rows` is unknowns x width, out is given x width. */
-void modeler_project(const modeler_closure *loops, const double *G, const double *rows, int width,
-                     double *out);
+void modeler_project(const modeler_closure *loops, const modeler_real *G, const modeler_real *rows,
+                     int width, modeler_real *out);
 
 /* 1 if all are finite. */
-int modeler_finite(const double *x, size_t length);
+int modeler_finite(const modeler_real *x, size_t length);
 
 /* What a function returns: the status, or MODELER_NOT_FINITE. Unless it is MODELER_CLOSED, `out` is
  * all NaN then. */
-int modeler_told(int status, double *out, size_t length);
+int modeler_told(int status, modeler_real *out, size_t length);
 
 /* Emitted functions with a status, and loops over samples that keep it. */
-typedef int (*modeler_status_1)(const double *, double *);
-typedef int (*modeler_status_2)(const double *, const double *, double *);
-typedef int (*modeler_status_3)(const double *, const double *, const double *, double *);
-typedef int (*modeler_status_4)(const double *, const double *, const double *, const double *,
-                                double *);
+typedef int (*modeler_status_1)(const modeler_real *, modeler_real *);
+typedef int (*modeler_status_2)(const modeler_real *, const modeler_real *, modeler_real *);
+typedef int (*modeler_status_3)(const modeler_real *, const modeler_real *, const modeler_real *,
+                                modeler_real *);
+typedef int (*modeler_status_4)(const modeler_real *, const modeler_real *, const modeler_real *,
+                                const modeler_real *, modeler_real *);
 
 void modeler_batch_status_1(modeler_status_1 function, size_t samples,
-                            const modeler_input inputs[1], double *out, size_t out_step,
+                            const modeler_input inputs[1], modeler_real *out, size_t out_step,
                             int *status);
 void modeler_batch_status_2(modeler_status_2 function, size_t samples,
-                            const modeler_input inputs[2], double *out, size_t out_step,
+                            const modeler_input inputs[2], modeler_real *out, size_t out_step,
                             int *status);
 void modeler_batch_status_3(modeler_status_3 function, size_t samples,
-                            const modeler_input inputs[3], double *out, size_t out_step,
+                            const modeler_input inputs[3], modeler_real *out, size_t out_step,
                             int *status);
 void modeler_batch_status_4(modeler_status_4 function, size_t samples,
-                            const modeler_input inputs[4], double *out, size_t out_step,
+                            const modeler_input inputs[4], modeler_real *out, size_t out_step,
                             int *status);
 
 #ifdef __cplusplus

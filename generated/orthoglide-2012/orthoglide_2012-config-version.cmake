@@ -1,6 +1,6 @@
 # find_package(orthoglide_2012) takes any, find_package(orthoglide_2012 1) any of this C interface,
-# find_package(orthoglide_2012 1.55400.53598.54114) only what has the signature d868d15ed362b629.
-set(PACKAGE_VERSION 1.55400.53598.54114)
+# find_package(orthoglide_2012 1.24235.19592.60564) only what has the signature 5eab4c88ec94117a.
+set(PACKAGE_VERSION 1.24235.19592.60564)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "d868d15ed362b629"
+#define ORTHOGLIDE_2012_SIGNATURE "5eab4c88ec94117a"
 
 #define ORTHOGLIDE_2012_JOINTS 3
 #define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196

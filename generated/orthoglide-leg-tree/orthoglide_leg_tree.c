@@ -45,7 +45,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "df0b4ac0bb34c47f";
+    return "013bd860370eec91";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What orthoglide_leg_tree_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE "df0b4ac0bb34c47f"
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE "013bd860370eec91"
 
 #define ORTHOGLIDE_LEG_TREE_JOINTS 6
 #define ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS 60

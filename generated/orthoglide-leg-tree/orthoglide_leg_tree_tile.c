@@ -53,7 +53,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "df0b4ac0bb34c47f";
+    return "013bd860370eec91";
 }
 
 #else /* for one instruction set */

@@ -1,6 +1,6 @@
 # find_package(sr400_tree) takes any, find_package(sr400_tree 1) any of this C interface,
-# find_package(sr400_tree 1.27555.16031.29910) only what has the signature 6ba33e9f74d6095c.
-set(PACKAGE_VERSION 1.27555.16031.29910)
+# find_package(sr400_tree 1.48590.35183.40048) only what has the signature bdce896f9c70e246.
+set(PACKAGE_VERSION 1.48590.35183.40048)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -59,7 +59,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "6ba33e9f74d6095c";
+    return "bdce896f9c70e246";
 }
 
 void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What sr400_tree_signature() of the library that belongs to this header returns. */
-#define SR400_TREE_SIGNATURE "6ba33e9f74d6095c"
+#define SR400_TREE_SIGNATURE "bdce896f9c70e246"
 
 #define SR400_TREE_JOINTS 8
 #define SR400_TREE_STANDARD_PARAMETERS 80

@@ -69,7 +69,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "6ba33e9f74d6095c";
+    return "bdce896f9c70e246";
 }
 
 #else /* for one instruction set */

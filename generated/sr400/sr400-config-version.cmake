@@ -1,6 +1,6 @@
 # find_package(sr400) takes any, find_package(sr400 1) any of this C interface,
-# find_package(sr400 1.15007.27182.44889) only what has the signature 3a9f6a2eaf59be21.
-set(PACKAGE_VERSION 1.15007.27182.44889)
+# find_package(sr400 1.32862.45153.33557) only what has the signature 805eb0618315098c.
+set(PACKAGE_VERSION 1.32862.45153.33557)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -56,7 +56,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "3a9f6a2eaf59be21";
+    return "805eb0618315098c";
 }
 
 void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,

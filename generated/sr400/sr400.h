@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What sr400_signature() of the library that belongs to this header returns. */
-#define SR400_SIGNATURE "3a9f6a2eaf59be21"
+#define SR400_SIGNATURE "805eb0618315098c"
 
 #define SR400_JOINTS 6
 #define SR400_STANDARD_PARAMETERS 80

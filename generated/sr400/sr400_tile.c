@@ -66,7 +66,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "3a9f6a2eaf59be21";
+    return "805eb0618315098c";
 }
 
 #else /* for one instruction set */

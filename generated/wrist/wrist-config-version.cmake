@@ -1,6 +1,6 @@
 # find_package(wrist) takes any, find_package(wrist 1) any of this C interface,
-# find_package(wrist 1.42740.27464.42171) only what has the signature a6f46b48a4bbae65.
-set(PACKAGE_VERSION 1.42740.27464.42171)
+# find_package(wrist 1.50814.2279.39164) only what has the signature c67e08e798fc0aab.
+set(PACKAGE_VERSION 1.50814.2279.39164)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

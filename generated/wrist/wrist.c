@@ -38,7 +38,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "a6f46b48a4bbae65";
+    return "c67e08e798fc0aab";
 }
 
 void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* What wrist_signature() of the library that belongs to this header returns. */
-#define WRIST_SIGNATURE "a6f46b48a4bbae65"
+#define WRIST_SIGNATURE "c67e08e798fc0aab"
 
 #define WRIST_JOINTS 3
 #define WRIST_STANDARD_PARAMETERS 30

@@ -47,7 +47,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "a6f46b48a4bbae65";
+    return "c67e08e798fc0aab";
 }
 
 #else /* for one instruction set */

@@ -46,20 +46,19 @@ def number_text(value: Fraction, target: Target = DOUBLE) -> Text:
     once as well.
 
     Raises:
-        EmitError: too large for the target.
+        EmitError: too large or too small for the target.
     """
     assert value >= 0
-    if value > target.largest:
-        raise EmitError(f"number {value} is too large for {target.precision} precision; rescale it")
-    nearest, end = float(value), target.suffix
+    nearest = target.nearest(value)
     if Fraction(repr(nearest)) == value or max(value.numerator, value.denominator) > target.exact:
-        return Text(f"{nearest!r}{end}", ATOM)
+        return Text(target.literal(nearest), ATOM)
+    end = target.suffix
     return Text(f"({value.numerator}.0{end}/{value.denominator}.0{end})", ATOM)
 
 
-def float_text(value: float) -> str:
-    """Text of a double, of either sign, as what a macro stands for: `0.2`, `(-0.1)`."""
-    return repr(value) if value >= 0 else f"({value!r})"
+def float_text(value: float, target: Target = DOUBLE) -> str:
+    """Text of a number, of either sign, as what a macro stands for: `0.2`, `(-0.1)`."""
+    return target.literal(value) if value >= 0 else f"({target.literal(value)})"
 
 
 def negative(value: Text) -> Text:

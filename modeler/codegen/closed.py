@@ -20,6 +20,7 @@ from modeler.codegen.elimination import (
 )
 from modeler.codegen.functions import Arguments, CFunction, Closed, entries_of
 from modeler.codegen.fused import Turns, base_columns, fused_regressor, turns_of
+from modeler.codegen.targets import Target
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec
 from modeler.derivation import BaseParameters, Closure, Expr, SymbolicModel
@@ -28,6 +29,9 @@ from modeler.derivation import BaseParameters, Closure, Expr, SymbolicModel
 
 
 PLATFORM = "platform_"
+
+_CLOSED = {"double": 1e-9, "single": 1e-5}
+"""Residual of a closed loop, relative to the robot's size."""
 
 
 @dataclass(frozen=True)
@@ -160,26 +164,26 @@ def _solving_functions(
     return [*found, rows]
 
 
-def closure_tables(model: SymbolicModel, solving: Solving, closed: float) -> dict[str, Any]:
+def closure_tables(model: SymbolicModel, solving: Solving, target: Target) -> dict[str, Any]:
     """Numbers of the closures, as C initialisers.
 
     Args:
         model: with loops.
         solving: how they are solved.
-        closed: residual of a closed loop, relative to the robot's size.
+        target: the number type.
     """
-    closure, places = solving.closure, solving.pattern.places
+    closure, places, literal = solving.closure, solving.pattern.places, target.literal
     scales = [closure.size if long else 1.0 for long in closure.lengths]
     return {
-        "home": ", ".join(repr(x) for x in closure.home),
-        "scale": ", ".join(repr(x) for x in scales),
+        "home": ", ".join(map(literal, closure.home)),
+        "scale": ", ".join(map(literal, scales)),
         "unknowns": len(closure.home),
         "solved": len(closure.solved),
         "given": len(closure.given),
         "equations": solving.equations,
         "alignments": len(closure.alignments),
         # Where the robot is small, its directions are as exact as its lengths.
-        "tolerance": repr(closed * min(1.0, closure.size)),
+        "tolerance": literal(_CLOSED[target.precision] * min(1.0, closure.size)),
         "variables": ", ".join(joint.name for joint in model.robot.free),
         "nonzeros": len(places),
         "row": layout.name_lines([row for row, _ in places]),
@@ -195,7 +199,7 @@ def closure_tables(model: SymbolicModel, solving: Solving, closed: float) -> dic
                     str(k) for k in range(len(closure.home)) if k not in solving.sets[head]
                 ),
                 "factors": len(own.factors),
-                "limits": layout.name_lines([repr(limit) for limit in own.limits]),
+                "limits": layout.name_lines(map(literal, own.limits)),
                 "couplings": len(own.coupling),
                 "coupling_row": layout.name_lines([k for k, _, _ in own.coupling]),
                 "coupling_column": layout.name_lines([j for _, j, _ in own.coupling]),

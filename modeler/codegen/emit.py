@@ -23,7 +23,7 @@ from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.package import package_files, render
-from modeler.codegen.targets import OF_PRECISION, WIDE, of_precision
+from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states
 from modeler.core import manifest
 from modeler.core.errors import EmitError, Precision
@@ -195,7 +195,7 @@ class SymbolLines:
 
 
 def symbol_lines(
-    model: SymbolicModel, base: BaseParameters, macros: Mapping[str, str]
+    model: SymbolicModel, base: BaseParameters, macros: Mapping[str, str], target: Target
 ) -> SymbolLines:
     """What is written of every declared symbol.
 
@@ -206,11 +206,12 @@ def symbol_lines(
         model: as derived.
         base: the base parameters of the same model.
         macros: of all declared symbols.
+        target: the number type.
     """
     values = model.geometry.values
     exact = base.proof.kind == "exact"
     stay = deciding_symbols(model.geometry) if exact else frozenset(values)
-    texts = {name: float_text(value) for name, value in values.items()}
+    texts = {name: float_text(value, target) for name, value in values.items()}
     return SymbolLines(
         free=tuple((macros[name], text) for name, text in texts.items() if name not in stay),
         fixed=tuple(
@@ -275,9 +276,6 @@ def _leaves(robot: Robot, cell: Expression) -> set[str]:
     return found
 
 
-_CLOSED = {"double": 1e-9, "single": 1e-5}
-"""Residual of a closed loop, relative to the robot's size."""
-
 _RESTRICT = "MODELER_RESTRICT "
 
 
@@ -337,7 +335,7 @@ def emit(
     values |= {"spec": spec}
 
     def others() -> dict[str, str]:
-        stored = {**values, "vectors": stored_states(model, functions)}
+        stored = {**values, "vectors": stored_states(model, functions, OF_PRECISION[precision])}
         return {
             **package_files(spec, code, stored),
             "base_parameters.md": render("base_parameters.md", **values),
@@ -374,7 +372,7 @@ class _Files(Mapping[str, str]):
 
 def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) -> dict[str, Any]:
     """What the templates read; the functions' bodies and the places of symbols with it."""
-    prefix = layout.module_prefix(model.robot.name)
+    prefix, target = layout.module_prefix(model.robot.name), OF_PRECISION[precision]
     macros = layout.symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
@@ -387,20 +385,18 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
         closed_functions(model, base, solving) if solving is not None
         else layout.tree_functions(model, base)
     )  # fmt: skip
-    blocks = [(f, _block(f, places, precision)) for f in functions]
+    blocks = [(f, _block(f, places, target)) for f in functions]
     spec = dataclasses.replace(module_spec(model, base, blocks), precision=precision)
-    symbols = symbol_lines(model, base, macros)
-    written = [_written(prefix, f, block) for f, block in blocks]
+    symbols = symbol_lines(model, base, macros, target)
+    written = [_written(prefix, f, block, target) for f, block in blocks]
     relations = [layout.relation(parameter) for parameter in base.parameters]
     chi, beta = layout.parameter_lines(spec, relations)
-    states = [f"const double *{name}" for name in ("q", "qd", "qdd")]
-    states += ["const double *s"] if spec.signals else []
+    states = [f"const {target.number} *{name}" for name in ("q", "qd", "qdd")]
+    states += [f"const {target.number} *s"] if spec.signals else []
     status = ["int *status"] if spec.closure is not None else []
-    single = precision == "single"
     values = {
+        **target.words,
         "spec": spec,
-        "single": single,
-        "wide": WIDE if single else "",
         "prefix": prefix,
         "macro": prefix.upper(),
         "title": layout.comment_text(spec.title or spec.robot),
@@ -418,19 +414,19 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
         "observation": [
             layout.prototype(
                 f"{prefix}_observation",
-                ["size_t samples", *states, f"double *{restrict}W", *status],
+                ["size_t samples", *states, f"{target.number} *{restrict}W", *status],
             )
             for restrict in ("", _RESTRICT)
         ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros]),
         "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros]),
-        "loops": closure_tables(model, solving, _CLOSED[precision]) if solving else None,
+        "loops": closure_tables(model, solving, target) if solving else None,
         "names": constants,
         "signature": "",
         "blocks": blocks,
         "places": places,
-        "tile": None if single else tile_of(functions, places, spec.nonzeros),
+        "tile": None if target.suffix else tile_of(functions, places, spec.nonzeros),
     }
     spec = dataclasses.replace(spec, code=manifest.code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
@@ -442,14 +438,14 @@ def _fitted_unit(
 ) -> tuple[ModuleSpec, dict[str, str]]:
     """The manifest with the values, and the C of the functions that have them."""
     spec: ModuleSpec = values["spec"]
-    prefix = spec.prefix
+    prefix, target = spec.prefix, OF_PRECISION[spec.precision]
     check_values(base, fitted)
     functions = fitted_functions(model, base, fitted)
     found = widths(prefix, model, functions)
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
-    blocks = [(f, _block(f, values["places"], spec.precision, turning)) for f in functions]
-    written = [_written(prefix, f, block) for f, block in blocks]
+    blocks = [(f, _block(f, values["places"], target, turning)) for f in functions]
+    written = [_written(prefix, f, block, target) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
         widths=tuple(width.macro for width in every),
@@ -478,15 +474,15 @@ def _control_unit(
     model: SymbolicModel, spec: ModuleSpec, functions: Sequence[CFunction], values: dict[str, Any]
 ) -> tuple[ModuleSpec, dict[str, str]]:
     """The manifest with the controller's unit, and its C."""
-    prefix = spec.prefix
+    prefix, target = spec.prefix, OF_PRECISION[spec.precision]
     fitted = [f for f in functions if f.role.startswith("fitted_")]
     found = widths(prefix, model, fitted)
     turning = {speed: width.constant for speed, width in found.items()}
     blocks = [
-        (f, _block(f, values["places"], spec.precision, turning if f in fitted else None))
+        (f, _block(f, values["places"], target, turning if f in fitted else None))
         for f in functions
     ]
-    written = [_written(prefix, f, block) for f, block in blocks]
+    written = [_written(prefix, f, block, target) for f, block in blocks]
     texts = values["symbols"].texts if fitted else values["symbols"].initial
     values = values | {
         "spec": spec,
@@ -497,17 +493,15 @@ def _control_unit(
         "widths": tuple(dict.fromkeys(found.values())),
     }
     files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}
-    files = of_precision(spec.precision, files)
     control = manifest.ControlSpec(function_specs(prefix, blocks), manifest.code_digest(files))
     return dataclasses.replace(spec, control=control), files
 
 
 def _fitted_files(prefix: str, values: dict[str, Any], fitted: FittedSpec) -> dict[str, str]:
-    files = {
+    return {
         f"{prefix}{UNIT}.{kind}": render(f"fitted.{kind}", **{**values, "fitted": fitted})
         for kind in ("h", "c")
     }
-    return of_precision(values["spec"].precision, files)
 
 
 def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
@@ -536,21 +530,21 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
         if not source.is_file():
             source = (folder / "include" if name.endswith(".h") else folder) / name
         files[name] = source.read_text("utf-8")
-    return of_precision(spec.precision, files)
+    return files
 
 
 def _block(
     function: CFunction,
     places: dict[str, str],
-    precision: Precision,
+    target: Target,
     turning: Mapping[int, str] | None = None,
 ) -> Block:
     outputs = [(f"{function.output.name}[{index}]", value) for index, value in function.entries]
-    return make_block(outputs, places, turning, OF_PRECISION[precision])
+    return make_block(outputs, places, turning, target)
 
 
-def _written(prefix: str, function: CFunction, block: Block) -> _Written:
-    name = f"{prefix}_{function.role}"
+def _written(prefix: str, function: CFunction, block: Block, target: Target) -> _Written:
+    name, number = f"{prefix}_{function.role}", target.number
     returns = "void" if function.closed is None else "int"
     if function.internal and function.unit == UNIT:
         returns = "static void"
@@ -558,9 +552,9 @@ def _written(prefix: str, function: CFunction, block: Block) -> _Written:
         **vars(function),
         name=name,
         arguments=layout.argument_lines(function),
-        declaration=layout.prototype(name, layout.arguments(function, ""), returns),
-        definition=layout.prototype(name, layout.arguments(function, _RESTRICT), returns),
-        lines=[] if function.closed else layout.body_lines(function, block),
+        declaration=layout.prototype(name, layout.arguments(function, "", number), returns),
+        definition=layout.prototype(name, layout.arguments(function, _RESTRICT, number), returns),
+        lines=[] if function.closed else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications"),
     )
 

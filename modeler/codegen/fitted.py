@@ -15,6 +15,7 @@ from typing import Any
 from modeler.codegen import functions as layout
 from modeler.codegen.closed import closed_dynamics
 from modeler.codegen.functions import CFunction
+from modeler.codegen.targets import OF_PRECISION
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedSpec, ModuleSpec
 from modeler.derivation import BaseParameters, ShaftColumn, SymbolicModel, along
@@ -124,18 +125,18 @@ def fitted_texts(spec: ModuleSpec, fitted: FittedSpec, found: Sequence[Width]) -
     warning = "" if fitted.usable else "WARNING. "
     # Lines of the C table: the value, which it is, its unit, how sure it is.
     places = layout.enumerators(spec.prefix, "beta", [base.name for base in spec.base])
-    lines: list[str] = []
+    lines, literal = list[str](), OF_PRECISION[spec.precision].literal
     for parameter, place in zip(fitted.parameters, places, strict=True):
         sure = "set aside: the logs do not tell it"
         if parameter.sigma is not None:
             sure = f"sigma {parameter.sigma:.2g}{'' if parameter.essential else ', not essential'}"
         comma = "," if len(lines) + 1 < len(fitted.parameters) else " "
         about = layout.comment_line(f"{place} [{parameter.unit}], {sure}")
-        lines.append(f"    {parameter.value!r:>24}{comma} /* {about} */")
+        lines.append(f"    {literal(parameter.value):>24}{comma} /* {about} */")
     return {
         "widths": found,
         "remarks": layout.comment_lines([f"{warning}{verdict}", *doubts, *fitted.remarks]),
         "effort": " or ".join(dict.fromkeys(joint.effort_unit for joint in spec.joints)),
         "lines": lines,
-        "gains": layout.name_lines([repr(gain) for gain in fitted.gains]),
+        "gains": layout.name_lines([literal(gain) for gain in fitted.gains]),
     }

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from modeler.codegen.block import Block
+from modeler.codegen.targets import Target
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, ModuleSpec
 from modeler.derivation import (
@@ -391,11 +392,11 @@ def argument_lines(function: CFunction) -> list[str]:
     return lines
 
 
-def arguments(function: CFunction, restrict: str) -> list[str]:
-    """C parameters: inputs const; `restrict`, or nothing, is put before the output's name."""
+def arguments(function: CFunction, restrict: str, number: str) -> list[str]:
+    """C parameters of that type: inputs const; `restrict`, or nothing, goes before the output."""
     return [
-        *(f"const double *{argument.name}" for argument in function.inputs),
-        f"double *{restrict}{function.output.name}",
+        *(f"const {number} *{argument.name}" for argument in function.inputs),
+        f"{number} *{restrict}{function.output.name}",
     ]
 
 
@@ -426,7 +427,7 @@ def signal_lines(spec: ModuleSpec) -> list[str]:
     ]
 
 
-def body_lines(function: CFunction, block: Block) -> list[str]:
+def body_lines(function: CFunction, block: Block, target: Target) -> list[str]:
     """All statements of a function."""
     name, size = function.output.name, function.output.size
     written = {index for index, _ in function.entries}
@@ -450,7 +451,7 @@ def body_lines(function: CFunction, block: Block) -> list[str]:
             body += [*stores[done:end], *statements[k : k + 1]]
             done = end
     else:
-        lines += [f"{name}[{index}] = 0.0;" for index in zeros]
+        lines += [f"{name}[{index}] = {target.literal(0.0)};" for index in zeros]
     for part in (block.constants, block.calls, body):
         lines += ["", *part] if lines and part else part
     return lines

@@ -10,7 +10,6 @@ from typing import Any
 
 import jinja2
 
-from modeler.codegen.targets import of_precision
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
@@ -273,7 +272,7 @@ def package_files(
     own |= {COUNT: count} if count is not None else {}
     for name, more in own.items():
         texts[f"{FOLDER}/{name}.c"] = render(f"{name}.c", **given, **more)
-    return of_precision(spec.precision, texts)
+    return texts
 
 
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:

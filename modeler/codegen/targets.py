@@ -1,14 +1,17 @@
-"""What emitted arithmetic is made of: number type, literals, functions; single precision.
+"""What emitted arithmetic is made of: number type, literals, functions.
 
 One emitter writes a function for doubles, for floats, and for a vector whose lanes are samples.
+Templates are given the words of the target of their module (`words`). The hand-written runtime is
+the same text for both precisions: there `modeler_real.h` says what a number is, and names the
+external functions of floats `modelerf_...`, since a program may hold robots of both kinds.
 """
 
 import dataclasses
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
+from typing import Any
 
 from modeler.core.errors import EmitError, Precision
 
@@ -27,6 +30,7 @@ class Target:
         suffix: of a literal.
         precision: "double" or "single", for messages.
         exact: integers up to here are exact, so a quotient of two such literals is rounded once.
+        smallest: least positive number with all its digits.
         largest: greatest finite number.
         functions: {function of the graph: C name}, all of `FUNCTIONS`.
         sincos: C name of the function that gives sine and cosine at once.
@@ -39,6 +43,7 @@ class Target:
     suffix: str
     precision: Precision
     exact: int
+    smallest: Fraction
     largest: Fraction
     functions: Mapping[str, str]
     sincos: str
@@ -51,12 +56,50 @@ class Target:
         """The target of constants of the geometry."""
         return self.constant or self
 
+    def nearest(self, value: Fraction) -> float:
+        """The double next to a number that this target can hold.
+
+        Raises:
+            EmitError: it is too large or too small; says what the target holds.
+        """
+        size = abs(value)
+        if size > self.largest or (0 < size < self.smallest and self.precision == "single"):
+            number = str(value) if size > DOUBLE.largest else repr(float(value))
+            raise EmitError(
+                f"number {number} is too {'large' if size > 1 else 'small'} for {self.precision} "
+                f"precision, which has {float(self.smallest):.2g} to {float(self.largest):.2g}; "
+                f"rescale it{', or generate in double precision' * (self.precision == 'single')}"
+            )
+        return float(value)
+
+    def literal(self, value: float) -> str:
+        """A number as C has it.
+
+        Raises:
+            EmitError: it is too large or too small.
+        """
+        self.nearest(Fraction(value))
+        return f"{value!r}{self.suffix}"
+
+    @property
+    def words(self) -> dict[str, Any]:
+        """What templates write numbers with."""
+        single = self.precision == "single"
+        return {
+            "single": single,
+            "real": self.number,  # the type
+            "f": self.suffix,  # of literals, and of the functions of <math.h>
+            "literal": self.literal,
+            "wide": "(double)" if single else "",  # before what printf prints
+        }
+
 
 DOUBLE = Target(
     number="double",
     suffix="",
     precision="double",
     exact=2**53,
+    smallest=Fraction(1, 2**1022),
     largest=Fraction(2**53 - 1) * 2 ** (1024 - 53),
     functions=MappingProxyType(_MATH | {"sign": "modeler_sign"}),
     sincos="modeler_sincos",
@@ -68,11 +111,12 @@ SINGLE = Target(
     suffix="f",
     precision="single",
     exact=2**24,
+    smallest=Fraction(1, 2**126),
     largest=Fraction(2**24 - 1) * 2 ** (128 - 24),
     functions=MappingProxyType(
-        {name: f"{c}f" for name, c in _MATH.items()} | {"sign": "modelerf_sign"}
+        {name: f"{c}f" for name, c in _MATH.items()} | {"sign": "modeler_sign"}
     ),
-    sincos="modelerf_sincos",
+    sincos="modeler_sincos",
     smooth_sign="smooth_sign",
 )
 
@@ -91,83 +135,3 @@ TILE = dataclasses.replace(
     spread="modeler_lanes_spread({0})",
     constant=DOUBLE,
 )
-
-
-# C of doubles as C of floats: the one source of a module in single precision.
-#
-# Templates, emitted functions and the runtime are written once, in double precision. Here their
-# words change: types, literals, functions of <math.h>, and the names of the runtime, since a
-# program may hold robots of both kinds (`modeler_batch_1` of doubles, `modelerf_batch_1` of
-# floats). Comments, texts and preprocessor lines that include stay. What is arithmetic of its own
-# in single precision, sine and cosine, stands in `csrc/single`.
-
-
-SMALLEST, LARGEST = 2.0**-126, (2 - 2.0**-23) * 2.0**127
-"""Normal numbers of single precision."""
-
-WIDE = "(DOUBLE)"
-"""Written before what stays double: floats that printf prints."""
-
-_WORDS = re.compile(
-    r"""
-    (?P<kept> /\*.*?\*/ | \#[ ]*include[^\n]* | '(?:\\.|[^'\\])*' )
-  | (?P<text> "(?:\\.|[^"\\])*" )
-  | (?P<name> [A-Za-z_]\w* )
-  | (?P<number> 0[xX][0-9a-fA-F]+[uUlL]* | (?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?[uUlLfF]* )
-    """,
-    re.DOTALL | re.VERBOSE,
-)
-
-_MATH_CALLS = (
-    "acos", "asin", "atan", "atan2", "copysign", "cos", "exp", "expm1", "fabs", "floor", "fma",
-    "fmax", "fmin", "fmod", "hypot", "ldexp", "log", "log1p", "pow", "rint", "round", "sin", "sqrt",
-    "tan", "tanh", "trunc",
-)  # fmt: skip
-_NAMES = {"double": "float", "DOUBLE": "double", "atof": "(float)atof"}
-
-# Bounds of the closing of loops that follow from the precision: the correction after which the
-# error is its square, one that is not worth making, pivots that are zero, the shortest step.
-_BOUNDS = {"CONVERGED": "2e-4", "EXACT": "2e-6", "FLAT": "1e-4", "SHORTEST": "1e-4"}
-
-
-def of_precision(precision: Precision, files: Mapping[str, str]) -> dict[str, str]:
-    """{name: text} of files in that precision; what is no C is left alone.
-
-    Raises:
-        EmitError: a number is too large or too small for it; says which.
-    """
-    if precision == "double":
-        return dict(files)
-    return {
-        name: single_text(text) if name.endswith((".c", ".h")) else text
-        for name, text in files.items()
-    }
-
-
-def single_text(text: str) -> str:
-    """C text of doubles as one of floats."""
-    for name, value in _BOUNDS.items():
-        text = re.sub(rf"^(#define {name} )\S+", rf"\g<1>{value}", text, flags=re.MULTILINE)
-    return _WORDS.sub(_word, text)
-
-
-def _word(match: re.Match[str]) -> str:
-    word = match[0]
-    if match["name"]:
-        called = match.string[match.end() : match.end() + 1] == "("
-        if called and word in _MATH_CALLS:
-            return f"{word}f"
-        return re.sub(r"^modeler_", "modelerf_", _NAMES.get(word, word))
-    if match["text"]:
-        return word.replace("%lf", "%f").replace("%.17g", "%.9g")
-    if match["number"] and re.fullmatch(r"[\d.]+([eE][+-]?\d+)?f?", word) and not word.isdigit():
-        literal = word.removesuffix("f")
-        value = float(literal)
-        if value != 0.0 and not SMALLEST <= value <= LARGEST:
-            raise EmitError(
-                f"number {literal} is too {'large' if value > 1 else 'small'} for single "
-                f"precision, which has {SMALLEST:.2g} to {LARGEST:.2g}; rescale it, or generate in "
-                "double precision"
-            )
-        return f"{literal}f"
-    return word

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from modeler.codegen.functions import CFunction, Closed, name_lines
+from modeler.codegen.targets import Target
 from modeler.core.errors import EmitError
 from modeler.derivation import (
     Ball,
@@ -53,15 +54,18 @@ Balls = list[list[Ball]]
 """The same before they are rounded."""
 
 
-def stored_states(model: SymbolicModel, functions: Sequence[CFunction]) -> dict[str, Any]:
+def stored_states(
+    model: SymbolicModel, functions: Sequence[CFunction], target: Target
+) -> dict[str, Any]:
     """What the template of the check stores: `tables` by name, and how many `states` they hold.
 
     Args:
         model: as derived.
         functions: of the module, those with fitted values too.
+        target: the number type.
 
     Raises:
-        EmitError: the loops do not close beside home.
+        EmitError: a number is none of the target, or the loops do not close beside home.
     """
     with flint().ctx.workprec(_BITS):
         inputs, balls = _tables(model, functions, STATES)
@@ -70,7 +74,8 @@ def stored_states(model: SymbolicModel, functions: Sequence[CFunction]) -> dict[
     tables = {name: table for name, table in inputs.items() if name in read}
     tables |= {f"at_{role}": table for role, table in expected.items()}
     lines = {
-        key: name_lines([repr(x) for row in rows for x in row]) for key, rows in tables.items()
+        key: name_lines([target.literal(x) for row in rows for x in row])
+        for key, rows in tables.items()
     }
     return {"states": STATES, "tables": lines}
 

@@ -20,7 +20,7 @@ from modeler.core.result import Presented
 
 FORMAT = 2
 
-RUNTIME = ("modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
+RUNTIME = ("modeler_real.h", "modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
 """Hand-written C files that stand beside every emitted module."""
 
 CLOSURE_RUNTIME = ("modeler_closure.h", "modeler_closure.c")

@@ -235,7 +235,10 @@ def _declarations(spec: ModuleSpec) -> str:
 
 
 _SOURCES = ("modeler_fused.c",)
-_HEADERS = ("modeler_fused.h", "modeler_fused_body.h", "modeler_tile.h", "modeler_runtime.h")
+_HEADERS = (
+    "modeler_fused.h", "modeler_fused_body.h", "modeler_tile.h", "modeler_runtime.h",
+    "modeler_real.h",
+)  # fmt: skip
 _DECISIVE = ("CC", "CFLAGS", "PATH", "MODELER_CACHE", "XDG_CACHE_HOME", "HOME")
 """Variables that decide which library is meant, and where it is kept."""
 

@@ -1,10 +1,11 @@
-"""Single precision: words of C, sine and cosine, whole modules against double precision."""
+"""Single precision: literals, runtime, sine and cosine, whole modules against double precision."""
 
 import ctypes
 import dataclasses
 import re
 import subprocess
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,10 +14,10 @@ from modeler.api import derive, generate
 from modeler.cli import main
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
-from modeler.codegen.targets import of_precision, single_text
+from modeler.codegen.targets import DOUBLE, SINGLE
 from modeler.core.errors import EmitError, ManifestError
 from modeler.core.files import resource_dir
-from modeler.core.manifest import Emitted, module_from_json
+from modeler.core.manifest import CLOSURE_RUNTIME, RUNTIME, Emitted, module_from_json
 from modeler.runtime.model import CompiledModel, load_folder
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.modules import STRICT, compiler, loaded, module, plain, states
@@ -35,41 +36,40 @@ def single(name: str) -> CompiledModel:
     return loaded(emit(module(name).model, module(name).base, precision="single"))
 
 
-@pytest.mark.parametrize(
-    ("double", "float_"),
-    [
-        ("const double x = 1.5e-3;", "const float x = 1.5e-3f;"),
-        ("x = fabs(y) + .5*pow(z, 2.);", "x = fabsf(y) + .5f*powf(z, 2.f);"),
-        ("int round = 3, exp; a1[2] = 0x1e3;", "int round = 3, exp; a1[2] = 0x1e3;"),
-        ("modeler_close(&loops);", "modelerf_close(&loops);"),
-        ('#include "modeler_runtime.h"', '#include "modeler_runtime.h"'),
-        ("/* double 1.0, modeler_close */ double", "/* double 1.0, modeler_close */ float"),
-        ('scanf("%lf 1.0 double", x)', 'scanf("%f 1.0 double", x)'),
-        ('printf("%.17g", (DOUBLE)x)', 'printf("%.9g", (double)x)'),
-        ("y = atof(text);", "y = (float)atof(text);"),
-        ("#define CONVERGED 1e-8 /* so */", "#define CONVERGED 2e-4f /* so */"),
-        ("const float x = fabsf(1.5f);", "const float x = fabsf(1.5f);"),
-    ],
-)
-def test_words_of_c(double, float_):
-    assert single_text(double) == float_
-
-
-@pytest.mark.parametrize(("number", "what"), [("1e60", "large"), ("4e-50", "small")])
+@pytest.mark.parametrize(("number", "what"), [(1e60, "large"), (-4e-50, "small")])
 def test_a_number_that_a_float_cannot_hold_is_refused(number, what):
-    with pytest.raises(EmitError, match=f"number {number} is too {what} for single precision"):
-        of_precision("single", {"a.c": f"double x = {number};"})
+    with pytest.raises(EmitError, match=re.escape(f"{number} is too {what} for single pr")):
+        SINGLE.literal(number)
+    assert DOUBLE.literal(number) == repr(number)
 
 
-def test_what_is_no_c_is_left_alone():
-    assert of_precision("single", {"README.md": "double 1.0"}) == {"README.md": "double 1.0"}
+def runtime(folder: Path) -> list[Path]:
+    """The sources of the runtime in single precision, and their headers, in one folder."""
+    csrc = resource_dir("csrc")
+    for name in (*RUNTIME, *CLOSURE_RUNTIME):
+        places = [csrc / "single" / name, csrc / "include" / name, csrc / name]
+        source = next(place for place in places if place.is_file())
+        (folder / name).write_text(source.read_text())
+    return sorted(folder.glob("*.c"))
 
 
-def test_closing_loops_has_no_bound_below_the_rounding_of_floats():
-    text = (resource_dir("csrc") / "modeler_closure.c").read_text()
-    numbers = r"(?<![\w.])\d+\.?\d*e-\d+"
-    assert min(map(float, re.findall(numbers, text))) < 1e-10
-    assert min(map(float, re.findall(numbers, single_text(text)))) > 1e-6
+def test_no_word_of_the_runtime_stays_in_double_precision(tmp_path):
+    """No type, literal or function of doubles; no external name that the runtime of doubles has."""
+    for source in runtime(tmp_path):
+        made = source.with_suffix(".o")
+        subprocess.run([compiler("gcc"), *STRICT, *FLOATS, "-c", source, "-o", made], check=True)
+        names = subprocess.run(["nm", "-g", made], capture_output=True, text=True, check=True)
+        found = [line.split()[-2:] for line in names.stdout.splitlines()]
+        assert not [name for _, name in found if name.startswith("modeler_")]
+        assert all(name.startswith("modelerf_") for kind, name in found if kind != "U")
+    for path in tmp_path.glob("*.[ch]"):  # what the files say themselves
+        path.write_text(re.sub(r"#include <.*>", "", path.read_text()))
+    for source in sorted(tmp_path.glob("*.c")):
+        read = [compiler("gcc"), "-E", "-P", source]
+        text = subprocess.run(read, capture_output=True, text=True, check=True).stdout
+        assert "float" in text
+        assert not re.search(r"\bdouble\b|\d\.\d*(e[-+]?\d+)?(?![\def.])", text)
+        assert not re.search(r"\b(fabs|fmin|fmax|sqrt|sin|cos|tan|exp|pow|floor|log)\(", text)
 
 
 def sines(x: np.ndarray, folder, *flags: str) -> tuple[np.ndarray, np.ndarray]:
@@ -78,7 +78,7 @@ def sines(x: np.ndarray, folder, *flags: str) -> tuple[np.ndarray, np.ndarray]:
     source.write_text(
         '#include "modeler_sincos.h"\nvoid many(int n, const float *x, float *s, float *c);\n'
         "void many(int n, const float *x, float *s, float *c)\n"
-        "{\n    for (int i = 0; i < n; i++) modelerf_sincos(x[i], s + i, c + i);\n}\n"
+        "{\n    for (int i = 0; i < n; i++) modeler_sincos(x[i], s + i, c + i);\n}\n"
     )
     include = resource_dir("csrc") / "single"
     command = [compiler("gcc"), *STRICT, *FLOATS, *flags, "-shared", "-fPIC", "-I", include]

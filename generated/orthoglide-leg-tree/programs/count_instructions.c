@@ -361,7 +361,7 @@ static unsigned long count_forward_kinematics(void)
 int main(void)
 {
     say("/* Instructions of one call at most, counted in qemu:\n");
-    say(" * orthoglide_leg_tree df0b4ac0bb34c47f. */\n");
+    say(" * orthoglide_leg_tree 013bd860370eec91. */\n");
     say("#define ORTHOGLIDE_LEG_TREE_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");

@@ -361,7 +361,7 @@ static unsigned long count_forward_kinematics(void)
 int main(void)
 {
     say("/* Instructions of one call at most, counted in qemu:\n");
-    say(" * sr400_tree 6ba33e9f74d6095c. */\n");
+    say(" * sr400_tree bdce896f9c70e246. */\n");
     say("#define SR400_TREE_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");

@@ -1,0 +1,46 @@
+/* The type of every number, and what follows from its precision: here float.
+ *
+ * A program may hold robots of both kinds, so every external name of the runtime is another one
+ * here.
+ */
+#ifndef MODELER_REAL_H
+#define MODELER_REAL_H
+
+typedef float modeler_real;
+
+/* A literal. */
+#define MODELER_REAL(x) x##f
+
+/* Of <math.h>. */
+#define modeler_fabs fabsf
+#define modeler_fmin fminf
+#define modeler_sqrt sqrtf
+
+/* Bounds of the solutions by Newton and by elimination, in scaled variables. */
+#define MODELER_CONVERGED 2e-4f /* a correction after which the error is its square */
+#define MODELER_EXACT 2e-6f     /* a correction that is not worth making */
+#define MODELER_FLAT 1e-4f      /* pivots below this share of the largest are zero */
+#define MODELER_SHORTEST 1e-4f  /* share of a way; where shorter steps fail too, it ends */
+
+/* modeler_batch.c */
+#define modeler_batch_1 modelerf_batch_1
+#define modeler_batch_2 modelerf_batch_2
+#define modeler_batch_3 modelerf_batch_3
+#define modeler_batch_4 modelerf_batch_4
+#define modeler_batch_5 modelerf_batch_5
+
+/* modeler_closure*.c */
+#define modeler_close modelerf_close
+#define modeler_close_next modelerf_close_next
+#define modeler_coupling modelerf_coupling
+#define modeler_follow modelerf_follow
+#define modeler_eliminated modelerf_eliminated
+#define modeler_project modelerf_project
+#define modeler_finite modelerf_finite
+#define modeler_told modelerf_told
+#define modeler_batch_status_1 modelerf_batch_status_1
+#define modeler_batch_status_2 modelerf_batch_status_2
+#define modeler_batch_status_3 modelerf_batch_status_3
+#define modeler_batch_status_4 modelerf_batch_status_4
+
+#endif
