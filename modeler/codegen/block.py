@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from modeler.codegen.naming import Letters, Naming
 from modeler.codegen.targets import DOUBLE, FUNCTIONS, Target
 from modeler.core.errors import EmitError
 from modeler.derivation import Expr, Graph
@@ -100,6 +101,7 @@ class Block:
         symbols: names of the graph's symbols that are read.
         additions: per call of the function; constants are not counted.
         multiplications: the same, divisions included.
+        letters: of the names of temporaries.
     """
 
     constants: tuple[str, ...]
@@ -108,6 +110,7 @@ class Block:
     symbols: frozenset[str]
     additions: int
     multiplications: int
+    letters: frozenset[Letters] = frozenset()
 
 
 def make_block(
@@ -155,7 +158,10 @@ def make_block(
         writer.lines.append(f"{place} = {writer.output(value)};")
     additions, multiplications = graph.operations(values)
     symbols = frozenset(graph.nodes[i].args[0] for i in reachable if graph.nodes[i].op == "sym")
-    return Block(constants, calls, writer.take(), symbols, additions, multiplications)
+    parts = constants, calls, writer.take()
+    naming = Naming(graph, writer.temporaries, [line for part in parts for line in part])
+    constants, calls, body = map(naming.written, parts)
+    return Block(constants, calls, body, symbols, additions, multiplications, naming.letters)
 
 
 @dataclass
@@ -171,6 +177,7 @@ class _Writer:
     lines: list[str] = field(default_factory=list)
     pairs: dict[int, str] = field(default_factory=dict)
     count: dict[str, int] = field(default_factory=lambda: {"k": 0, "t": 0})
+    temporaries: dict[str, int] = field(default_factory=dict)
 
     def is_call(self, index: int) -> bool:
         """True if C calls a function for it, which stands before the arithmetic."""
@@ -304,5 +311,6 @@ class _Writer:
             letter, number = "k", self.target.still.number
         self.count[letter] += 1
         name = f"{letter}{self.count[letter]}"
+        self.temporaries[name] = index
         self.lines.append(f"const {number} {name} = {self.texts[index].text};")
         self.texts[index] = Text(name, ATOM)

@@ -22,6 +22,7 @@ from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
+from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import package_files, render
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states
@@ -291,6 +292,7 @@ class _Written(CFunction):
     symbols: frozenset[str]
     additions: int
     multiplications: int
+    letters: frozenset[Letters]
 
 
 def emit(
@@ -317,22 +319,23 @@ def emit(
     """
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
-    values = _module(model, base, precision)
-    spec: ModuleSpec = values["spec"]
-    code = _code(spec, values)
-    kernels = cuda_files(values) if cuda else {}
-    functions = [function for function, _ in values["blocks"]]
-    if fitted is not None:
-        spec, unit = _fitted_unit(model, base, fitted, values)
-        functions += fitted_functions(model, base, fitted)
-        code |= unit
-    if control is not None:
-        found = [*control_functions(model, base, control)]
-        found += fitted_control_functions(model, base, fitted) if fitted is not None else []
-        spec, unit = _control_unit(model, spec, found, values)
-        functions += found
-        code |= unit
-    values |= {"spec": spec}
+    with model.labelled():
+        values = _module(model, base, precision)
+        spec: ModuleSpec = values["spec"]
+        code = _code(spec, values)
+        kernels = cuda_files(values) if cuda else {}
+        functions = [function for function, _ in values["blocks"]]
+        if fitted is not None:
+            spec, unit = _fitted_unit(model, base, fitted, values)
+            functions += fitted_functions(model, base, fitted)
+            code |= unit
+        if control is not None:
+            found = [*control_functions(model, base, control)]
+            found += fitted_control_functions(model, base, fitted) if fitted is not None else []
+            spec, unit = _control_unit(model, spec, found, values)
+            functions += found
+            code |= unit
+        values |= {"spec": spec}
 
     def others() -> dict[str, str]:
         stored = {**values, "vectors": stored_states(model, functions, OF_PRECISION[precision])}
@@ -460,6 +463,7 @@ def _fitted_unit(
         "outer": [f for f in written if not f.internal],
         "constants": _constants(written, values, values["symbols"].texts),
         "geometry": list(values["symbols"].macros),
+        "letters": _letters(written),
     }
     # The signature stands in the unit, so it comes last: it covers all the rest.
     fitted = dataclasses.replace(
@@ -491,6 +495,7 @@ def _control_unit(
         "constants": _constants(written, values, texts),
         "geometry": list(values["symbols"].macros) if fitted else [],
         "widths": tuple(dict.fromkeys(found.values())),
+        "letters": _letters(written),
     }
     files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}
     control = manifest.ControlSpec(function_specs(prefix, blocks), manifest.code_digest(files))
@@ -511,6 +516,7 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
     for unit in ("", "_regressor", "_base_regressor"):
         own = [f for f in functions if f.unit == unit]
         more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
+        more["letters"] = _letters(own)
         files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
     runtime: tuple[str, ...] = manifest.RUNTIME
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops
@@ -555,8 +561,13 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         declaration=layout.prototype(name, layout.arguments(function, "", number), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT, number), returns),
         lines=[] if function.closed else layout.body_lines(function, block, target),
-        **entries(block, "symbols additions multiplications"),
+        **entries(block, "symbols additions multiplications letters"),
     )
+
+
+def _letters(functions: Sequence[_Written]) -> list[str]:
+    """What the names of the temporaries of these functions are made of."""
+    return legend(letter for function in functions for letter in function.letters)
 
 
 def _constants(

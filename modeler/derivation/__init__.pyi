@@ -66,6 +66,7 @@ from .kinematics import (
     screws as screws,
     times as times,
 )
+from .labels import Label as Label
 from .lagrange import lagrange_torque as lagrange_torque
 from .model import SymbolicModel as SymbolicModel, along as along, effect_entries as effect_entries
 from .numeric_rank import random_states as random_states, regressor_values as regressor_values

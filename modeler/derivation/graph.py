@@ -27,6 +27,7 @@ import sympy
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, quarter_turns
+from modeler.derivation.labels import Label, Link
 
 # Values of expressions by steps that are listed once: closing loops asks hundreds of times.
 
@@ -134,7 +135,13 @@ class Node:
 
 
 class Graph:
-    """Nodes in order of creation: arguments always stand before their users."""
+    """Nodes in order of creation: arguments always stand before their users.
+
+    Attributes:
+        nodes: the operations.
+        labels: {node: what it is}, of those that were named; see `named`.
+        links: {name: the row}, for those who write of them.
+    """
 
     def __init__(self) -> None:
         one = Node("num", (Fraction(1),), True)
@@ -143,6 +150,8 @@ class Graph:
         self._residue = [0, 1]
         self._by_residue = {0: 0, 1: 1}
         self._plans: dict[tuple[int, ...], Plan] = {}
+        self.labels: dict[int, Label] = {}
+        self.links: dict[str, Link] = {}
 
     def symbol(self, name: str, static: bool = False) -> "Expr":
         """The input of that name; `static` for geometric symbols."""
@@ -425,6 +434,32 @@ class Expr:
         return result if exponent >= 0 else 1 / result
 
 
+def named(
+    quantity: str, link: str, values: Any, step: str = "", of: str = "",
+    components: Sequence[str] = "xyz",
+) -> Any:  # fmt: skip
+    """The values, which from now on are known as this quantity of a link where text is written.
+
+    A node keeps its first label, whatever else it turns out to be, unless that is a step; other
+    algebras than the graph's have none.
+
+    Args:
+        quantity: a letter; see `Label`.
+        link: name of the row; without one nothing is named.
+        values: one for each component.
+        step: on the way to the quantity.
+        of: a joint or parameter that the quantity is one unit of.
+        components: their names.
+    """
+    for component, value in zip(components, values if link else (), strict=bool(link)):
+        if isinstance(value, Expr) and abs(value.ref) > 1:
+            known = value.graph.labels.get(abs(value.ref))
+            if known is None or (known.step and not step):
+                label = Label(quantity, link, component, step, of, value.ref < 0)
+                value.graph.labels[abs(value.ref)] = label
+    return values
+
+
 def combination(graph: Graph, form: Mapping[int, Fraction], values: Any) -> Expr:
     """Sum of coefficient * value over {place of the value: coefficient}."""
     total = graph.constant(0)
@@ -466,6 +501,10 @@ class GraphAlgebra:
     def __init__(self, graph: Graph, geometry: Geometry) -> None:
         self.graph = graph
         self.geometry = geometry
+        for row in geometry.rows:
+            before = "0" if row.parent is None else geometry.rows[row.parent].joint.name
+            moves = "turning" if row.joint.angular else "sliding"
+            graph.links[row.joint.name] = Link(before, "" if row.index is None else moves)
 
     def static(self, value: sympy.Expr) -> Expr:
         """A geometric constant as a static expression."""

@@ -13,7 +13,7 @@ import sympy
 
 from modeler.core.brief import Brief
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
-from modeler.derivation.graph import Algebra, Scalar, Vector
+from modeler.derivation.graph import Algebra, Scalar, Vector, named
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -85,6 +85,7 @@ def pose(row: GeometryRow, algebra: Algebra) -> Pose:
     prismatic = row.index is not None and not row.joint.angular
     r = algebra.variable(row) if prismatic else algebra.static(row.r)
     p = _back_z(gamma, plus(_back_x(alpha, [d, d * 0, r]), [b * 0, b * 0, b]))
+    named("p", row.joint.name, p)
     return Pose(gamma, alpha, algebra.cos_sin(row), p)
 
 
@@ -119,13 +120,18 @@ def screws(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> list
     force f and moment n at O_k on the joint: tau = e.n + m.f.
     """
     zero = algebra.static(sympy.Integer(0))
+    names = {row.index: row.joint.name for row in geometry.rows}
     found: list[dict[int, Screw]] = []
     for k, row in enumerate(geometry.rows):
         carried: dict[int, Screw] = {}
         if row.parent is not None:
             for index, screw in found[row.parent].items():
                 moved = plus(screw.m, cross(screw.e, frames[k].p))
-                carried[index] = Screw(frames[k].to_link(screw.e), frames[k].to_link(moved))
+                link, of = row.joint.name, names[index]
+                carried[index] = Screw(
+                    named("e", link, frames[k].to_link(screw.e), of=of),
+                    named("m", link, frames[k].to_link(moved), of=of),
+                )
         if row.index is not None:
             axis = [x * row.rate for x in unit_z(algebra)]
             nothing = [zero, zero, zero]
@@ -181,6 +187,10 @@ def base_poses(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> 
     axes, and what one frame costs serves all that follow.
     """
     found = poses_from(geometry, frames, algebra, None, set(range(len(frames))))
+    for k, row in enumerate(geometry.rows):
+        axes, origin = found[k]
+        for letter, values in zip("xyzo", (*axes, origin), strict=True):
+            named(letter, row.joint.name, values)
     return [found[k] for k in range(len(frames))]
 
 
@@ -241,12 +251,14 @@ class Motion:
         wd: angular acceleration, rad/s2.
         vd: acceleration of the origin minus gravity, m/s2.
         U: [wd x] + [w x][w x], rows of three.
+        link: its name.
     """
 
     w: Vector
     wd: Vector
     vd: Vector
     U: list[Vector]
+    link: str = ""
 
 
 @dataclass(frozen=True)
@@ -271,8 +283,10 @@ def motions(
 
 
 def _next(a: Motion, row: GeometryRow, frame: Pose, state: MotionState) -> Motion:
-    w, wd = frame.to_link(a.w), frame.to_link(a.wd)
-    vd = frame.to_link(plus(a.vd, [dot(line, frame.p) for line in a.U]))
+    link = row.joint.name
+    w, wd = named("w", link, frame.to_link(a.w), "b"), named("wd", link, frame.to_link(a.wd), "b")
+    vd = named("vd", link, plus(a.vd, [dot(line, frame.p) for line in a.U]), "a")
+    vd = named("vd", link, frame.to_link(vd), "b")
     if row.index is not None:
         qd, qdd = state.qd[row.index] * row.rate, state.qdd[row.index] * row.rate
         if row.joint.angular:
@@ -280,17 +294,26 @@ def _next(a: Motion, row: GeometryRow, frame: Pose, state: MotionState) -> Motio
             w = [w[0], w[1], w[2] + qd]
         else:
             vd = [vd[0] + 2 * (w[1] * qd), vd[1] - 2 * (w[0] * qd), vd[2] + qdd]
-    return Motion(w, wd, vd, _U(w, wd))
+    named("w", link, w), named("wd", link, wd), named("vd", link, vd)
+    return Motion(w, wd, vd, _U(w, wd, link), link)
 
 
-def _U(w: Vector, wd: Vector) -> list[Vector]:
+def _U(w: Vector, wd: Vector, link: str) -> list[Vector]:
     xx, yy, zz = w[0] * w[0], w[1] * w[1], w[2] * w[2]
     xy, xz, yz = w[0] * w[1], w[0] * w[2], w[1] * w[2]
-    return [
+    named("ww", link, (xx, yy, zz, xy, xz, yz), components=("xx", "yy", "zz", "xy", "xz", "yz"))
+    U = [
         [-(yy + zz), xy - wd[2], xz + wd[1]],
         [xy + wd[2], -(xx + zz), yz - wd[0]],
         [xz - wd[1], yz + wd[0], -(xx + yy)],
     ]
+    return _named_matrix("U", link, U)
+
+
+def _named_matrix(quantity: str, link: str, matrix: list[Vector], step: str = "") -> list[Vector]:
+    for line, axis in zip(matrix, "xyz", strict=True):
+        named(quantity, link, line, step, components=[axis + other for other in "xyz"])
+    return matrix
 
 
 def wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
@@ -299,6 +322,13 @@ def wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
     f = M vd + U MS and n = J wd + w x (J w) + MS x vd, where
     J = [[XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ]].
     """
+    found = _wrench_columns(motion)
+    for name, (force, moment) in found.items():
+        named("f", motion.link, force, of=name), named("n", motion.link, moment, of=name)
+    return found
+
+
+def _wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
     w, wd, vd, U = motion.w, motion.wd, motion.vd, motion.U
     zero = 0 * vd[0]
     none = [zero, zero, zero]
@@ -348,13 +378,16 @@ def inverse_dynamics(
     for k in reversed(range(count)):
         row = geometry.rows[k]
         f, n = link_wrench(moved[k], parameters[k], zero)
-        forces[k], moments[k] = plus(forces[k], f), plus(moments[k], n)
+        link = row.joint.name
+        forces[k] = named("fc", link, plus(forces[k], f))
+        moments[k] = named("nc", link, plus(moments[k], n))
         if row.index is not None:
             along = moments[k] if row.joint.angular else forces[k]
             tau[row.index] = along[2] * row.rate
         if row.parent is not None:
-            f = frames[k].to_antecedent(forces[k])
+            f = named("fc", link, frames[k].to_antecedent(forces[k]), "a")
             n = plus(frames[k].to_antecedent(moments[k]), cross(frames[k].p, f))
+            named("nc", link, n, "a")
             forces[row.parent] = plus(forces[row.parent], f)
             moments[row.parent] = plus(moments[row.parent], n)
     return tau
@@ -367,9 +400,10 @@ def link_wrench(
     J = [[parameters.get(name, zero) for name in line] for line in _INERTIA]
     MS = [parameters.get(name, zero) for name in ("MX", "MY", "MZ")]
     f = plus(times(parameters.get("M", zero), motion.vd), [dot(line, MS) for line in motion.U])
-    Jw = [dot(line, motion.w) for line in J]
+    Jw = named("h", motion.link, [dot(line, motion.w) for line in J])
     n = plus([dot(line, motion.wd) for line in J], cross(motion.w, Jw))
-    return f, plus(n, cross(MS, motion.vd))
+    n = plus(n, cross(MS, motion.vd))
+    return named("f", motion.link, f), named("n", motion.link, n)
 
 
 _INERTIA = (("XX", "XY", "XZ"), ("XY", "YY", "YZ"), ("XZ", "YZ", "ZZ"))
@@ -381,7 +415,8 @@ _INERTIA = (("XX", "XY", "XZ"), ("XY", "YY", "YZ"), ("XZ", "YZ", "ZZ"))
 class Composite:
     """Mass, first moments and inertia (at its frame's origin) of a link and all that it carries."""
 
-    def __init__(self, parameters: Mapping[str, Any], zero: Scalar) -> None:
+    def __init__(self, parameters: Mapping[str, Any], zero: Scalar, link: str = "") -> None:
+        self.link = link
         self.M: Scalar = parameters.get("M", zero)
         self.MS: Vector = [parameters.get(name, zero) for name in ("MX", "MY", "MZ")]
         self.J: list[Vector] = [[parameters.get(n, zero) for n in line] for line in _INERTIA]
@@ -391,14 +426,20 @@ class Composite:
 
         J += R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T) with S = R MS.
         """
-        p, S = frame.p, frame.to_antecedent(other.MS)
+        p, S = frame.p, named("MSc", other.link, frame.to_antecedent(other.MS), "a")
         half = [frame.to_antecedent(line) for line in other.J]
         turned = [frame.to_antecedent([half[0][i], half[1][i], half[2][i]]) for i in range(3)]
-        for i in range(3):
-            for j in range(3):
-                self.J[i][j] = self.J[i][j] + turned[i][j] + _steiner(p, S, other.M, i, j)
+        _named_matrix("Jc", other.link, turned, "a")
+        for i, row in enumerate("xyz"):
+            for j, column in enumerate("xyz"):
+                both, shift = self.J[i][j] + turned[i][j], _steiner(p, S, other.M, i, j)
+                named("Js", other.link, [shift], components=[row + column])
+                self.J[i][j] = both + shift
         self.MS = plus(self.MS, plus(S, times(other.M, p)))
         self.M = self.M + other.M
+        _named_matrix("Jc", self.link, self.J)
+        named("MSc", self.link, self.MS)
+        named("Mc", self.link, [self.M], components=[""])
 
     def momentum(self, row: GeometryRow) -> tuple[Vector, Vector]:
         """Linear and angular momentum for unit speed of the joint of the row, in its frame."""
@@ -430,7 +471,9 @@ def inertia_matrix(
         parameters: per row, the inertial parameters that are not zero.
         zero: the algebra's zero.
     """
-    links = [Composite(p, zero) for p in parameters]
+    links = [
+        Composite(p, zero, row.joint.name) for p, row in zip(parameters, geometry.rows, strict=True)
+    ]
     matrix = [[zero] * geometry.joints for _ in range(geometry.joints)]
     for k in reversed(range(len(links))):
         row = geometry.rows[k]
@@ -453,5 +496,7 @@ def _fill(
             along = (n if other.joint.angular else f)[2] * other.rate
             matrix[row.index][other.index] = along
             matrix[other.index][row.index] = along
-        f = frames[at].to_antecedent(f)
+        names = other.joint.name, row.joint.name
+        f = named("lin", names[0], frames[at].to_antecedent(f), "a", names[1])
         n = plus(frames[at].to_antecedent(n), cross(frames[at].p, f))
+        named("ang", names[0], n, "a", names[1])

@@ -1,7 +1,8 @@
 """The symbolic model: tau = phi chi, column by column, and what else is computed from it."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
@@ -34,6 +35,7 @@ from modeler.derivation.kinematics import (
     project,
     wrench_columns,
 )
+from modeler.derivation.labels import Label
 from modeler.effects import ENCODERS, Acts
 from modeler.robot import Robot
 
@@ -139,7 +141,24 @@ class SymbolicModel(Brief):
                 for k, value in values.items():
                     value = entries.get((k, place), self.graph.constant(0)) + value
                     entries[k, place] = value
+        self._labels.update(self.graph.labels)
         return {at: value for at, value in entries.items() if not value.is_zero}
+
+    @cached_property
+    def _labels(self) -> dict[int, Label]:
+        """Those that stood when the regressor was there."""
+        return {}
+
+    @contextmanager
+    def labelled(self) -> Iterator[None]:
+        """While a module is written: labels do not depend on what else was asked of the model."""
+        graph, before = self.graph, self.graph.labels
+        assert self.regressor
+        graph.labels = self._labels.copy()
+        try:
+            yield
+        finally:
+            graph.labels = before
 
     @cached_property
     def carried(self) -> list[dict[int, Screw]]:
