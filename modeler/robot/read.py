@@ -50,12 +50,13 @@ from modeler.robot.sections import (
     read_numbers,
     read_parameters,
     read_physical,
+    read_tool,
 )
 from modeler.robot.table import Rows, check_units, table_joints, table_rows
 
 _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
-    "relations", "platform", "loops", "home", "frames", "links", "effects", "own_effects",
+    "relations", "platform", "loops", "home", "frames", "tool", "links", "effects", "own_effects",
     "coupling", "motors", "parameters", "reference", "drive_gains", "drives", "limits",
     "physical", "terms", "log", "fit", "diagnose",
 )  # fmt: skip
@@ -205,7 +206,7 @@ def _with_tables(
     parameters, uncertainty = read_parameters(section("parameters"), known, names)
     readings, drive_gains = [*robot.readings], read_drive_gains(section("drive_gains"), moving)
     drive_gains, drives = read_drives(section("drives"), moving, drive_gains, readings)
-    return dataclasses.replace(
+    robot = dataclasses.replace(
         robot,
         readings=tuple(readings),
         loops=loops,
@@ -228,6 +229,8 @@ def _with_tables(
             place.at("[frames]", document.get("frames")), [j.name for j in robot.joints], values
         ),
     )
+    tool = read_tool(place.at("[tool]", document.get("tool")), robot, values)
+    return dataclasses.replace(robot, tool=tool)
 
 
 def _not_found(path: Path) -> str:

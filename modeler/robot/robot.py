@@ -152,12 +152,14 @@ class LinkFrame(Brief):
             for a link that is held by a fixed joint, and for the base.
         position: x, y, z, m.
         angles: roll, pitch, yaw, rad.
+        on: the frame that it is placed in; None for that of the row.
     """
 
     row: str
     joint: str
     position: tuple[Expression, Expression, Expression]
     angles: tuple[Expression, Expression, Expression]
+    on: "LinkFrame | None" = None
 
 
 LOOP_KINDS = (
@@ -235,6 +237,7 @@ class Robot(Presented):
         reference: standard parameters at which effects that depend on the load are linearised.
         frames: links of the file that the robot was read from, by name, so that values find their
             way back.
+        tool: the frame whose motion a controller commands; None if the file states none.
         notes: source of the table and remarks, for people.
         convention: in whose letters the table was given; `joints` are rows of Khalil's.
         readings: what reading the file decided or left out, for people.
@@ -269,6 +272,7 @@ class Robot(Presented):
     shared: tuple[SharedParameter, ...] = ()
     reference: Mapping[str, float] = field(default_factory=dict)
     frames: Mapping[str, LinkFrame] = field(default_factory=dict)
+    tool: LinkFrame | None = None
     notes: str = ""
     convention: str = "khalil"
     readings: tuple[str, ...] = ()

@@ -9,9 +9,10 @@ from modeler.core.expression import Expression
 from modeler.core.manifest import DriveSpec
 from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import joint_sum, name_of, number_at
-from modeler.robot.robot import Joint, Limits, LinkFrame, PhysicalLink
+from modeler.robot.robot import Joint, Limits, LinkFrame, PhysicalLink, Robot
 
 Coupling = dict[str, dict[str, float]]
+_Three = tuple[Expression, Expression, Expression]
 
 INERTIAL_UNCERTAINTY = "inertial"
 """What stands for every body in `[parameters.uncertainty]`."""
@@ -385,11 +386,70 @@ def read_frames(
         joint = cells.get("joint", "")
         if not isinstance(joint, str):
             raise spot.at("column joint", joint).mismatch('a name, or "" for none')
-        numbers = []
-        for column in FRAME_COLUMNS[3:]:
-            here = spot.at(f"column {column}", cells.get(column, 0))
-            number_at(here, symbols, "m" if len(column) == 1 else "rad")
-            numbers.append(here.expression())
-        x, y, z, roll, pitch, yaw = numbers
-        found[link] = LinkFrame(row, joint, (x, y, z), (roll, pitch, yaw))
+        found[link] = LinkFrame(row, joint, *_pose_cells(spot, "column ", cells, symbols))
     return found
+
+
+def _pose_cells(
+    place: Place, kind: str, cells: Mapping[str, Any], symbols: Mapping[str, float]
+) -> tuple[_Three, _Three]:
+    """Position x, y, z and angles roll, pitch, yaw; what is left out is 0."""
+    numbers = []
+    for name in FRAME_COLUMNS[3:]:
+        here = place.at(f"{kind}{name}", cells.get(name, 0))
+        number_at(here, symbols, "m" if len(name) == 1 else "rad")
+        numbers.append(here.expression())
+    x, y, z, roll, pitch, yaw = numbers
+    return (x, y, z), (roll, pitch, yaw)
+
+
+_TOOL = '[tool] with x, y, z, roll, pitch, yaw, and row = "6" or link = "flange"'
+
+
+def read_tool(place: Place, robot: Robot, symbols: Mapping[str, float]) -> LinkFrame | None:
+    """The frame whose motion a controller commands: `[tool]`.
+
+    It stands on a row of the table, or on a link of `[frames]`, in whose frame it is placed; on the
+    last moving row where it names neither and the robot has one end.
+
+    Raises:
+        RobotError: unknown keys, rows or links, or no one end.
+    """
+    if place.value is None:
+        return None
+    table = place.checked_table(("row", "link", *FRAME_COLUMNS[3:]), _TOOL)
+    if "row" in table and "link" in table:
+        raise place.error("both row and link are given; keep one of them")
+    row, under = table.get("row"), None
+    if "link" in table:
+        here = place.at("link", table["link"])
+        if here.text('"flange"') not in robot.frames:
+            raise here.mismatch(f"a link of [frames]{near(here.value, robot.frames)}")
+        under = robot.frames[here.value]
+        row = under.row
+    elif row is None:
+        ends = _ends(robot)
+        if len(ends) != 1:
+            raise place.error(
+                f"the robot has {len(ends)} ends, {listed(ends)}; say which row carries the tool, "
+                f'as row = "{ends[-1]}"'
+            )
+        (row,) = ends
+    rows = [joint.name for joint in robot.joints]
+    if name_of(row) not in rows:
+        raise place.at("row", row).mismatch(f"the name of a row{near(row, rows)}")
+    return LinkFrame(name_of(row), "", *_pose_cells(place, "", table, symbols), on=under)
+
+
+def _ends(robot: Robot) -> list[str]:
+    """Moving rows that carry no other; of a robot with a platform, that which carries it."""
+    if robot.platform:
+        return [robot.platform[-1]]
+    before = {joint.name: joint.antecedent for joint in robot.joints}
+    carrying = set[str]()
+    for joint in robot.moving:
+        row = joint.antecedent
+        while row in before and row not in carrying:
+            carrying.add(row)
+            row = before[row]
+    return [j.name for j in robot.moving if j.name not in carrying | {*robot.motors}]
