@@ -108,7 +108,7 @@ def generate(
     """
     if isinstance(source, Derivation):
         return generate_robot(source, folder, force, precision=precision, cuda=cuda)
-    derivation, _ = _emitted_anew(source)
+    derivation, _ = emitted_anew(source)
     return generate_robot(
         derivation, folder, force, model_file.fitted_spec(source), precision, cuda
     )
@@ -261,11 +261,11 @@ def recompile(model: IdentifiedModel) -> CompiledModel:
         ManifestError: this version derives another manifest than the one that the values belong to.
     """
     otherwise = ", or use --run-embedded-c to run the C in the file if you trust its source"
-    emitted = _emitted_anew(model, otherwise)[1]
+    emitted = emitted_anew(model, otherwise)[1]
     return compile_model(dataclasses.replace(emitted, log=model.mapping or emitted.log))
 
 
-def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
+def emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
     """What the robot text of a model gives, if that is what its values belong to."""
     derivation, emitted = derived(model.robot_text, f"robot {model.spec.robot} in the model file")
     if emitted.spec.signature() != model.spec.signature():

@@ -43,10 +43,12 @@ from .geometry import (
     quarter_turns as quarter_turns,
 )
 from .graph import (
+    Arithmetic as Arithmetic,
     Expr as Expr,
     Graph as Graph,
     GraphAlgebra as GraphAlgebra,
     Node as Node,
+    Plan as Plan,
     Vector as Vector,
     derivatives as derivatives,
 )

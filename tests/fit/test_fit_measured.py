@@ -24,6 +24,7 @@ from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from tests.measured_sets.sets import DATA
+from tests.turns import IN_TURN
 
 pytestmark = [
     pytest.mark.measured,
@@ -122,7 +123,7 @@ def results():
 
 
 @pytest.mark.parametrize(
-    "robot", [r if r in QUICK else pytest.param(r, marks=pytest.mark.slow) for r in RUNS]
+    "robot", [r if r in QUICK else pytest.param(r, marks=IN_TURN) for r in RUNS]
 )
 def test_held_out_errors_are_below_the_published_ones(results, robot):
     model, comparison = results(robot)

@@ -10,6 +10,7 @@ from modeler.robot.read import read_robot
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.further_robots import FurtherRobots
 from tests.loops.chain import Chain, chain
+from tests.turns import IN_TURN
 
 
 def check(story: Chain) -> None:
@@ -19,16 +20,13 @@ def check(story: Chain) -> None:
     assert story.hidden not in story.left
 
 
-SLOW = pytest.mark.slow
-
-
-@pytest.mark.parametrize("robot", ["five-bar", pytest.param("orthoglide-2003", marks=SLOW)])
+@pytest.mark.parametrize("robot", ["five-bar", pytest.param("orthoglide-2003", marks=IN_TURN)])
 def test_a_hidden_friction_is_named_and_added(robot: str, tmp_path: Path) -> None:
     check(chain(robot, tmp_path))
 
 
 @pytest.mark.parametrize(
-    "file", [pytest.param(name, marks=SLOW) for name in ("3rpr_passive", "excavator_sim")]
+    "file", [pytest.param(name, marks=IN_TURN) for name in ("3rpr_passive", "excavator_sim")]
 )
 def test_on_robots_from_elsewhere(
     file: str, loop_robots_folder: FurtherRobots, tmp_path: Path
@@ -85,7 +83,7 @@ def test_a_load_on_the_platform_is_called_a_load(
     assert "payload" not in said.partition("cannot show:")[2].partition("\n")[0]
 
 
-@pytest.mark.parametrize("robot", ["five-bar", pytest.param("delta", marks=SLOW)])
+@pytest.mark.parametrize("robot", ["five-bar", pytest.param("delta", marks=IN_TURN)])
 def test_friction_that_is_drawn_for_a_passive_joint_is_felt(robot: str) -> None:
     """By some motor as a share of its torque that a diagnosis can see, by none as most of it."""
     source = read_robot(robot)

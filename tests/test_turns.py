@@ -1,0 +1,62 @@
+"""Long cases in turns: none is forgotten, and no day has them all."""
+
+import random
+from typing import Any
+
+import pytest
+
+from tests.conftest import pytest_collection_modifyitems
+from tests.turns import IN_TURN, resting
+
+FUNCTIONS = [f"tests/{name}.py::test_{name}" for name in "abcdefghijkl"]
+QUICK = FUNCTIONS[::2]
+"""Those with a case that takes no turn."""
+TURNS = [f"{function}[{k}]" for n, function in enumerate(FUNCTIONS) for k in range(n)]
+ALL = [*TURNS, *(f"{function}[quick]" for function in QUICK)]
+
+
+def run(every: int, day: int) -> set[str]:
+    return set(TURNS) - resting(ALL, TURNS, every, day)
+
+
+@pytest.mark.parametrize("every", [1, 2, 3, 5])
+def test_each_has_its_turn(every: int) -> None:
+    day = random.Random().randrange(10**6)
+    days = [run(every, day + k) for k in range(every)]
+    assert set().union(*days) == set(TURNS)
+    for name in TURNS:
+        if name.partition("[")[0] in QUICK:
+            assert sum(name in names for names in days) == 1
+
+
+def test_a_day_has_a_share_of_each_function() -> None:
+    left = run(3, random.Random().randrange(10**6))
+    for n, function in enumerate(FUNCTIONS):
+        mine = sum(f"{function}[{k}]" in left for k in range(n))
+        least = n // 3 if function in QUICK else min(n, max(n // 3, 1))
+        assert least <= mine <= n // 3 + 1
+
+
+class Told:
+    """What the hook of pytest asks of a test, and of the command line."""
+
+    def __init__(self, nodeid: str = "", **options: Any) -> None:
+        self.nodeid, self.options = nodeid, options
+        self.hook, self.left = self, []  # type: ignore[var-annotated]
+
+    def get_closest_marker(self, name: str) -> bool:
+        return name == IN_TURN[1].name and self.nodeid in TURNS
+
+    def getoption(self, name: str) -> Any:
+        return self.options.get(name.lstrip("-"))
+
+    def pytest_deselected(self, items: list[Any]) -> None:
+        self.left += items
+
+
+def test_what_takes_no_turn_runs_every_day() -> None:
+    items: list[Any] = [Told(name) for name in ALL]
+    config: Any = Told(every=3, day=20000)
+    pytest_collection_modifyitems(config, items)
+    assert {item.nodeid for item in items} == run(3, 20000) | set(ALL) - set(TURNS)
+    assert {item.nodeid for item in config.left} == resting(ALL, TURNS, 3, 20000)
