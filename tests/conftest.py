@@ -11,7 +11,7 @@ from hypothesis.internal.conjecture import providers
 
 from modeler.core.json import nulled
 from tests.further_robots import FurtherRobots
-from tests.turns import resting, today
+from tests.turns import resting, today, turns
 
 # Hypothesis mixes the constants of whatever modules happen to be imported into its examples, and
 # which are depends on the tests that ran before in the process: examples shall be the same always.
@@ -45,9 +45,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         keepers = {"compare_with_generated", "regenerate"}
         left = [item for item in items if not keepers & set(getattr(item, "fixturenames", ()))]
     else:
-        names = [item.nodeid for item in items]
-        turns = [item.nodeid for item in items if item.get_closest_marker("in_turn")]
-        rest = resting(names, turns, config.getoption("every"), config.getoption("day"))
+        every, day = config.getoption("every"), config.getoption("day")
+        rest = resting([item.nodeid for item in items], turns(items), every, day)
         left = [item for item in items if item.nodeid in rest]
     if left:
         config.hook.pytest_deselected(items=left)
