@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from tests.conftest import pytest_collection_modifyitems
+from tests.conftest import LONGEST, ROOT, pytest_collection_modifyitems
 from tests.turns import IN_TURN, resting
 
 FUNCTIONS = [f"tests/{name}.py::test_{name}" for name in "abcdefghijkl"]
@@ -66,3 +66,10 @@ def test_what_takes_no_turn_runs_every_day() -> None:
     pytest_collection_modifyitems(config, items)
     assert {item.nodeid for item in items} == run(3, 20000) | set(ALL) - set(GROUPS)
     assert {item.nodeid for item in config.left} == resting(ALL, GROUPS, 3, 20000)
+
+
+def test_what_is_longest_is_begun_first() -> None:
+    items: list[Any] = [Told(f"tests/{file}::test") for file in ("a.py", LONGEST[0], "b.py")]
+    pytest_collection_modifyitems(Told(every=1, day=0), items)  # type: ignore[arg-type]
+    assert all(any((ROOT / "tests").rglob(file)) for file in LONGEST)
+    assert [item.nodeid[6:-6] for item in items] == [LONGEST[0], "a.py", "b.py"]
