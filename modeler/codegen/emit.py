@@ -25,6 +25,7 @@ from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import package_files, render
+from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states
 from modeler.core import manifest
@@ -304,6 +305,7 @@ def emit(
     precision: Precision = "double",
     cuda: bool = False,
     control: Control | None = None,
+    structured_text: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -314,6 +316,7 @@ def emit(
         precision: of the numbers: all `double`, or all `float`.
         cuda: add the kernels of `codegen.cuda`, of a robot without loops.
         control: add the controller's unit.
+        structured_text: add the function blocks of `codegen.structured_text`.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -338,6 +341,9 @@ def emit(
             functions += found
             code |= unit
         values |= {"spec": spec}
+        if structured_text:
+            twins = fitted_functions(model, base, fitted) if fitted is not None else ()
+            kernels |= structured_texts(model, spec, values, twins)
 
     def others() -> dict[str, str]:
         stored = {**values, "vectors": stored_states(model, functions, OF_PRECISION[precision])}

@@ -191,8 +191,8 @@ def _regressors(
         (joint, place[k]): value for (joint, k), value in model.regressor.items() if k in place
     }
     order = {at: number for number, at in enumerate(sorted(values))}
-    standard = _by_column(model.regressor)
-    kept = _by_column(values)
+    standard = by_column(model.regressor)
+    kept = by_column(values)
     inputs = given.motion
     per = "torque per unit of each"
     return (
@@ -218,7 +218,7 @@ def _regressors(
     )  # fmt: skip
 
 
-def _by_column(values: Mapping[tuple[int, int], Expr]) -> list[tuple[tuple[int, int], Expr]]:
+def by_column(values: Mapping[tuple[int, int], Expr]) -> list[tuple[tuple[int, int], Expr]]:
     """Entries of {(joint, column): value} column after column.
 
     So what the columns of a link read is computed, read and done with before the next link: row

@@ -128,7 +128,7 @@ def _unwanted(emitted: Emitted) -> set[str]:
     """
     prefix = emitted.spec.prefix
     names = {f"{prefix}_{unit}.{kind}" for unit in ("fitted", "control") for kind in "hc"}
-    names |= {f"{prefix}.cu"}
+    names |= {f"{prefix}.cu", f"{prefix}.st"}
     names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
     return names - emitted.files.keys()
 
