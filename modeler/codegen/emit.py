@@ -148,7 +148,8 @@ def function_specs(
     }
     found = []
     for function in (function for function, _ in blocks if not function.internal):
-        calls = (function.role,) if function.closed is None else function.closed.calls
+        made = function.closed or function.composed
+        calls = (function.role,) if made is None else made.calls
         parts = [own[role] for role in calls if role in own]
         found.append(
             FunctionSpec(
@@ -157,7 +158,7 @@ def function_specs(
                 outputs=(function.output,),
                 additions=sum(additions for additions, _ in parts),
                 multiplications=sum(multiplications for _, multiplications in parts),
-                status=function.closed is not None,
+                status=function.status,
             )
         )
     return tuple(found)
@@ -454,6 +455,7 @@ def _fitted_unit(
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
     blocks = [(f, _block(f, values["places"], target, turning)) for f in functions]
+    values["fitted_blocks"] = blocks
     written = [_written(prefix, f, block, target) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
@@ -504,7 +506,9 @@ def _control_unit(
         "letters": _letters(written),
     }
     files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}
-    control = manifest.ControlSpec(function_specs(prefix, blocks), manifest.code_digest(files))
+    files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
+    known = [*values["blocks"], *values.get("fitted_blocks", ())]
+    control = manifest.ControlSpec(function_specs(prefix, blocks, known), manifest.code_digest(files))
     return dataclasses.replace(spec, control=control), files
 
 
@@ -536,13 +540,16 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
         for kind in ("h", "c"):
             files[f"{prefix}{TILE_UNIT}.{kind}"] = render(f"tile.{kind}", **given)
         runtime += manifest.TILE_RUNTIME
+    return files | {name: _runtime(name, spec.precision) for name in runtime}
+
+
+def _runtime(name: str, precision: Precision) -> str:
+    """A hand-written file: its own in that precision, where it has one."""
     folder = resource_dir("csrc")
-    for name in runtime:  # its own in that precision, where it has one
-        source = folder / spec.precision / name
-        if not source.is_file():
-            source = (folder / "include" if name.endswith(".h") else folder) / name
-        files[name] = source.read_text("utf-8")
-    return files
+    source = folder / precision / name
+    if not source.is_file():
+        source = (folder / "include" if name.endswith(".h") else folder) / name
+    return source.read_text("utf-8")
 
 
 def _block(
@@ -557,8 +564,8 @@ def _block(
 
 def _written(prefix: str, function: CFunction, block: Block, target: Target) -> _Written:
     name, number = f"{prefix}_{function.role}", target.number
-    returns = "void" if function.closed is None else "int"
-    if function.internal and function.unit == UNIT:
+    returns = "int" if function.status else "void"
+    if function.internal and function.unit in (UNIT, CONTROL_UNIT):
         returns = "static void"
     return _Written(
         **vars(function),
@@ -566,7 +573,7 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         arguments=layout.argument_lines(function),
         declaration=layout.prototype(name, layout.arguments(function, "", number), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT, number), returns),
-        lines=[] if function.closed else layout.body_lines(function, block, target),
+        lines=[] if function.status else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
     )
 
