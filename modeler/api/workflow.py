@@ -113,8 +113,9 @@ def generate(
     else:
         derivation, _ = emitted_anew(source)
         fitted = model_file.fitted_spec(source)
-    kinds = {"cuda": cuda, "structured_text": structured_text}
-    return generate_robot(derivation, folder, force, fitted, precision, **kinds)
+    return generate_robot(
+        derivation, folder, force, fitted, precision, cuda, structured_text=structured_text
+    )
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:

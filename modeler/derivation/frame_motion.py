@@ -117,6 +117,7 @@ def jacobian_dot_qd(model: SymbolicModel, frame: BodyFrame) -> list[Expr]:
 def twist(model: SymbolicModel, frame: BodyFrame) -> list[Expr]:
     """(v, w) of the frame, 6, in its own axes."""
     still = [model.graph.constant(0)] * model.geometry.coordinates
-    moved = model.link_motions(still, model.inputs("qd"), gravity=False)[frame.row]
+    with model.speeds_for_accelerations():
+        moved = model.link_motions(still, model.inputs("qd"), gravity=False)[frame.row]
     v = plus(moved.vd, cross(moved.wd, frame.origin))
     return [dot(axis, x) for x in (v, moved.wd) for axis in frame.axes]

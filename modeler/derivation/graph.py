@@ -142,6 +142,7 @@ class Graph:
         nodes: the operations.
         labels: {node: what it is}, of those that were named; see `named`.
         links: {name: the row}, for those who write of them.
+        called: {quantity: another}, while speeds are put in the place of accelerations.
     """
 
     def __init__(self) -> None:
@@ -153,6 +154,7 @@ class Graph:
         self._plans: dict[tuple[int, ...], Plan] = {}
         self.labels: dict[int, Label] = {}
         self.links: dict[str, Link] = {}
+        self.called: Mapping[str, str] = {}
 
     def symbol(self, name: str, static: bool = False) -> "Expr":
         """The input of that name; `static` for geometric symbols."""
@@ -456,9 +458,17 @@ def named(
         if isinstance(value, Expr) and abs(value.ref) > 1:
             known = value.graph.labels.get(abs(value.ref))
             if known is None or (known.step and not step):
-                label = Label(quantity, link, component, step, of, value.ref < 0)
+                letter = value.graph.called.get(quantity, quantity)
+                label = Label(letter, link, component, step, of, value.ref < 0)
                 value.graph.labels[abs(value.ref)] = label
     return values
+
+
+def named_matrix(quantity: str, link: str, matrix: list[Any], step: str = "") -> list[Any]:
+    """The same of the rows of a 3 x 3 matrix."""
+    for line, axis in zip(matrix, "xyz", strict=True):
+        named(quantity, link, line, step, components=[axis + other for other in "xyz"])
+    return matrix
 
 
 def combination(graph: Graph, form: Mapping[int, Fraction], values: Any) -> Expr:
