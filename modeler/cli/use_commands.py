@@ -23,6 +23,7 @@ GENERATE = Command(
         choice("--precision", get_args(errors.Precision),
                "of all numbers of the C: double, or float for a microcontroller", "double"),
         flag("--cuda", "also the base regressor for graphics processors"),
+        flag("--structured-text", "also function blocks for a PLC, IEC 61131-3"),
         FORCE,
     ),
     "write the manifest for machines",

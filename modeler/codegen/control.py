@@ -11,6 +11,7 @@ from fractions import Fraction
 
 from modeler import derivation
 from modeler.codegen import functions as layout
+from modeler.codegen.forward import forward_functions, without_beta
 from modeler.codegen.functions import Arguments, CFunction, entries_of
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, FittedSpec
@@ -66,14 +67,7 @@ def fitted_control_functions(
         parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
         for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
     }
-    return tuple(
-        dataclasses.replace(
-            function,
-            role=f"fitted_{function.role}",
-            inputs=tuple(a for a in function.inputs if a.name != "beta"),
-        )
-        for function in _dynamics(model, values, given)
-    )
+    return tuple(map(without_beta, _dynamics(model, values, given)))
 
 
 def _dynamics(
@@ -111,6 +105,7 @@ def _dynamics(
             ArgumentSpec("D", (2, n, n), "torque per unit of q, of qd", "derivatives"),
             entries_of(_slopes(model, beta)),
         ),
+        *forward_functions(model, beta, given),
     )  # fmt: skip
 
 

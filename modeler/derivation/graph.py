@@ -16,6 +16,7 @@ compared with other derivations anyway.)
 
 import hashlib
 import operator
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -604,7 +605,17 @@ def derivatives(
             found[index] = zero  # most nodes depend on few symbols
         else:
             found[index] = _derivative(index, node, values[0], found, kinks)
+            _name_derivative(graph, index, found[index], direction)
     return [found[abs(v.ref)] if v.ref >= 0 else -found[-v.ref] for v in values]
+
+
+def _name_derivative(graph: Graph, index: int, slope: Expr, direction: Mapping[str, Expr]) -> None:
+    """Names it by what is derived, and by the one variable that moves, or the time."""
+    if label := graph.labels.get(index):
+        by = re.sub(r"\W", "", min(direction)) if len(direction) == 1 else "t"
+        value = [-slope if label.minus else slope]
+        step, of = f"{label.step}d", label.of + by
+        named(label.quantity, label.link, value, step, of, [label.component])
 
 
 def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr], kinks: bool) -> Expr:

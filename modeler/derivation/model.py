@@ -136,7 +136,9 @@ class SymbolicModel(Brief):
         projected on every joint below; effect columns from their definition.
         """
         moved = self.link_motions(self.inputs("qd"), self.inputs("qdd"))
-        return self.entries(self.projected(moved), partial(effect_entries, self))
+        found = self.entries(self.projected(moved), partial(effect_entries, self))
+        self._labels.update(self.graph.labels)
+        return found
 
     def projected(self, moved: Sequence[Motion]) -> Callable[[LinkColumn], dict[int, Expr]]:
         """{free variable: torque along it} per unit of a link's parameter, in this motion."""
@@ -166,7 +168,6 @@ class SymbolicModel(Brief):
                 for k, value in values.items():
                     value = entries.get((k, place), self.graph.constant(0)) + value
                     entries[k, place] = value
-        self._labels.update(self.graph.labels)
         return {at: value for at, value in entries.items() if not value.is_zero}
 
     @cached_property
