@@ -518,7 +518,9 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
         more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
         more["letters"] = _letters(own)
         files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
-    runtime: tuple[str, ...] = manifest.RUNTIME
+    for kind in ("h", "c"):
+        files[f"{prefix}_batch.{kind}"] = render(f"batch.{kind}", **values)
+    runtime: tuple[str, ...] = (*manifest.RUNTIME, *manifest.BATCH_RUNTIME)
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops
         inner = [f for f in functions if f.internal]
         outer = [f for f in functions if f.unit == "_loops"]

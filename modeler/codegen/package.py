@@ -206,8 +206,9 @@ def render(template: str, **values: Any) -> str:
     return _environment().get_template(f"{template}.jinja").render(**values)
 
 
-C_INTERFACE = 1
-"""Raised when a function of the emitted C takes other arguments under the same name."""
+C_INTERFACE = 2
+"""Raised when a function of the emitted C takes other arguments under the same name, or stands in
+another header or library."""
 
 
 def package_version(signature: str) -> str:
@@ -258,6 +259,7 @@ def package_files(
         "Makefile": "Makefile",
         "CMakeLists.txt": "CMakeLists.txt",
         f"{prefix}.pc.in": "package.pc.in",
+        f"{prefix}_batch.pc.in": "batch.pc.in",
         f"{prefix}-config.cmake": "config.cmake",
         f"{prefix}-config-version.cmake": "config-version.cmake",
         "README.md": "README.md",
@@ -284,15 +286,17 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
     if spec.control is not None:
         signature = text_digest(spec.to_json())
-    heads = [f"{spec.prefix}{unit}.h" for unit in ("", "_fitted", "_control", "_tile")]
-    public = [name for name in heads if name in code]
+    heads = [f"{spec.prefix}{unit}.h" for unit in ("", "_fitted", "_control", "_batch", "_tile")]
+    public = [name for name in (*heads, "modeler_batch.h") if name in code]
     for name in public:  # grows while it is read
         included = re.findall(r'^#include "([^"]+)"', code[name], flags=re.MULTILINE)
         public += [h for h in included if h in code and h not in public]
+    own = spec.controller_sources
     return {
         "signature": signature,
         "version": package_version(signature),
-        "sources": [name for name in code if name.endswith(".c")],
+        "sources": [name for name in own if name.endswith(".c")],
+        "batch": [name for name in code if name.endswith(".c") and name not in own],
         "headers": [name for name in code if name.endswith(".h")],
         "public": public,
     }

@@ -20,8 +20,11 @@ from modeler.core.result import Presented
 
 FORMAT = 2
 
-RUNTIME = ("modeler_real.h", "modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
+RUNTIME = ("modeler_real.h", "modeler_runtime.h", "modeler_sincos.h")
 """Hand-written C files that stand beside every emitted module."""
+
+BATCH_RUNTIME = ("modeler_batch.h", "modeler_batch.c")
+"""Loops over samples, which a controller has no use for."""
 
 CLOSURE_RUNTIME = ("modeler_closure.h", "modeler_closure.c")
 """Those that stand beside a robot with loops."""
@@ -238,8 +241,8 @@ class ModuleSpec(Brief):
         )
 
     @property
-    def sources(self) -> tuple[str, ...]:
-        """Names of the C files that the library is compiled from, headers included."""
+    def controller_sources(self) -> tuple[str, ...]:
+        """Names of the C files of the controller's library, headers included."""
         units = [".h", ".c", "_regressor.c", "_base_regressor.c"]
         units += ["_fitted.h", "_fitted.c"] if self.fitted is not None else []
         units += ["_control.h", "_control.c"] if self.control is not None else []
@@ -248,6 +251,12 @@ class ModuleSpec(Brief):
             units += ["_tree.h", "_loops.c"]
             runtime += CLOSURE_RUNTIME
         return (*(self.prefix + unit for unit in units), *runtime)
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """Names of the C files that Python compiles: those, and the loops over samples."""
+        units = (f"{self.prefix}_batch.h", f"{self.prefix}_batch.c")
+        return (*self.controller_sources, *units, *BATCH_RUNTIME)
 
     @property
     def tile_sources(self) -> tuple[str, ...]:
