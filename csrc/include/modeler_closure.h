@@ -12,6 +12,7 @@
 #include <stddef.h>
 
 #include "modeler_runtime.h"
+#include "modeler_status.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,15 +20,6 @@ extern "C" {
 
 /* Evaluations of the closure equations in one call of modeler_close or modeler_close_next, at most. */
 #define MODELER_EVALUATIONS 5000
-
-/* What functions of robots with loops return; outputs are NaN unless it is MODELER_CLOSED. */
-enum {
-    MODELER_CLOSED = 0,     /* done */
-    MODELER_OPEN = 1,       /* the loops cannot be closed on the way to these values */
-    MODELER_SINGULAR = 2,   /* singular posture: the passive joints are not determined */
-    MODELER_NOT_FINITE = 3, /* an input is not finite, or an output would not be */
-    MODELER_UNFINISHED = 4  /* too far: MODELER_EVALUATIONS did not do */
-};
 
 /* The loops of a robot; its functions are straight-line code without the zeros of df/du.
  *

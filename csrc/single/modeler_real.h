@@ -20,6 +20,7 @@ typedef float modeler_real;
 #define MODELER_CONVERGED 2e-4f /* a correction after which the error is its square */
 #define MODELER_EXACT 2e-6f     /* a correction that is not worth making */
 #define MODELER_FLAT 1e-4f      /* pivots below this share of the largest are zero */
+#define MODELER_PIVOT 1e-5f     /* pivots below this share of the diagonal are zero */
 #define MODELER_SHORTEST 1e-4f  /* share of a way; where shorter steps fail too, it ends */
 
 /* modeler_batch.c */

@@ -18,7 +18,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "5eab4c88ec94117a"
+#define ORTHOGLIDE_2012_SIGNATURE "6ab80220da111dbb"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0x6ab80220u
+#define ORTHOGLIDE_2012_SIGNATURE_2 0xda111dbbu
 
 #define ORTHOGLIDE_2012_JOINTS 3
 #define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196

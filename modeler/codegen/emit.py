@@ -24,6 +24,7 @@ from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import package_files, render
+from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states
 from modeler.core import manifest
@@ -147,7 +148,8 @@ def function_specs(
     }
     found = []
     for function in (function for function, _ in blocks if not function.internal):
-        calls = (function.role,) if function.closed is None else function.closed.calls
+        made = function.closed or function.composed
+        calls = (function.role,) if made is None else made.calls
         parts = [own[role] for role in calls if role in own]
         found.append(
             FunctionSpec(
@@ -156,7 +158,7 @@ def function_specs(
                 outputs=(function.output,),
                 additions=sum(additions for additions, _ in parts),
                 multiplications=sum(multiplications for _, multiplications in parts),
-                status=function.closed is not None,
+                status=function.status,
             )
         )
     return tuple(found)
@@ -302,6 +304,7 @@ def emit(
     precision: Precision = "double",
     cuda: bool = False,
     control: Control | None = None,
+    structured_text: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -312,6 +315,7 @@ def emit(
         precision: of the numbers: all `double`, or all `float`.
         cuda: add the kernels of `codegen.cuda`, of a robot without loops.
         control: add the controller's unit.
+        structured_text: add the function blocks of `codegen.structured_text`.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -336,6 +340,9 @@ def emit(
             functions += found
             code |= unit
         values |= {"spec": spec}
+        if structured_text:
+            twins = fitted_functions(model, base, fitted) if fitted is not None else ()
+            kernels |= structured_texts(model, spec, values, twins)
 
     def others() -> dict[str, str]:
         stored = {**values, "vectors": stored_states(model, functions, OF_PRECISION[precision])}
@@ -448,6 +455,7 @@ def _fitted_unit(
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
     blocks = [(f, _block(f, values["places"], target, turning)) for f in functions]
+    values["fitted_blocks"] = blocks
     written = [_written(prefix, f, block, target) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
@@ -498,7 +506,9 @@ def _control_unit(
         "letters": _letters(written),
     }
     files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}
-    control = manifest.ControlSpec(function_specs(prefix, blocks), manifest.code_digest(files))
+    files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
+    known = [*values["blocks"], *values.get("fitted_blocks", ())]
+    control = manifest.ControlSpec(function_specs(prefix, blocks, known), manifest.code_digest(files))
     return dataclasses.replace(spec, control=control), files
 
 
@@ -532,13 +542,16 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
         for kind in ("h", "c"):
             files[f"{prefix}{TILE_UNIT}.{kind}"] = render(f"tile.{kind}", **given)
         runtime += manifest.TILE_RUNTIME
+    return files | {name: _runtime(name, spec.precision) for name in runtime}
+
+
+def _runtime(name: str, precision: Precision) -> str:
+    """A hand-written file: its own in that precision, where it has one."""
     folder = resource_dir("csrc")
-    for name in runtime:  # its own in that precision, where it has one
-        source = folder / spec.precision / name
-        if not source.is_file():
-            source = (folder / "include" if name.endswith(".h") else folder) / name
-        files[name] = source.read_text("utf-8")
-    return files
+    source = folder / precision / name
+    if not source.is_file():
+        source = (folder / "include" if name.endswith(".h") else folder) / name
+    return source.read_text("utf-8")
 
 
 def _block(
@@ -553,8 +566,8 @@ def _block(
 
 def _written(prefix: str, function: CFunction, block: Block, target: Target) -> _Written:
     name, number = f"{prefix}_{function.role}", target.number
-    returns = "void" if function.closed is None else "int"
-    if function.internal and function.unit == UNIT:
+    returns = "int" if function.status else "void"
+    if function.internal and function.unit in (UNIT, CONTROL_UNIT):
         returns = "static void"
     return _Written(
         **vars(function),
@@ -562,7 +575,7 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         arguments=layout.argument_lines(function),
         declaration=layout.prototype(name, layout.arguments(function, "", number), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT, number), returns),
-        lines=[] if function.closed else layout.body_lines(function, block, target),
+        lines=[] if function.status else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
     )
 

@@ -128,7 +128,7 @@ def _unwanted(emitted: Emitted) -> set[str]:
     """
     prefix = emitted.spec.prefix
     names = {f"{prefix}_{unit}.{kind}" for unit in ("fitted", "control") for kind in "hc"}
-    names |= {f"{prefix}.cu"}
+    names |= {f"{prefix}.cu", f"{prefix}.st"}
     names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
     return names - emitted.files.keys()
 
@@ -268,6 +268,8 @@ def package_files(
     # What is compared with others is checked after them.
     products = {f"{prefix}_{role}" for role in PRODUCTS}
     order = sorted(every, key=lambda f: (f.name in products, f.name != f"{prefix}_base_parameters"))
+    stored = {f"{prefix}_{name.removeprefix('at_')}" for name in values["vectors"]["tables"]}
+    order = [f for f in order if f.name in stored | products | {f"{prefix}_base_parameters"}]
     largest = max(f.outputs[0].size for f in every)
     checked = {"checked": order, "products": PRODUCTS, "turning": TURNING, "largest": largest}
     own = {name: example_values(spec, name) for name in examples} | {SELF_CHECK: checked}
@@ -324,7 +326,7 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     """
     if spec.closure is not None:
         return None
-    functions = spec.every_function
+    functions = [f for f in spec.every_function if not f.status]
     return {
         "states": 16,
         "largest": max(f.outputs[0].size for f in functions),

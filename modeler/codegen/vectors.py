@@ -162,7 +162,8 @@ def _tables(
 
     @cache
     def steps(role: str) -> Callable[[Mapping[str, Ball]], list[Ball]]:
-        return ball_function(model.graph, [value for _, value in roles[role].entries], symbols)
+        values = [value for _, value in roles[role].entries]
+        return ball_function(values[0].graph if values else model.graph, values, symbols)
 
     def outputs(role: str, values: Mapping[str, Ball]) -> list[Ball]:
         out = [exact_ball(0)] * roles[role].output.size
@@ -196,7 +197,7 @@ def _tables(
             signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")})
             for role, f in roles.items():
                 c = f.closed or _DIRECT
-                if f.internal or role in left or c.q != name:
+                if f.internal or f.composed or role in left or c.q != name:
                     continue
                 state = standing if c.qdd == "standing" else moving
                 tree = role if not f.closed else f"{c.tree}_{_ROWS.get(c.kind, c.role)}"

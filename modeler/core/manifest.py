@@ -26,8 +26,11 @@ RUNTIME = ("modeler_real.h", "modeler_runtime.h", "modeler_sincos.h")
 BATCH_RUNTIME = ("modeler_batch.h", "modeler_batch.c")
 """Loops over samples, which a controller has no use for."""
 
-CLOSURE_RUNTIME = ("modeler_closure.h", "modeler_closure.c")
+CLOSURE_RUNTIME = ("modeler_status.h", "modeler_closure.h", "modeler_closure.c")
 """Those that stand beside a robot with loops."""
+
+CONTROL_RUNTIME = ("modeler_status.h", "modeler_solve.h")
+"""Those that stand beside the controller's unit."""
 
 CUDA_THREADS = 128
 """Threads of a block of the emitted kernels."""
@@ -250,6 +253,8 @@ class ModuleSpec(Brief):
         if self.closure is not None:
             units += ["_tree.h", "_loops.c"]
             runtime += CLOSURE_RUNTIME
+        if self.control is not None:
+            runtime += [name for name in CONTROL_RUNTIME if name not in runtime]
         return (*(self.prefix + unit for unit in units), *runtime)
 
     @property
