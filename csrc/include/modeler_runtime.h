@@ -19,6 +19,14 @@
 #define MODELER_RESTRICT
 #endif
 
+/* The output of a function where it is defined: nothing else points there, and its length, which
+ * C++ and some compilers of C cannot say beside that. */
+#if !defined(__cplusplus) && (defined(__GNUC__) || defined(__clang__))
+#define MODELER_OUT(name, length) name[MODELER_RESTRICT length]
+#else
+#define MODELER_OUT(name, length) *MODELER_RESTRICT name
+#endif
+
 /* What is always 0 in an output is written between the arithmetic, where it costs no time; all at
  * once, and first, where the code is to be small. */
 #define MODELER_CLEAR(x, length) do { \

@@ -203,6 +203,15 @@ class ControlSpec(Brief):
 
 
 @dataclass(frozen=True)
+class OriginSpec:
+    """What wrote a folder; no part of any signature."""
+
+    interface: int  # of the C: see `C_INTERFACE`
+    generator: str  # "modeler 0.1.0"
+    license: str  # SPDX identifier
+
+
+@dataclass(frozen=True)
 class ModuleSpec(Brief):
     """The manifest of one robot."""
 
@@ -223,6 +232,7 @@ class ModuleSpec(Brief):
     precision: Precision = "double"  # of all numbers of the C
     inertial_uncertainty: float | None = None  # of every body, over its scale
     control: ControlSpec | None = None  # where `modeler generate` wrote it
+    origin: OriginSpec | None = None  # in the file alone
 
     @property
     def every_function(self) -> tuple[FunctionSpec, ...]:
@@ -248,7 +258,8 @@ class ModuleSpec(Brief):
         """Names of the C files of the controller's library, headers included."""
         units = [".h", ".c", "_regressor.c", "_base_regressor.c"]
         units += ["_fitted.h", "_fitted.c"] if self.fitted is not None else []
-        units += ["_control.h", "_control.c"] if self.control is not None else []
+        for unit in ("_control", "_joints") if self.control is not None else ():
+            units += [f"{unit}.h", f"{unit}.c"]
         runtime = list(RUNTIME)
         if self.closure is not None:
             units += ["_tree.h", "_loops.c"]
@@ -278,7 +289,7 @@ class ModuleSpec(Brief):
     @cached_property
     def _text(self) -> str:
         entries = dataclasses.asdict(self)
-        for name in ("fitted", "control"):
+        for name in ("fitted", "control", "origin"):
             if entries[name] is None:
                 del entries[name]
         if self.precision == "double":
@@ -299,9 +310,9 @@ class ModuleSpec(Brief):
         controller's unit, and with it of the whole C text but these: two robots of the same
         signature have the same C. It is the same on every machine.
         """
-        if self.fitted is None and self.control is None:
+        if self.fitted is None and self.control is None and self.origin is None:
             return text_digest(self.to_json())
-        return dataclasses.replace(self, fitted=None, control=None).signature()
+        return dataclasses.replace(self, fitted=None, control=None, origin=None).signature()
 
 
 def text_digest(text: str) -> str:
