@@ -88,6 +88,7 @@ def generate(
     force: bool = False,
     precision: Precision = "double",
     cuda: bool = False,
+    frames: Sequence[str] = (),
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
@@ -100,6 +101,8 @@ def generate(
         force: write also over files that no earlier run wrote, or that were edited since.
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
+        frames: rows, or links of [frames], whose pose, Jacobian and twist a controller reads
+            besides those of the tool.
 
     Raises:
         ManifestError: this version derives another manifest than the one that the values of the
@@ -107,11 +110,15 @@ def generate(
         ModelerError: the folder holds such files and `force` is not given; or it cannot be written.
     """
     if isinstance(source, Derivation):
-        return generate_robot(source, folder, force, precision=precision, cuda=cuda)
-    derivation, _ = _emitted_anew(source)
-    return generate_robot(
-        derivation, folder, force, model_file.fitted_spec(source), precision, cuda
-    )
+        derivation, fitted = source, None
+    else:
+        derivation, fitted = _emitted_anew(source)[0], model_file.fitted_spec(source)
+    control = None
+    if frames:
+        from modeler.codegen import Control  # who fits need not wait for it
+
+        control = Control(tuple(frames))
+    return generate_robot(derivation, folder, force, fitted, precision, cuda, control)
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:
