@@ -5,6 +5,7 @@ PYTHONS := python3.13 python3.12 python3.11 python3
 PYTHON ?=
 JOBS ?= 2
 TESTS ?=
+EVERY ?= 1
 BIN := .venv/bin
 PYTEST = OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal
 
@@ -16,6 +17,7 @@ help:
 	@echo 'make demo         install, then a hidden effect found and added, on two built-in robots: pages in demo/'
 	@echo 'make test         install, then ruff, mypy and the tests (JOBS=2 processes; TESTS=tests/fit some)'
 	@echo 'make test-all     the same with the long tests: every robot, many seeds, mutated files'
+	@echo '                  (EVERY=3: of the cases that repeat what others show, today a third)'
 	@echo 'make lint         ruff and mypy only'
 	@echo 'make docs         the documentation as a site, in build/site; nothing in it needs the network'
 	@echo 'make regenerate   write generated/ and the generated pages of docs/ anew'
@@ -29,7 +31,7 @@ test: lint
 	$(PYTEST) -m 'not slow' $(TESTS)
 
 test-all: lint
-	$(PYTEST) $(TESTS)
+	$(PYTEST) --every $(EVERY) $(TESTS)
 
 lint: .venv/.installed-test
 	$(BIN)/python -m ruff check .

@@ -14,7 +14,7 @@ import numpy as np
 from benchmarks.line import Key, Line, Missing, ratio
 from benchmarks.peers import pinocchio
 from benchmarks.robots import lossy
-from modeler.codegen import derive, generate, write_emitted
+from modeler.codegen import derive, generate
 from modeler.runtime import find_toolchain
 
 HERE = Path(__file__).resolve().parent
@@ -35,7 +35,8 @@ _ALONE = ("momentum", "slotine_li_regressor")  # Pinocchio has none
 def _measure(quick: bool) -> Mapping[str, float | Missing]:
     found: dict[str, float | Missing] = {}
     for name in ROBOTS:
-        for function, (ours, theirs, apart) in nanoseconds(name, _FEW if quick else _ROUNDS).items():
+        times = nanoseconds(name, _FEW if quick else _ROUNDS)
+        for function, (ours, theirs, apart) in times.items():
             found[f"control_ns.{function}.{name}"] = ours
             if theirs:
                 key = f"control_vs_pinocchio.{function}.{name}"

@@ -11,6 +11,7 @@ from hypothesis.internal.conjecture import providers
 
 from modeler.core.json import nulled
 from tests.further_robots import FurtherRobots
+from tests.turns import resting, today, turns
 
 # Hypothesis mixes the constants of whatever modules happen to be imported into its examples, and
 # which are depends on the tests that ran before in the process: examples shall be the same always.
@@ -18,21 +19,43 @@ providers._get_local_constants = lambda: providers._local_constants
 
 ROOT = Path(__file__).resolve().parents[1]
 
+LONGEST = ("test_wheel.py", "test_typed.py")
+"""Begun first: at the end, one process would work on them while the others have nothing to do."""
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--regenerate", action="store_true", help="rewrite generated/ instead of comparing with it"
     )
+    parser.addoption(
+        "--every", type=int, default=1, metavar="DAYS",
+        help="run each case that is marked in_turn on one day of so many",
+    )  # fmt: skip
+    parser.addoption(
+        "--day", type=int, default=today(), help="of the cases in turn; default: today"
+    )
+
+
+def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
+    if config.getoption("every") > 1:
+        line = f"of the cases in turn: --every {config.getoption('every')}"
+        terminalreporter.write_line(f"{line} --day {config.getoption('day')}")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """With --regenerate, only what compares kept files: everything else would be run in vain."""
-    if not config.getoption("--regenerate"):
-        return
-    keepers = {"compare_with_generated", "regenerate"}
-    kept = [item for item in items if keepers & set(getattr(item, "fixturenames", ()))]
-    config.hook.pytest_deselected(items=[item for item in items if item not in kept])
-    items[:] = kept
+    if config.getoption("--regenerate"):
+        keepers = {"compare_with_generated", "regenerate"}
+        left = [item for item in items if not keepers & set(getattr(item, "fixturenames", ()))]
+    else:
+        every, day = config.getoption("every"), config.getoption("day")
+        rest = resting([item.nodeid for item in items], turns(items), every, day)
+        left = [item for item in items if item.nodeid in rest]
+    if left:
+        config.hook.pytest_deselected(items=left)
+        gone = set(left)
+        items[:] = [item for item in items if item not in gone]
+    items.sort(key=lambda item: not item.nodeid.partition("::")[0].endswith(LONGEST))
 
 
 @pytest.fixture

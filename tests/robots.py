@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from modeler.core.builtin import builtin_names, builtin_text
+from tests.turns import IN_TURN
 
 ROBOTS = builtin_names()
 
@@ -43,6 +44,5 @@ KINDS = ("emps", "puma560", "sr400-tree", "wrist-coupled", "sr400", "five-bar", 
 
 
 def kinds_first(names: Iterable[str]) -> list[Any]:
-    """Names for parametrize: one robot of each kind always, the others in the long tests."""
-    slow = pytest.mark.slow
-    return [name if name in KINDS else pytest.param(name, marks=slow) for name in names]
+    """Names for parametrize: one robot of each kind always, the others long, in turn."""
+    return [name if name in KINDS else pytest.param(name, marks=IN_TURN) for name in names]

@@ -1,10 +1,11 @@
-"""A robot or a model as a file for another program: URDF, MJCF, SDF."""
+"""A robot or a model as a file for another program: URDF, MJCF, SDF, CasADi, FMU."""
 
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
+from modeler.api.code_exports import OF_EQUATIONS, code_exported
 from modeler.api.workflow import observe, recompile
 from modeler.core.errors import DataError
 from modeler.core.files import write_unless_other
@@ -21,7 +22,7 @@ def export(
     like: str | Path | None = None,
     force: bool = False,
 ) -> Exported:
-    """A robot or a model as URDF, MJCF or SDF; its `table()` lists the numbers.
+    """A robot or a model for another program; its `table()` lists the numbers.
 
     >>> export(model, to="urdf").table("not held").column("effect")
     []
@@ -29,7 +30,7 @@ def export(
     Args:
         thing: a robot with values, or a model.
         out: the file that is written; None: none.
-        to: "urdf", "mjcf", "sdf"; None: by the original, or the ending of `out`.
+        to: "urdf", "mjcf", "sdf", "casadi", "fmu", "simulink"; None: by the original, or the ending of `out`.
         like: a file of the same robot, of which only the numbers are replaced.
         force: write also over a file with another content.
 
@@ -39,13 +40,25 @@ def export(
         ModelerError: there is such a file, or it cannot be written.
     """
     kind = format_of(to, str(like or ""), str(out or ""))
-    if isinstance(thing, Robot) and thing.loops:
-        thing = with_home(thing).in_text(thing)
-    torques = _torques(thing) if isinstance(thing, IdentifiedModel) else None
-    found = exported(thing, kind, None if like is None else Path(like), torques)
+    if kind in OF_EQUATIONS:
+        found = _of_equations(thing, kind, like)
+    else:
+        if isinstance(thing, Robot) and thing.loops:
+            thing = with_home(thing).in_text(thing)
+        torques = _torques(thing) if isinstance(thing, IdentifiedModel) else None
+        found = exported(thing, kind, None if like is None else Path(like), torques)
     if out is not None:
-        write_unless_other(Path(out), found.data, force)
+        for name, data in found.files.items():
+            write_unless_other(Path(out) / name, data, force)
+        if not found.files:
+            write_unless_other(Path(out), found.data, force)
     return found
+
+
+def _of_equations(thing: Robot | IdentifiedModel, kind: str, like: str | Path | None) -> Exported:
+    if like is not None:
+        raise DataError(f"--like {like}: is for robot files, and --to says {kind}; leave out one")
+    return code_exported(thing, kind)
 
 
 def _torques(model: IdentifiedModel) -> Torques | None:

@@ -88,6 +88,7 @@ def generate(
     force: bool = False,
     precision: Precision = "double",
     cuda: bool = False,
+    structured_text: bool = False,
     frames: Sequence[str] = (),
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
@@ -101,6 +102,7 @@ def generate(
         force: write also over files that no earlier run wrote, or that were edited since.
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
+        structured_text: add function blocks in Structured Text, of a robot without loops.
         frames: rows, or links of [frames], whose pose, Jacobian and twist a controller reads
             besides those of the tool.
 
@@ -112,13 +114,15 @@ def generate(
     if isinstance(source, Derivation):
         derivation, fitted = source, None
     else:
-        derivation, fitted = _emitted_anew(source)[0], model_file.fitted_spec(source)
+        derivation, fitted = emitted_anew(source)[0], model_file.fitted_spec(source)
     control = None
     if frames:
         from modeler.codegen import Control  # who fits need not wait for it
 
         control = Control(tuple(frames))
-    return generate_robot(derivation, folder, force, fitted, precision, cuda, control)
+    return generate_robot(
+        derivation, folder, force, fitted, precision, cuda, control, structured_text
+    )
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:
@@ -268,11 +272,11 @@ def recompile(model: IdentifiedModel) -> CompiledModel:
         ManifestError: this version derives another manifest than the one that the values belong to.
     """
     otherwise = ", or use --run-embedded-c to run the C in the file if you trust its source"
-    emitted = _emitted_anew(model, otherwise)[1]
+    emitted = emitted_anew(model, otherwise)[1]
     return compile_model(dataclasses.replace(emitted, log=model.mapping or emitted.log))
 
 
-def _emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
+def emitted_anew(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, Emitted]:
     """What the robot text of a model gives, if that is what its values belong to."""
     derivation, emitted = derived(model.robot_text, f"robot {model.spec.robot} in the model file")
     if emitted.spec.signature() != model.spec.signature():

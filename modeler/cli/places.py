@@ -151,7 +151,7 @@ class NewRobot(Output):
 class OtherProgramsFile(Output):
     """A robot file of another program that is written."""
 
-    endings = (".urdf", ".xml", ".sdf")
+    endings = (".urdf", ".xml", ".sdf", ".casadi", ".fmu")
 
 
 class OriginalFile(Input):

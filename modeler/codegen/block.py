@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from modeler.codegen.naming import Letters, Naming
 from modeler.codegen.targets import DOUBLE, FUNCTIONS, Target
 from modeler.core.errors import EmitError
 from modeler.derivation import Expr, Graph
@@ -100,6 +101,7 @@ class Block:
         symbols: names of the graph's symbols that are read.
         additions: per call of the function; constants are not counted.
         multiplications: the same, divisions included.
+        letters: of the names of temporaries.
     """
 
     constants: tuple[str, ...]
@@ -108,6 +110,7 @@ class Block:
     symbols: frozenset[str]
     additions: int
     multiplications: int
+    letters: frozenset[Letters] = frozenset()
 
 
 def make_block(
@@ -152,10 +155,13 @@ def make_block(
         writer.visit(index)
     calls = writer.take()
     for place, value in outputs:
-        writer.lines.append(f"{place} = {writer.output(value)};")
+        writer.lines.append(target.stored.format(place=place, text=writer.output(value)))
     additions, multiplications = graph.operations(values)
     symbols = frozenset(graph.nodes[i].args[0] for i in reachable if graph.nodes[i].op == "sym")
-    return Block(constants, calls, writer.take(), symbols, additions, multiplications)
+    parts = constants, calls, writer.take()
+    naming = Naming(graph, writer.temporaries, [line for part in parts for line in part])
+    constants, calls, body = (naming.written(part, target.remark) for part in parts)
+    return Block(constants, calls, body, symbols, additions, multiplications, naming.letters)
 
 
 @dataclass
@@ -171,6 +177,7 @@ class _Writer:
     lines: list[str] = field(default_factory=list)
     pairs: dict[int, str] = field(default_factory=dict)
     count: dict[str, int] = field(default_factory=lambda: {"k": 0, "t": 0})
+    temporaries: dict[str, int] = field(default_factory=dict)
 
     def is_call(self, index: int) -> bool:
         """True if C calls a function for it, which stands before the arithmetic."""
@@ -242,8 +249,9 @@ class _Writer:
             name = joint[1] if joint else f"a{len(self.pairs) + 1}"
             self.pairs[angle] = name
             argument = self.texts[angle].text
-            self.lines.append(f"{self.target.number} s{name}, c{name};")
-            self.lines.append(f"{self.target.sincos}({argument}, &s{name}, &c{name});")
+            words = {"number": self.target.number, "sincos": self.target.sincos}
+            texts = (each.format(name=name, angle=argument, **words) for each in self.target.turn)
+            self.lines += texts
         return Text(_PAIR[op] + self.pairs[angle], ATOM)
 
     def _text(self, index: int) -> Text:
@@ -304,5 +312,7 @@ class _Writer:
             letter, number = "k", self.target.still.number
         self.count[letter] += 1
         name = f"{letter}{self.count[letter]}"
-        self.lines.append(f"const {number} {name} = {self.texts[index].text};")
+        self.temporaries[name] = index
+        text = self.texts[index].text
+        self.lines.append(self.target.temporary.format(number=number, name=name, text=text))
         self.texts[index] = Text(name, ATOM)

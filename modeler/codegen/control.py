@@ -11,7 +11,9 @@ from fractions import Fraction
 
 from modeler import derivation
 from modeler.codegen import functions as layout
+from modeler.codegen.forward import forward_functions, without_beta
 from modeler.codegen.functions import Arguments, CFunction, entries_of
+from modeler.codegen.parameter_set import smooth_functions
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, FittedSpec
 from modeler.derivation import BaseParameters, Entries, Expr, ShaftColumn, SymbolicModel
@@ -48,10 +50,13 @@ def control_functions(
     if model.closure is not None:
         return ()
     given = layout.arguments_of(model.robot.free, model, base)
+    beta = layout.beta_symbols(model, base)
     return (
-        *_dynamics(model, layout.beta_symbols(model, base), given),
+        *_dynamics(model, beta, given),
         *_regressors(model, base, given),
         *_frames(model, control, given),
+        *forward_functions(model, beta, given),
+        *smooth_functions(model, beta, given),
     )
 
 
@@ -66,14 +71,8 @@ def fitted_control_functions(
         parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
         for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
     }
-    return tuple(
-        dataclasses.replace(
-            function,
-            role=f"fitted_{function.role}",
-            inputs=tuple(a for a in function.inputs if a.name != "beta"),
-        )
-        for function in _dynamics(model, values, given)
-    )
+    found = (*_dynamics(model, values, given), *forward_functions(model, values, given))
+    return tuple(map(without_beta, found))
 
 
 def _dynamics(
@@ -202,7 +201,9 @@ def _functions_of(
 ) -> Sequence[CFunction]:
     frame = derivation.body_frame(model, name)
     row, n = model.robot.joints[frame.row].name, model.geometry.coordinates
-    of = f"frame {name}" if name else "the tool" if model.robot.tool else f"the frame of joint {row}"
+    of = (
+        f"frame {name}" if name else "the tool" if model.robot.tool else f"the frame of joint {row}"
+    )
     of = layout.comment_text(of)
     speed, turn = "rows 0-2 velocity of its origin, 3-5 angular", "in axes of frame 0"
 

@@ -13,7 +13,8 @@ import jinja2
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
-from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec, text_digest
+from modeler import __version__
+from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec, OriginSpec, text_digest
 
 # The programs of a folder.
 
@@ -128,7 +129,7 @@ def _unwanted(emitted: Emitted) -> set[str]:
     """
     prefix = emitted.spec.prefix
     names = {f"{prefix}_{unit}.{kind}" for unit in ("fitted", "control") for kind in "hc"}
-    names |= {f"{prefix}.cu"}
+    names |= {f"{prefix}.cu", f"{prefix}.st"}
     names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
     return names - emitted.files.keys()
 
@@ -206,8 +207,17 @@ def render(template: str, **values: Any) -> str:
     return _environment().get_template(f"{template}.jinja").render(**values)
 
 
-C_INTERFACE = 1
-"""Raised when a function of the emitted C takes other arguments under the same name."""
+C_INTERFACE = 2
+"""Raised when a function of the emitted C takes other arguments under the same name, or stands in
+another header or library."""
+
+LICENSE = "MIT"
+"""SPDX identifier of what is emitted: that of the templates and of the runtime."""
+
+
+def origin_of() -> OriginSpec:
+    """What the manifest and a header say of this version; the other files are the robot's alone."""
+    return OriginSpec(C_INTERFACE, f"modeler {__version__}", LICENSE)
 
 
 def package_version(signature: str) -> str:
@@ -239,6 +249,8 @@ def package_files(
     every = spec.every_function
     given = {
         **values,
+        "origin": origin_of(),
+        "status": any(f.status for f in every),
         "package": _package(spec, code),
         "folder": FOLDER,
         "examples": examples,
@@ -258,14 +270,19 @@ def package_files(
         "Makefile": "Makefile",
         "CMakeLists.txt": "CMakeLists.txt",
         f"{prefix}.pc.in": "package.pc.in",
+        f"{prefix}_batch.pc.in": "batch.pc.in",
         f"{prefix}-config.cmake": "config.cmake",
         f"{prefix}-config-version.cmake": "config-version.cmake",
         "README.md": "README.md",
     }
+    if spec.control is not None:
+        templates |= {f"{prefix}_generator.h": "generator.h", f"{prefix}.hpp": "wrapper.hpp"}
     texts = {name: render(template, **given) for name, template in templates.items()}
     # What is compared with others is checked after them.
     products = {f"{prefix}_{role}" for role in PRODUCTS}
     order = sorted(every, key=lambda f: (f.name in products, f.name != f"{prefix}_base_parameters"))
+    stored = {f"{prefix}_{name.removeprefix('at_')}" for name in values["vectors"]["tables"]}
+    order = [f for f in order if f.name in stored | products | {f"{prefix}_base_parameters"}]
     largest = max(f.outputs[0].size for f in every)
     checked = {"checked": order, "products": PRODUCTS, "turning": TURNING, "largest": largest}
     own = {name: example_values(spec, name) for name in examples} | {SELF_CHECK: checked}
@@ -284,17 +301,19 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
     if spec.control is not None:
         signature = text_digest(spec.to_json())
-    heads = [f"{spec.prefix}{unit}.h" for unit in ("", "_fitted", "_control", "_tile")]
-    public = [name for name in heads if name in code]
+    heads = [f"{spec.prefix}{unit}.h" for unit in ("", "_fitted", "_control", "_joints", "_batch", "_tile")]
+    public = [name for name in (*heads, "modeler_batch.h") if name in code]
     for name in public:  # grows while it is read
         included = re.findall(r'^#include "([^"]+)"', code[name], flags=re.MULTILINE)
         public += [h for h in included if h in code and h not in public]
+    own = spec.controller_sources
     return {
         "signature": signature,
         "version": package_version(signature),
-        "sources": [name for name in code if name.endswith(".c")],
+        "sources": [name for name in own if name.endswith(".c")],
+        "batch": [name for name in code if name.endswith(".c") and name not in own],
         "headers": [name for name in code if name.endswith(".h")],
-        "public": public,
+        "public": public + ([f"{spec.prefix}_generator.h", f"{spec.prefix}.hpp"] if spec.control else []),
     }
 
 
@@ -320,7 +339,7 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     """
     if spec.closure is not None:
         return None
-    functions = spec.every_function
+    functions = [f for f in spec.every_function if not f.status]
     return {
         "states": 16,
         "largest": max(f.outputs[0].size for f in functions),

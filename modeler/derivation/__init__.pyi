@@ -52,10 +52,12 @@ from .geometry import (
     quarter_turns as quarter_turns,
 )
 from .graph import (
+    Arithmetic as Arithmetic,
     Expr as Expr,
     Graph as Graph,
     GraphAlgebra as GraphAlgebra,
     Node as Node,
+    Plan as Plan,
     Vector as Vector,
     derivatives as derivatives,
 )
@@ -75,6 +77,7 @@ from .kinematics import (
     screws as screws,
     times as times,
 )
+from .labels import Label as Label
 from .lagrange import lagrange_torque as lagrange_torque
 from .model import (
     Entries as Entries,

@@ -80,7 +80,10 @@ def _on_row(model: SymbolicModel, link: LinkFrame | None) -> AxesOrigin:
 def frame_pose(model: SymbolicModel, frame: BodyFrame) -> list[list[Expr]]:
     """[R | p], 3 x 4: the axes in the columns of R, and the origin, in frame 0."""
     at = poses_from(model.geometry, model.frames, model.algebra, None, {frame.row})[frame.row]
-    axes, origin = [_turned(at, axis) for axis in frame.axes], plus(at[1], _turned(at, frame.origin))
+    axes, origin = (
+        [_turned(at, axis) for axis in frame.axes],
+        plus(at[1], _turned(at, frame.origin)),
+    )
     return [[*(axis[i] for axis in axes), origin[i]] for i in range(3)]
 
 
@@ -120,6 +123,7 @@ def jacobian_dot_qd(model: SymbolicModel, frame: BodyFrame) -> list[Expr]:
 def twist(model: SymbolicModel, frame: BodyFrame) -> list[Expr]:
     """(v, w) of the frame, 6, in its own axes."""
     still = [model.graph.constant(0)] * model.geometry.coordinates
-    moved = model.link_motions(still, model.inputs("qd"), gravity=False)[frame.row]
+    with model.speeds_for_accelerations():
+        moved = model.link_motions(still, model.inputs("qd"), gravity=False)[frame.row]
     v = plus(moved.vd, cross(moved.wd, frame.origin))
     return [dot(axis, x) for x in (v, moved.wd) for axis in frame.axes]

@@ -9,13 +9,14 @@ fold numbers, so that symbolic lengths cost no more operations than numeric ones
 Two expressions are equal when they are equal as functions, however they are written: every node
 carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
 circle (those of a sum are composed of those of its terms), and a new node whose value is known is
-the known node. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
+the known node, unless that reads symbols which the new one does without. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
 rational functions of degree d share a value with a probability of about d * 2**-61; emitted code is
 compared with other derivations anyway.)
 """
 
 import hashlib
 import operator
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -27,6 +28,7 @@ import sympy
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, quarter_turns
+from modeler.derivation.labels import Label, Link
 
 # Values of expressions by steps that are listed once: closing loops asks hundreds of times.
 
@@ -134,7 +136,14 @@ class Node:
 
 
 class Graph:
-    """Nodes in order of creation: arguments always stand before their users."""
+    """Nodes in order of creation: arguments always stand before their users.
+
+    Attributes:
+        nodes: the operations.
+        labels: {node: what it is}, of those that were named; see `named`.
+        links: {name: the row}, for those who write of them.
+        called: {quantity: another}, while speeds are put in the place of accelerations.
+    """
 
     def __init__(self) -> None:
         one = Node("num", (Fraction(1),), True)
@@ -142,7 +151,12 @@ class Graph:
         self._index: dict[tuple[str, tuple[Any, ...]], int] = {("num", one.args): 1}
         self._residue = [0, 1]
         self._by_residue = {0: 0, 1: 1}
+        self._read = [0, 0]  # symbols that a node reads, a bit for each
+        self._symbols = 0
         self._plans: dict[tuple[int, ...], Plan] = {}
+        self.labels: dict[int, Label] = {}
+        self.links: dict[str, Link] = {}
+        self.called: Mapping[str, str] = {}
 
     def symbol(self, name: str, static: bool = False) -> "Expr":
         """The input of that name; `static` for geometric symbols."""
@@ -186,15 +200,31 @@ class Graph:
         ref = self._index.get(key)
         if ref is None:
             residue = self._modular(op, args)
+            read = self._bits(op, args)
             # Numbers are compared as numbers: two of them may well agree modulo the prime.
             ref = None if op == "num" else self._known(residue)
-            if ref is None:
+            if ref is None or self._read[abs(ref)] & ~read:
                 ref = len(self.nodes)
                 self.nodes.append(Node(op, args, static))
                 self._residue.append(residue)
-                self._by_residue.setdefault(residue, ref)
+                self._read.append(read)
+                if op == "num":
+                    self._by_residue.setdefault(residue, ref)
+                else:
+                    self._by_residue.pop(PRIME - residue, None)
+                    self._by_residue[residue] = ref
             self._index[key] = ref
         return ref
+
+    def _bits(self, op: str, args: tuple[Any, ...]) -> int:
+        """Which symbols an operation reads."""
+        if op == "sym":
+            self._symbols += 1
+            return 1 << self._symbols
+        read = 0
+        for arg in args if op not in ("num", "pi") else ():
+            read |= self._read[abs(arg)]
+        return read
 
     def _known(self, residue: int) -> int | None:
         if residue in self._by_residue:
@@ -425,6 +455,40 @@ class Expr:
         return result if exponent >= 0 else 1 / result
 
 
+def named(
+    quantity: str, link: str, values: Any, step: str = "", of: str = "",
+    components: Sequence[str] = "xyz",
+) -> Any:  # fmt: skip
+    """The values, which from now on are known as this quantity of a link where text is written.
+
+    A node keeps its first label, whatever else it turns out to be, unless that is a step; other
+    algebras than the graph's have none.
+
+    Args:
+        quantity: a letter; see `Label`.
+        link: name of the row; without one nothing is named.
+        values: one for each component.
+        step: on the way to the quantity.
+        of: a joint or parameter that the quantity is one unit of.
+        components: their names.
+    """
+    for component, value in zip(components, values if link else (), strict=bool(link)):
+        if isinstance(value, Expr) and abs(value.ref) > 1:
+            known = value.graph.labels.get(abs(value.ref))
+            if known is None or (known.step and not step):
+                letter = value.graph.called.get(quantity, quantity)
+                label = Label(letter, link, component, step, of, value.ref < 0)
+                value.graph.labels[abs(value.ref)] = label
+    return values
+
+
+def named_matrix(quantity: str, link: str, matrix: list[Any], step: str = "") -> list[Any]:
+    """The same of the rows of a 3 x 3 matrix."""
+    for line, axis in zip(matrix, "xyz", strict=True):
+        named(quantity, link, line, step, components=[axis + other for other in "xyz"])
+    return matrix
+
+
 def combination(graph: Graph, form: Mapping[int, Fraction], values: Any) -> Expr:
     """Sum of coefficient * value over {place of the value: coefficient}."""
     total = graph.constant(0)
@@ -466,6 +530,10 @@ class GraphAlgebra:
     def __init__(self, graph: Graph, geometry: Geometry) -> None:
         self.graph = graph
         self.geometry = geometry
+        for row in geometry.rows:
+            before = "0" if row.parent is None else geometry.rows[row.parent].joint.name
+            moves = "turning" if row.joint.angular else "sliding"
+            graph.links[row.joint.name] = Link(before, "" if row.index is None else moves)
 
     def static(self, value: sympy.Expr) -> Expr:
         """A geometric constant as a static expression."""
@@ -559,16 +627,26 @@ def derivatives(
             found[index] = direction.get(node.args[0], zero)
         elif node.static:
             found[index] = zero
-        elif (kinks or node.op in _EVERYWHERE) and not any(found[abs(ref)].ref for ref in node.args):
+        elif (kinks or node.op in _EVERYWHERE) and not any(
+            found[abs(ref)].ref for ref in node.args
+        ):
             found[index] = zero  # most nodes depend on few symbols
         else:
             found[index] = _derivative(index, node, values[0], found, kinks)
+            _name_derivative(graph, index, found[index], direction)
     return [found[abs(v.ref)] if v.ref >= 0 else -found[-v.ref] for v in values]
 
 
-def _derivative(
-    index: int, node: Node, like: Expr, found: Mapping[int, Expr], kinks: bool
-) -> Expr:
+def _name_derivative(graph: Graph, index: int, slope: Expr, direction: Mapping[str, Expr]) -> None:
+    """Names it by what is derived, and by the one variable that moves, or the time."""
+    if label := graph.labels.get(index):
+        by = re.sub(r"\W", "", min(direction)) if len(direction) == 1 else "t"
+        value = [-slope if label.minus else slope]
+        step, of = f"{label.step}d", label.of + by
+        named(label.quantity, label.link, value, step, of, [label.component])
+
+
+def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr], kinks: bool) -> Expr:
     graph = like.graph
     args = [Expr(graph, ref) for ref in node.args]
     slopes = [found[abs(a.ref)] if a.ref >= 0 else -found[-a.ref] for a in args]

@@ -13,7 +13,7 @@ import sympy
 
 from modeler.core.brief import Brief
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
-from modeler.derivation.graph import Algebra, Scalar, Vector
+from modeler.derivation.graph import Algebra, Scalar, Vector, named, named_matrix
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -90,6 +90,7 @@ def pose(row: GeometryRow, algebra: Algebra) -> Pose:
     prismatic = row.index is not None and not row.joint.angular
     r = algebra.variable(row) if prismatic else algebra.static(row.r)
     p = _back_z(gamma, plus(_back_x(alpha, [d, d * 0, r]), [b * 0, b * 0, b]))
+    named("p", row.joint.name, p)
     return Pose(gamma, alpha, algebra.cos_sin(row), p)
 
 
@@ -125,13 +126,18 @@ def screws(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> list
     force f and moment n at O_k on the joint: tau = e.n + m.f.
     """
     zero = algebra.static(sympy.Integer(0))
+    names = {row.index: row.joint.name for row in geometry.rows}
     found: list[dict[int, Screw]] = []
     for k, row in enumerate(geometry.rows):
         carried: dict[int, Screw] = {}
         if row.parent is not None:
             for index, screw in found[row.parent].items():
                 moved = plus(screw.m, cross(screw.e, frames[k].p))
-                carried[index] = Screw(frames[k].to_link(screw.e), frames[k].to_link(moved))
+                link, of = row.joint.name, names[index]
+                carried[index] = Screw(
+                    named("e", link, frames[k].to_link(screw.e), of=of),
+                    named("m", link, frames[k].to_link(moved), of=of),
+                )
         if row.index is not None:
             axis = [x * row.rate for x in unit_z(algebra)]
             nothing = [zero, zero, zero]
@@ -187,6 +193,10 @@ def base_poses(geometry: Geometry, frames: Sequence[Pose], algebra: Algebra) -> 
     axes, and what one frame costs serves all that follow.
     """
     found = poses_from(geometry, frames, algebra, None, set(range(len(frames))))
+    for k, row in enumerate(geometry.rows):
+        axes, origin = found[k]
+        for letter, values in zip("xyzo", (*axes, origin), strict=True):
+            named(letter, row.joint.name, values)
     return [found[k] for k in range(len(frames))]
 
 
@@ -249,6 +259,7 @@ class Motion:
         vd: acceleration of the origin minus gravity, m/s2.
         ww: y z, x z and x y of w, rad2/s2.
         U: [wd x] + [w x][w x], rows of three.
+        link: its name.
         half: half the angular velocity of the second speeds; three times None without.
     """
 
@@ -258,6 +269,7 @@ class Motion:
     ww: Vector
     U: list[Vector]
     half: Vector
+    link: str = ""
 
 
 @dataclass(frozen=True)
@@ -291,9 +303,11 @@ def motions(
 
 
 def _next(a: Motion, row: GeometryRow, frame: Pose, state: MotionState) -> Motion:
-    w, wd = frame.to_link(a.w), frame.to_link(a.wd)
+    link = row.joint.name
+    w, wd = named("w", link, frame.to_link(a.w), "b"), named("wd", link, frame.to_link(a.wd), "b")
     half = a.half if state.v is None else frame.to_link(a.half)
-    vd = frame.to_link(plus(a.vd, [dot(line, frame.p) for line in a.U]))
+    vd = named("vd", link, plus(a.vd, [dot(line, frame.p) for line in a.U]), "a")
+    vd = named("vd", link, frame.to_link(vd), "b")
     if row.index is not None:
         qd, qdd = state.qd[row.index] * row.rate, state.qdd[row.index] * row.rate
         v = None if state.v is None else state.v[row.index] * row.rate / 2
@@ -304,7 +318,8 @@ def _next(a: Motion, row: GeometryRow, frame: Pose, state: MotionState) -> Motio
             half = half if v is None else [half[0], half[1], half[2] + v]
         else:
             vd = [vd[0] + 2 * x, vd[1] - 2 * y, vd[2] + qdd]
-    return _motion(w, wd, vd, half)
+    named("w", link, w), named("wd", link, wd), named("vd", link, vd)
+    return _motion(w, wd, vd, half, link)
 
 
 def _product(a: Scalar, b: Scalar, half_a: Scalar, half_b: Scalar) -> Scalar:
@@ -312,15 +327,16 @@ def _product(a: Scalar, b: Scalar, half_a: Scalar, half_b: Scalar) -> Scalar:
     return a * b if half_a is None else a * half_b + half_a * b
 
 
-def _motion(w: Vector, wd: Vector, vd: Vector, half: Vector) -> Motion:
+def _motion(w: Vector, wd: Vector, vd: Vector, half: Vector, link: str) -> Motion:
     xx, yy, zz = (_product(w[i], w[i], half[i], half[i]) for i in range(3))
     xy, xz, yz = (_product(w[i], w[j], half[i], half[j]) for i, j in ((0, 1), (0, 2), (1, 2)))
+    named("ww", link, (xx, yy, zz, xy, xz, yz), components=("xx", "yy", "zz", "xy", "xz", "yz"))
     U = [
         [-(yy + zz), xy - wd[2], xz + wd[1]],
         [xy + wd[2], -(xx + zz), yz - wd[0]],
         [xz - wd[1], yz + wd[0], -(xx + yy)],
     ]
-    return Motion(w, wd, vd, [yz, xz, xy], U, half)
+    return Motion(w, wd, vd, [yz, xz, xy], named_matrix("U", link, U), half, link)
 
 
 def wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
@@ -329,6 +345,13 @@ def wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
     f = M vd + U MS and n = J wd + w x (J w) + MS x vd, where
     J = [[XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ]].
     """
+    found = _wrench_columns(motion)
+    for name, (force, moment) in found.items():
+        named("f", motion.link, force, of=name), named("n", motion.link, moment, of=name)
+    return found
+
+
+def _wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
     wd, vd, U = motion.wd, motion.vd, motion.U
     zero = 0 * vd[0]
     none = [zero, zero, zero]
@@ -380,7 +403,10 @@ def inverse_dynamics(
 
 
 def wrenches(
-    geometry: Geometry, frames: Sequence[Pose], own: Callable[[int], tuple[Vector, Vector]]
+    geometry: Geometry,
+    frames: Sequence[Pose],
+    own: Callable[[int], tuple[Vector, Vector]],
+    quantities: tuple[str, str] = ("fc", "nc"),
 ) -> Iterator[tuple[int, Vector, Vector]]:
     """(row, force, moment at its origin) of every link with all that it carries, the last first.
 
@@ -388,17 +414,22 @@ def wrenches(
         geometry: the table.
         frames: poses of the rows.
         own: those of the row's link alone, in its frame.
+        quantities: what the two are called.
     """
     total: dict[int, tuple[Vector, Vector]] = {}
     for k in reversed(range(len(geometry.rows))):
         f, n = own(k)
         if k in total:
             f, n = plus(total[k][0], f), plus(total[k][1], n)
+        for quantity, vector in zip(quantities, (f, n), strict=True):
+            named(quantity, geometry.rows[k].joint.name, vector)
         yield k, f, n
         parent = geometry.rows[k].parent
         if parent is not None:
             f = frames[k].to_antecedent(f)
             n = plus(frames[k].to_antecedent(n), cross(frames[k].p, f))
+            for quantity, vector in zip(quantities, (f, n), strict=True):
+                named(quantity, geometry.rows[k].joint.name, vector, "a")
             before = total.get(parent)
             total[parent] = (plus(before[0], f), plus(before[1], n)) if before else (f, n)
 
@@ -410,9 +441,10 @@ def link_wrench(
     J = [[parameters.get(name, zero) for name in line] for line in _INERTIA]
     MS = [parameters.get(name, zero) for name in ("MX", "MY", "MZ")]
     f = plus(times(parameters.get("M", zero), motion.vd), [dot(line, MS) for line in motion.U])
-    Jw = [dot(line, motion.w) for line in J]
+    Jw = named("h", motion.link, [dot(line, motion.w) for line in J])
     n = plus([dot(line, motion.wd) for line in J], cross(motion.w, Jw))
-    return f, plus(n, cross(MS, motion.vd))
+    n = plus(n, cross(MS, motion.vd))
+    return named("f", motion.link, f), named("n", motion.link, n)
 
 
 _INERTIA = (("XX", "XY", "XZ"), ("XY", "YY", "YZ"), ("XZ", "YZ", "ZZ"))
@@ -424,7 +456,8 @@ _INERTIA = (("XX", "XY", "XZ"), ("XY", "YY", "YZ"), ("XZ", "YZ", "ZZ"))
 class Composite:
     """Mass, first moments and inertia (at its frame's origin) of a link and all that it carries."""
 
-    def __init__(self, parameters: Mapping[str, Any], zero: Scalar) -> None:
+    def __init__(self, parameters: Mapping[str, Any], zero: Scalar, link: str = "") -> None:
+        self.link = link
         self.M: Scalar = parameters.get("M", zero)
         self.MS: Vector = [parameters.get(name, zero) for name in ("MX", "MY", "MZ")]
         self.J: list[Vector] = [[parameters.get(n, zero) for n in line] for line in _INERTIA]
@@ -434,13 +467,19 @@ class Composite:
 
         J += R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T) with S = R MS.
         """
-        p, S = frame.p, frame.to_antecedent(other.MS)
+        p, S = frame.p, named("MSc", other.link, frame.to_antecedent(other.MS), "a")
         turned = frame.turned(other.J)
-        for i in range(3):
-            for j in range(3):
-                self.J[i][j] = self.J[i][j] + turned[i][j] + steiner(p, S, other.M, i, j)
+        named_matrix("Jc", other.link, turned, "a")
+        for i, row in enumerate("xyz"):
+            for j, column in enumerate("xyz"):
+                both, shift = self.J[i][j] + turned[i][j], steiner(p, S, other.M, i, j)
+                named("Js", other.link, [shift], components=[row + column])
+                self.J[i][j] = both + shift
         self.MS = plus(self.MS, plus(S, times(other.M, p)))
         self.M = self.M + other.M
+        named_matrix("Jc", self.link, self.J)
+        named("MSc", self.link, self.MS)
+        named("Mc", self.link, [self.M], components=[""])
 
     def momentum(self, row: GeometryRow) -> tuple[Vector, Vector]:
         """Linear and angular momentum for unit speed of the joint of the row, in its frame."""
@@ -473,7 +512,9 @@ def inertia_matrix(
         parameters: per row, the inertial parameters that are not zero.
         zero: the algebra's zero.
     """
-    links = [Composite(p, zero) for p in parameters]
+    links = [
+        Composite(p, zero, row.joint.name) for p, row in zip(parameters, geometry.rows, strict=True)
+    ]
     matrix = [[zero] * geometry.joints for _ in range(geometry.joints)]
     for k in reversed(range(len(links))):
         row = geometry.rows[k]
@@ -496,5 +537,7 @@ def _fill(
             along = (n if other.joint.angular else f)[2] * other.rate
             matrix[row.index][other.index] = along
             matrix[other.index][row.index] = along
-        f = frames[at].to_antecedent(f)
+        names = other.joint.name, row.joint.name
+        f = named("lin", names[0], frames[at].to_antecedent(f), "a", names[1])
         n = plus(frames[at].to_antecedent(n), cross(frames[at].p, f))
+        named("ang", names[0], n, "a", names[1])

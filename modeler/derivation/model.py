@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
@@ -34,6 +35,7 @@ from modeler.derivation.kinematics import (
     project,
     wrench_columns,
 )
+from modeler.derivation.labels import Label
 from modeler.effects import ENCODERS, Acts
 from modeler.robot import Robot
 
@@ -41,6 +43,8 @@ _REFERRED = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
 """Effects whose parameters `[reference]` may state: those that depend on nothing else."""
 
 _SMOOTH = ("rigid_body", "rotor_inertia", "viscous")
+
+_OF_SPEEDS = {"wd": "w", "vd": "v", "U": "W", "f": "l", "n": "k", "fc": "lc", "nc": "kc"}
 
 Entries = Mapping[tuple[int, int], Expr]
 """Structural nonzeros of a regressor: (joint, column) -> expression."""
@@ -134,7 +138,9 @@ class SymbolicModel(Brief):
         projected on every joint below; effect columns from their definition.
         """
         moved = self.link_motions(self.inputs("qd"), self.inputs("qdd"))
-        return self.entries(self.projected(moved), partial(effect_entries, self))
+        found = self.entries(self.projected(moved), partial(effect_entries, self))
+        self._labels.update(self.graph.labels)
+        return found
 
     def projected(self, moved: Sequence[Motion]) -> Callable[[LinkColumn], dict[int, Expr]]:
         """{free variable: torque along it} per unit of a link's parameter, in this motion."""
@@ -165,6 +171,31 @@ class SymbolicModel(Brief):
                     value = entries.get((k, place), self.graph.constant(0)) + value
                     entries[k, place] = value
         return {at: value for at, value in entries.items() if not value.is_zero}
+
+    @contextmanager
+    def speeds_for_accelerations(self) -> Iterator[None]:
+        """While recursions are given speeds as accelerations: labels say what comes of it."""
+        self.graph.called = _OF_SPEEDS
+        try:
+            yield
+        finally:
+            self.graph.called = {}
+
+    @cached_property
+    def _labels(self) -> dict[int, Label]:
+        """Those that stood when the regressor was there."""
+        return {}
+
+    @contextmanager
+    def labelled(self) -> Iterator[None]:
+        """While a module is written: labels do not depend on what else was asked of the model."""
+        graph, before = self.graph, self.graph.labels
+        assert self.regressor
+        graph.labels = self._labels.copy()
+        try:
+            yield
+        finally:
+            graph.labels = before
 
     @cached_property
     def carried(self) -> list[dict[int, Screw]]:
@@ -289,9 +320,7 @@ def effect_entries(
     return {k: torque * coefficient for k, coefficient in column.shaft.items()}
 
 
-def _equation(
-    model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED
-) -> Expr:
+def _equation(model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED) -> Expr:
     """The equation of the column on its shaft."""
     graph = model.graph
     values: dict[str, Expr] = {

@@ -1,3 +1,8 @@
 from .held import NotHeld as NotHeld, Torques as Torques
 from .result import Exported as Exported, Value as Value
-from .write import ENDINGS as ENDINGS, exported as exported, format_of as format_of
+from .write import (
+    ENDINGS as ENDINGS,
+    FORMATS as FORMATS,
+    exported as exported,
+    format_of as format_of,
+)

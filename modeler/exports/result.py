@@ -1,8 +1,8 @@
 """What was written: every number as it was and is, and what the file cannot hold."""
 
 import re
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -61,13 +61,15 @@ class Exported(Presented):
 
     Attributes:
         robot: name.
-        format: "urdf", "mjcf" or "sdf".
+        format: one of `FORMATS`.
         like: the original whose numbers were replaced; "" of a file of its own.
         data: the file.
         values: its numbers.
         not_held: effects that it has no place for.
         moved: by how many sigmas of the fit the base parameters moved so that they can be built.
         notes: what was decided.
+        functions: {name: inputs and outputs} of a file of equations.
+        files: of a folder, by name; `data` is empty then.
     """
 
     robot: str
@@ -78,6 +80,8 @@ class Exported(Presented):
     not_held: tuple[NotHeld, ...]
     moved: float
     notes: tuple[str, ...]
+    functions: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, bytes] = field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
         """What `--json` writes."""
@@ -89,6 +93,8 @@ class Exported(Presented):
             "values": [vars(value) for value in self.values],
             "not_held": [vars(lost) for lost in self.not_held],
             "notes": list(self.notes),
+            "functions": dict(self.functions),
+            "files": sorted(self.files),
         }
 
 
@@ -180,12 +186,20 @@ def _line(value: Value) -> str:
     return f"{value.part} {value.quantity}: {value.now:.6g}{sigma} {value.unit}, was {was}"
 
 
+def _title(found: Exported) -> str:
+    titles = {"casadi": "CasADi", "fmu": "FMU", "ros2": "package for ROS 2"}
+    return titles.get(found.format, found.format.upper())
+
+
 def _summary(found: Exported) -> str:
     changed = sum(value.changed for value in found.values)
     told = f" like {found.like}: {changed} of {len(found.values)} numbers changed"
-    first = f"{found.robot} as {found.format.upper()}"
-    first += told if found.like else f": {len(found.values)} numbers"
-    lost = [f"{found.format.upper()} cannot hold {one.line}" for one in found.not_held]
+    first = f"{found.robot} as {_title(found)}"
+    first += told if found.like else f": {len(found.values)} numbers" * bool(found.values)
+    first += f"{',' if found.values else ':'} {len(found.functions)} functions" * bool(
+        found.functions
+    )
+    lost = [f"{_title(found)} cannot hold {one.line}" for one in found.not_held]
     return "\n".join([first, *found.notes, *lost])
 
 
@@ -202,7 +216,7 @@ def _lost_table(found: Exported) -> Table:
         for one in found.not_held
     ]  # fmt: skip
     head = "effect, joint, values, share, of"
-    return Table.of(f"{found.robot}: what {found.format.upper()} cannot hold", head, rows)
+    return Table.of(f"{found.robot}: what {_title(found)} cannot hold", head, rows)
 
 
 present({
@@ -210,5 +224,8 @@ present({
         "values": lambda: _values_table(found, found.values),
         "changed": lambda: _values_table(found, filter(_told, found.values)),
         "not held": lambda: _lost_table(found),
+        "functions": lambda: Table.of(
+            f"{found.robot}: functions", "function, arguments", [*found.functions.items()]
+        ),
     }, page=("values", "not held")),
 })  # fmt: skip

@@ -16,8 +16,14 @@ from modeler.exports.original import TENSOR, original_of, placed, source_of
 from modeler.exports.result import Exported, Value, body_values, drive_values, sigmas, with_comment
 from modeler.robot import Robot
 
-ENDINGS = {".urdf": "urdf", ".xml": "mjcf", ".mjcf": "mjcf", ".sdf": "sdf"}
+ENDINGS = {
+    ".urdf": "urdf", ".xml": "mjcf", ".mjcf": "mjcf", ".sdf": "sdf", ".casadi": "casadi",
+    ".fmu": "fmu",
+}  # fmt: skip
 """Formats by the ending of a file."""
+
+FORMATS = ("urdf", "mjcf", "sdf", "casadi", "fmu", "simulink", "ros2")
+"""All that --to may name."""
 
 
 def format_of(to: str | None, like: str, out: str) -> str:
@@ -31,7 +37,7 @@ def format_of(to: str | None, like: str, out: str) -> str:
     ending = Path(out).suffix.lower()
     if ending not in ENDINGS:
         raise DataError(
-            f"export: {out or 'nothing'} does not say the format; give --to urdf, mjcf or sdf, or "
+            f"export: {out or 'nothing'} does not say the format; give --to {', '.join(FORMATS)}, or "
             f"an ending {', '.join(ENDINGS)}"
         )
     return ENDINGS[ending]

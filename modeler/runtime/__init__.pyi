@@ -1,4 +1,8 @@
-from .build import cache_folder as cache_folder, find_toolchain as find_toolchain
+from .build import (
+    cache_folder as cache_folder,
+    find_toolchain as find_toolchain,
+    portable_library as portable_library,
+)
 from .fused import (
     NonzeroPattern as NonzeroPattern,
     Triangles as Triangles,

@@ -1,6 +1,7 @@
 """Compiling on this machine: the C compiler, its flags, the cache of libraries."""
 
 import contextlib
+import dataclasses
 import hashlib
 import os
 import re
@@ -169,6 +170,27 @@ def _checked(tools: Toolchain, arguments: Sequence[str]) -> None:
             f"C compiler: {shlex.join(tools.command)} refused the emitted code:\n{words}\n"
             "(check it, or name another one in CC)"
         )
+
+
+_PORTABLE = (*_ALWAYS, "-O2", "-ffp-contract=off", "-fvisibility=hidden")
+
+
+def portable_library(sources: Mapping[str, str]) -> bytes:
+    """A shared library of these C files that runs on any processor of this kind.
+
+    Args:
+        sources: {file name: text}, headers included.
+
+    Raises:
+        BuildError: no compiler, or it refused.
+    """
+    tools = dataclasses.replace(find_toolchain(), flags=_PORTABLE)
+    with tempfile.TemporaryDirectory() as scratch:
+        for name, text in sources.items():
+            (Path(scratch) / name).write_text(text, encoding="utf-8", newline="\n")
+        made = Path(scratch) / "library"
+        compile_library(tools, Path(scratch), [n for n in sources if n.endswith(".c")], made)
+        return made.read_bytes()
 
 
 # The folder of compiled libraries: which entry is whole, and which have to go.

@@ -282,6 +282,7 @@ def test_public_urdfs_stay_as_they_are(name) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.in_turn
 @each_public_urdf()
 def test_every_public_urdf_stays_as_it_is(path) -> None:
     try:

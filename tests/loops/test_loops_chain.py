@@ -10,6 +10,7 @@ from modeler.robot.read import read_robot
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.further_robots import FurtherRobots
 from tests.loops.chain import Chain, chain
+from tests.turns import IN_TURN, in_turn
 
 
 def check(story: Chain) -> None:
@@ -19,16 +20,13 @@ def check(story: Chain) -> None:
     assert story.hidden not in story.left
 
 
-SLOW = pytest.mark.slow
-
-
-@pytest.mark.parametrize("robot", ["five-bar", pytest.param("orthoglide-2003", marks=SLOW)])
+@pytest.mark.parametrize("robot", ["five-bar", pytest.param("orthoglide-2003", marks=IN_TURN)])
 def test_a_hidden_friction_is_named_and_added(robot: str, tmp_path: Path) -> None:
     check(chain(robot, tmp_path))
 
 
 @pytest.mark.parametrize(
-    "file", [pytest.param(name, marks=SLOW) for name in ("3rpr_passive", "excavator_sim")]
+    "file", [pytest.param(name, marks=IN_TURN) for name in ("3rpr_passive", "excavator_sim")]
 )
 def test_on_robots_from_elsewhere(
     file: str, loop_robots_folder: FurtherRobots, tmp_path: Path
@@ -36,7 +34,7 @@ def test_on_robots_from_elsewhere(
     check(chain(str(loop_robots_folder / f"{file}.toml"), tmp_path))
 
 
-@pytest.mark.slow
+@in_turn("logs of robots with loops")
 def test_joints_without_motor_that_swing(tmp_path: Path) -> None:
     """Their rows are 0 = W beta; a diagnosis must not be driven to beta = 0 by them."""
     check(chain("orthoglide-leg", tmp_path))
@@ -48,7 +46,7 @@ def logged(robot: str, folder: Path, name: str, seed: int, *hidden: str) -> str:
     return str(folder / name)
 
 
-@pytest.mark.slow
+@in_turn("logs of robots with loops")
 def test_what_is_found_and_cannot_be_added_is_left_out(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -68,7 +66,7 @@ def test_what_is_found_and_cannot_be_added_is_left_out(
     assert main(["compare", models[1], held_out]) == 0
 
 
-@pytest.mark.slow
+@in_turn("logs of robots with loops")
 def test_a_load_on_the_platform_is_called_a_load(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -85,7 +83,7 @@ def test_a_load_on_the_platform_is_called_a_load(
     assert "payload" not in said.partition("cannot show:")[2].partition("\n")[0]
 
 
-@pytest.mark.parametrize("robot", ["five-bar", pytest.param("delta", marks=SLOW)])
+@pytest.mark.parametrize("robot", ["five-bar", pytest.param("delta", marks=IN_TURN)])
 def test_friction_that_is_drawn_for_a_passive_joint_is_felt(robot: str) -> None:
     """By some motor as a share of its torque that a diagnosis can see, by none as most of it."""
     source = read_robot(robot)

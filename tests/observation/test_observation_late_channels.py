@@ -10,6 +10,7 @@ from modeler.observation.observe import observe
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
 from tests.modules import compiled, module
+from tests.turns import IN_TURN
 
 RATE = 200.0
 
@@ -33,7 +34,7 @@ def observed(folder, name, seed, hidden=(), **late):
     return observe(compiled(name), [log])
 
 
-@pytest.mark.parametrize("name", ["demo-arm", pytest.param("puma560", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", ["demo-arm", pytest.param("puma560", marks=IN_TURN)])
 def test_whose_time_and_by_how_much(name, tmp_path):
     rng = np.random.default_rng([8, *name.encode()])
     c = compiled(name)
@@ -58,10 +59,7 @@ MORE = ("stribeck", "presliding", "load_friction", "asymmetric_viscous", "payloa
 @pytest.mark.parametrize(
     ("name", "hidden"),
     [("demo-arm", hidden) for hidden in EFFECTS]
-    + [
-        pytest.param("ur10e", hidden, marks=pytest.mark.slow)
-        for hidden in EFFECTS[1::2] + MORE[::2]
-    ],
+    + [pytest.param("ur10e", hidden, marks=IN_TURN) for hidden in EFFECTS[1::2] + MORE[::2]],
 )
 def test_physics_is_not_late(name, hidden, tmp_path):
     rng = np.random.default_rng([9, *name.encode(), *hidden.encode()])

@@ -1,0 +1,182 @@
+"""A Functional Mock-up Unit of FMI 3.0: the emitted C, what wraps it, and what describes it.
+
+Equations: M(q) qdd = tau - c(q, qd) - g(q) - f(qd), sign(v) of dry friction as tanh(v/width).
+"""
+
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from xml.sax.saxutils import escape
+
+from modeler.codegen.package import render
+from modeler.core.errors import EmitError
+from modeler.core.files import resource_dir
+from modeler.core.manifest import Emitted, ModuleSpec, text_digest
+
+HEADERS = ("fmi3Functions.h", "fmi3FunctionTypes.h", "fmi3PlatformTypes.h")
+"""Of FMI 3.0, as they were published; see templates/fmi3."""
+
+STEP = 1e-3
+"""Largest step of co-simulation at the start, s."""
+
+WIDTH = 1e-2
+"""Widths of Coulomb friction at the start, rad/s or m/s."""
+
+_BASE = {
+    "kg": "kg", "m": "m", "s": "s", "A": "A", "K": "K", "rad": "rad", "N": "kg m s-2",
+    "J": "kg m2 s-2", "W": "kg m2 s-3", "V": "kg m2 s-3 A-1", "1": "",
+}  # fmt: skip
+"""Units as products of those that FMI knows."""
+
+
+@dataclass(frozen=True)
+class _Variable:
+    """A line of the description.
+
+    Attributes:
+        name: of a variable of the robot.
+        unit: as the manifest has it.
+        about: for people.
+        kind: "input", "state", "rate" (of a state), "parameter", "time".
+        start: what it is at first; None of what is computed.
+    """
+
+    name: str
+    unit: str
+    about: str
+    kind: str
+    start: float | None = None
+
+
+def fmu_files(
+    emitted: Emitted, widths: Sequence[str], home: Sequence[float], beta: Sequence[float]
+) -> dict[str, str]:
+    """{place in the unit: text} of all but the binary.
+
+    Args:
+        emitted: the module, with the controller's unit.
+        widths: names of the joints whose friction turns over a width, in the order of the C.
+        home: (joints,) positions at the start.
+        beta: the base parameters at the start.
+
+    Raises:
+        EmitError: effects that read signals, which nothing gives here.
+    """
+    spec = emitted.spec
+    if spec.signals:
+        raise EmitError(
+            f"{spec.robot}: its effects read {spec.signals[0].kind}, which an FMU is not given; "
+            "leave them out of [effects]"
+        )
+    roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.every_function}
+    smooth = roles.get("smooth_inverse_dynamics", roles["inverse_dynamics"])
+    reads = [argument.name for argument in smooth.inputs]
+    variables = list(_variables(spec, widths, home, beta))
+    code = {name: emitted.code[name] for name in spec.sources}
+    token = text_digest("".join(code.values()) + repr(variables))
+    n = len(spec.joints)
+    values = {
+        "name": escape(spec.robot), "title": escape(spec.title or spec.robot, {'"': "&quot;"}),
+        "prefix": spec.prefix, "token": f"{{{token}}}", "step": STEP, "width": WIDTH, "joints": n,
+        "widths": len(widths), "beta": beta, "home": _lines(home), "beta_lines": _lines(beta),
+        "torques": smooth.name, "reads": reads,
+    }  # fmt: skip
+    code["fmu_model.h"] = render("fmu_model.h", **values)
+    code["modeler_fmu.c"] = (resource_dir("csrc") / "modeler_fmu.c").read_text("utf-8")
+    vendored = resource_dir("templates") / "fmi3"
+    code |= {name: (vendored / name).read_text("utf-8") for name in HEADERS}
+    values["sources"] = sorted(name for name in code if name.endswith(".c"))
+    given = {
+        **values,
+        "units": [(name, list(powers.items())) for name, powers in _units(variables).items()],
+        "variables": [_attributes(place, variables, n) for place in range(len(variables))],
+        "outputs": [*range(2, 2 + 2 * n), *range(2 + 3 * n, 2 + 4 * n)],
+        "derivatives": range(2 + 2 * n, 2 + 4 * n),
+        "unknown": range(2 + 2 * n, 2 + 4 * n),
+    }
+    return {
+        "modelDescription.xml": render("fmu_description.xml", **given),
+        "sources/buildDescription.xml": render("fmu_build.xml", **given),
+        **{f"sources/{name}": text for name, text in code.items()},
+        "documentation/licenses/fmi3.txt": (vendored / "LICENSE").read_text("utf-8"),
+    }
+
+
+def _lines(numbers: Sequence[float]) -> list[str]:
+    return [f"{float(x)!r}," for x in numbers]
+
+
+def _variables(
+    spec: ModuleSpec, widths: Sequence[str], home: Sequence[float], beta: Sequence[float]
+) -> Iterator[_Variable]:
+    """All, in the order of the array of modeler_fmu.c."""
+    yield _Variable("time", "s", "time", "time")
+    yield _Variable("step", "s", "largest step of co-simulation", "parameter", STEP)
+    places = dict(zip((joint.name for joint in spec.joints), home, strict=True))
+    for name, about, kind, per in (
+        ("q", "position", "state", ""), ("qd", "speed", "state", "/s"),
+        ("dq", "derivative of the position", "rate", "/s"),
+        ("qdd", "acceleration", "rate", "/s2"), ("tau", "effort of the drive", "input", ""),
+    ):  # fmt: skip
+        for joint in spec.joints:
+            start = None if kind == "rate" else places[joint.name] if name == "q" else 0.0
+            unit = joint.effort_unit if name == "tau" else joint.unit + per
+            yield _Variable(
+                f"{name}{joint.name}", unit, f"{about} of joint {joint.name}", kind, start
+            )
+    for base, value in zip(spec.base, beta, strict=True):
+        about = " + ".join(f"{term.coefficient}*{term.parameter}" for term in base.terms)
+        yield _Variable(base.name, base.unit, about, "parameter", float(value))
+    units = {joint.name: joint.unit for joint in spec.joints}
+    for joint in widths:
+        about = f"width over which the Coulomb friction of joint {joint} turns"
+        yield _Variable(f"width{joint}", f"{units.get(joint, 'rad')}/s", about, "parameter", WIDTH)
+
+
+def _attributes(place: int, variables: Sequence[_Variable], n: int) -> list[tuple[str, str]]:
+    """Of the element of a variable; q, qd, dq, qdd, tau follow on time and step, n of each."""
+    each = variables[place]
+    found = {
+        "name": each.name, "valueReference": str(place), "unit": _name(each.unit),
+        "description": escape(each.about, {'"': "&quot;"}),
+    }  # fmt: skip
+    if each.kind == "time":
+        found |= {"causality": "independent", "variability": "continuous"}
+    elif each.kind == "parameter":
+        found |= {"causality": "parameter", "variability": "tunable", "initial": "exact"}
+    elif each.kind == "input":
+        found |= {"causality": "input", "variability": "continuous"}
+    else:
+        exact = each.kind == "state"
+        found |= {
+            "causality": "local" if 2 + 2 * n <= place < 2 + 3 * n else "output",
+            "variability": "continuous", "initial": "exact" if exact else "calculated",
+        }  # fmt: skip
+        found |= {} if exact else {"derivative": str(place - 2 * n)}
+    found |= {} if each.start is None else {"start": repr(each.start)}
+    return list(found.items())
+
+
+def _name(unit: str) -> str:
+    """`N m s/rad` as FMI writes it: `N.m.s/rad`."""
+    return unit.replace(" ", ".")
+
+
+def _units(variables: Sequence[_Variable]) -> Mapping[str, Mapping[str, int]]:
+    """{name: powers of base units} of all that are used; empty where one is not known."""
+    return {_name(unit): _powers(unit) for unit in dict.fromkeys(each.unit for each in variables)}
+
+
+def _powers(unit: str) -> dict[str, int]:
+    powers: Counter[str] = Counter()
+    over, *under = unit.split("/")
+    for text, sign in [(over, 1), *((part, -1) for part in under)]:
+        for word in text.split():
+            match = re.fullmatch(r"([A-Za-z]+|1)(\d*)", word)
+            if match is None or match[1] not in _BASE:
+                return {}
+            for base in _BASE[match[1]].split():
+                letters, power = re.fullmatch(r"([A-Za-z]+)(-?\d*)", base).groups()  # type: ignore[union-attr]
+                powers[letters] += sign * int(match[2] or 1) * int(power or 1)
+    return {name: power for name, power in powers.items() if power}

@@ -1,0 +1,133 @@
+"""Names of the temporaries of a function, and the comments between them, from the graph's labels.
+
+A name tells quantity, link and component: `wd3_z`, `f3_MXx` of one unit of MX3, `w3b_x` on the way
+to w3, `minus_U3_xx` of minus that. Names are unique however their letters are written, as some
+languages do not tell `U3_x` from `u3_x`. What has no label keeps a number: `t7`.
+"""
+
+import re
+import textwrap
+import tomllib
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from modeler.derivation import Graph, Label
+
+Letters = tuple[str, str, str]
+"""Letter of a quantity, "meaning" or of one "unit" of something, and its step."""
+
+_WIDTH = 96  # of a line without its indent
+_SHORT = re.compile(r"\b[tk]\d+\b")
+_GIVEN = re.compile(r"(?:const \w+ )?(\w+) :?= ")
+
+
+@cache
+def _quantities() -> Mapping[str, Any]:
+    return tomllib.loads(Path(__file__).with_name("quantities.toml").read_text("utf-8"))
+
+
+class Naming:
+    """The names in the lines of one function.
+
+    Attributes:
+        letters: those that occur.
+    """
+
+    def __init__(self, graph: Graph, nodes: Mapping[str, int], lines: Iterable[str]) -> None:
+        """Name them.
+
+        Args:
+            graph: with the labels.
+            nodes: {short name, `t7`: its node}.
+            lines: of the function, with short names.
+        """
+        self._links = graph.links
+        self._labels = {s: graph.labels[k] for s, k in nodes.items() if k in graph.labels}
+        self.letters = frozenset((e.quantity, _kind(e), e.step) for e in self._labels.values())
+        self._names: dict[str, str] = {}
+        self._announced: set[Letters] = set()
+        taken = {word.lower() for line in lines for word in re.findall(r"[A-Za-z_]\w*", line)}
+        for short, label in self._labels.items():
+            name = first = _name(label)
+            while name.lower() in taken:
+                number = name[len(first) + 1 :] or "1"
+                name = f"{first}_{int(number) + 1}"
+            taken.add(name.lower())
+            self._names[short] = name
+
+    def written(self, lines: Sequence[str], remark: str) -> tuple[str, ...]:
+        """The lines with the names, a comment before the first of each quantity of a link.
+
+        As many as before: a comment, and what a line is too long for, stand within the line.
+
+        Args:
+            lines: some of the function.
+            remark: a comment, around `{}`.
+        """
+        found = []
+        for line in lines:
+            given = _GIVEN.match(line)
+            label = self._labels.get(given[1]) if given else None
+            text = _wrapped(_SHORT.sub(lambda match: self._names.get(match[0], match[0]), line))
+            comment = "" if label is None else self._comment(label)
+            found.append(f"{_wrapped(remark.format(comment))}\n{text}" if comment else text)
+        return tuple(found)
+
+    def _comment(self, label: Label) -> str:
+        """What is announced before the first value of a quantity of a link; may be empty."""
+        quantity, link = _quantities()[label.quantity], self._links[label.link]
+        key = (label.quantity, _kind(label), label.link)
+        if "equation" not in quantity or "d" in label.step or key in self._announced:
+            return ""
+        self._announced.add(key)
+        equation = quantity["equation"] + quantity.get(link.moves, "")
+        text = f"{quantity[key[1]]}, {label.quantity}{{j}} = {equation}"
+        return f"link {label.link}: " + text.format(i=_link(link.antecedent), j=_link(label.link))
+
+
+def _kind(label: Label) -> str:
+    """Which text of its quantity tells what it is, or what it is a derivative of."""
+    derived = "d" in label.step and "meaning" in _quantities()[label.quantity]
+    return "unit" if label.of and not derived else "meaning"
+
+
+def _link(name: str) -> str:
+    """A link's name behind the letter of a quantity."""
+    word = re.sub(r"\W", "", name)
+    return word if word[:1].isdigit() else f"_{word}"
+
+
+def _name(label: Label) -> str:
+    component = re.sub(r"\W", "", label.of) + label.component
+    name = f"{label.quantity}{_link(label.link)}{label.step}"
+    name = "minus_" * label.minus + name + f"_{component}" * bool(component)
+    return re.sub("__+", "_", name)  # which compilers keep for themselves
+
+
+def _wrapped(line: str, width: int = _WIDTH) -> str:
+    """The statement in lines of readable length."""
+    return textwrap.fill(
+        line, width, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
+    )
+
+
+def legend(letters: Iterable[Letters]) -> list[str]:
+    """What the letters are, a line for each that occurs; none where nothing is named.
+
+    Args:
+        letters: of the functions of a file.
+    """
+    found, lines, table = set(letters), [], dict(_quantities())
+    for step, meaning in table.pop("steps").items():
+        owners = sorted({each[0] for each in found if step in each[2]}, key=str.lower)
+        told = f"...{step}   {meaning}: {', '.join(owners)}"
+        lines += _wrapped(told, 90).split("\n") if owners else []
+    rows = [
+        f"{letter + '_1' * (kind == 'unit'):<7}{quantity[kind]}"
+        for letter, quantity in table.items()
+        for kind in ("meaning", "unit")
+        if any(each[:2] == (letter, kind) for each in found)
+    ]
+    return rows + lines

@@ -1,0 +1,115 @@
+"""The FMU in FMPy: valid, and it moves as our own integration of the same equations."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from modeler.api import compile_model, derive, export, generate, load
+
+fmpy = pytest.importorskip("fmpy", reason="NOT CHECKED: no FMPy")
+validation = pytest.importorskip("fmpy.validation", reason="NOT CHECKED: no FMPy")
+
+STEP, LENGTH = 2e-3, 0.2
+WIDTH = 0.02
+
+
+class Plant:
+    """The equations with numpy: friction by its law, all else by the regressor."""
+
+    def __init__(self, robot) -> None:
+        self.compiled = compile_model(generate(derive(robot)))
+        self.spec = self.compiled.spec
+        self.n = len(self.spec.joints)
+        nominal = {p.name: p.nominal for p in self.spec.standard}
+        self.beta = np.array(
+            [sum(t.value * nominal[t.parameter] for t in base.terms) for base in self.spec.base]
+        )
+        self.coulomb = {
+            j.name: k for j in self.spec.joints for k, b in enumerate(self.spec.base)
+            if b.name == f"Fs{j.name}"
+        }  # fmt: skip
+
+    def accelerations(self, q, qd, tau) -> np.ndarray:
+        phi = self.compiled.base_regressor(q[None], qd[None], 0.0 * qd[None])[0]
+        for i, joint in enumerate(self.spec.joints):
+            if joint.name in self.coulomb:
+                phi[i, self.coulomb[joint.name]] = np.tanh(qd[i] / WIDTH)
+        M = self.compiled.inertia_matrix(q[None], self.beta)[0]
+        return np.linalg.solve(M, tau - phi @ self.beta)
+
+    def slope(self, x, tau) -> np.ndarray:
+        q, qd = x[: self.n], x[self.n :]
+        return np.concatenate([qd, self.accelerations(q, qd, tau)])
+
+    def runge_kutta(self, x, torques, h, per) -> np.ndarray:
+        rows = [x]
+        for tau in torques:
+            for _ in range(per):
+                k1 = self.slope(x, tau)
+                k2 = self.slope(x + h / 2 * k1, tau)
+                k3 = self.slope(x + h / 2 * k2, tau)
+                k4 = self.slope(x + h * k3, tau)
+                x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+            rows.append(x)
+        return np.array(rows)
+
+
+@pytest.fixture(scope="module", params=["puma560", "demo-arm"])
+def unit(request, tmp_path_factory):
+    """A robot as FMU, its equations, a state and torques over time."""
+    robot = load(request.param)
+    place = tmp_path_factory.mktemp("fmu") / "robot.fmu"
+    export(robot, place)
+    plant = Plant(robot)
+    rng = np.random.default_rng()
+    state = np.concatenate([rng.uniform(-1, 1, plant.n), rng.uniform(-0.5, 0.5, plant.n)])
+    times = np.arange(round(LENGTH / STEP) + 1) * STEP
+    still = plant.compiled.gravity(state[None, : plant.n], plant.beta)[0]
+    waves = rng.uniform(-9, 9, (plant.n, 1)) * np.sin(
+        rng.uniform(5, 30, (plant.n, 1)) * times + rng.uniform(0, 6, (plant.n, 1))
+    )
+    M = plant.compiled.inertia_matrix(state[None, : plant.n], plant.beta)[0]
+    torques = still[:, None] + M.diagonal()[:, None] * waves
+    return place, plant, state, times, torques.T
+
+
+def run(unit, kind: str, torques, **options) -> np.ndarray:
+    place, plant, state, times, _ = unit
+    names = [joint.name for joint in plant.spec.joints]
+    states = [f"{kind}{name}" for kind in ("q", "qd") for name in names]
+    given = np.zeros(len(times), [("time", float), *((f"tau{name}", float) for name in names)])
+    given["time"] = times
+    for name, column in zip(names, torques.T, strict=True):
+        given[f"tau{name}"] = column
+    start = dict(zip(states, state, strict=True)) | {"step": 5e-4}
+    start |= {f"width{name}": WIDTH for name in plant.coulomb}
+    found = fmpy.simulate_fmu(
+        str(place), stop_time=LENGTH, output_interval=STEP, fmi_type=kind, input=given,
+        start_values=start, output=states, validate=True, **options,
+    )  # fmt: skip
+    assert np.allclose(found["time"], times)
+    return np.column_stack([found[name] for name in states])
+
+
+def test_the_description_is_valid(unit) -> None:
+    assert validation.validate_fmu(str(unit[0])) == []
+
+
+def test_co_simulation_is_our_own_integration(unit) -> None:
+    _, plant, state, _, torques = unit
+    found = run(unit, "CoSimulation", torques)
+    ours = plant.runge_kutta(state, torques[:-1], 5e-4, 4)
+    assert np.abs(found - state).max() > 1e-2
+    assert np.abs(found - ours).max() < 1e-9 * np.abs(ours).max()
+
+
+def test_model_exchange_follows_the_equations(unit) -> None:
+    _, plant, state, times, torques = unit
+    torques = np.broadcast_to(torques[7], torques.shape)  # FMPy's solver looks beyond a step
+    found = run(unit, "ModelExchange", torques, relative_tolerance=1e-10)
+    ours = solve_ivp(
+        lambda _, x: plant.slope(x, torques[0]), (0, LENGTH), state, "DOP853", times,
+        rtol=1e-10, atol=1e-12,
+    )  # fmt: skip
+    assert np.abs(found - state).max() > 1e-2
+    assert np.abs(found - ours.y.T).max() < 1e-6 * np.abs(ours.y).max()
