@@ -83,7 +83,7 @@ def fmu_files(
         "torques": smooth.name, "reads": reads,
     }  # fmt: skip
     code["fmu_model.h"] = render("fmu_model.h", **values)
-    code["modeler_fmu.c"] = (resource_dir("csrc") / "modeler_fmu.c").read_text("utf-8")
+    code["modeler_fmu.c"] = (resource_dir("csrc") / "fmu" / "modeler_fmu.c").read_text("utf-8")
     vendored = resource_dir("templates") / "fmi3"
     code |= {name: (vendored / name).read_text("utf-8") for name in HEADERS}
     values["sources"] = sorted(name for name in code if name.endswith(".c"))
