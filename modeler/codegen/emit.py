@@ -18,6 +18,7 @@ from modeler.codegen.control import (
     control_functions,
     fitted_control_functions,
 )
+from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
@@ -489,11 +490,14 @@ def _control_unit(
     prefix, target = spec.prefix, OF_PRECISION[spec.precision]
     fitted = [f for f in functions if f.role.startswith("fitted_")]
     found = widths(prefix, model, fitted)
-    turning = {speed: width.constant for speed, width in found.items()}
-    blocks = [
-        (f, _block(f, values["places"], target, turning if f in fitted else None))
-        for f in functions
-    ]
+    smooth = widths(prefix, model, [f for f in functions if f.role.startswith(SMOOTH)])
+    given = list(dict.fromkeys(smooth.values()))
+    blocks = []
+    for f in functions:
+        turning = {speed: width.constant for speed, width in found.items()} if f in fitted else {}
+        if f.role.startswith(SMOOTH):
+            turning = {speed: f"widths[{given.index(w)}]" for speed, w in smooth.items()}
+        blocks.append((f, _block(f, values["places"], target, turning)))
     written = [_written(prefix, f, block, target) for f, block in blocks]
     texts = values["symbols"].texts if fitted else values["symbols"].initial
     values = values | {
@@ -503,6 +507,7 @@ def _control_unit(
         "constants": _constants(written, values, texts),
         "geometry": list(values["symbols"].macros) if fitted else [],
         "widths": tuple(dict.fromkeys(found.values())),
+        "smooth": given,
         "letters": _letters(written),
     }
     files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}

@@ -487,6 +487,8 @@ def body_lines(function: CFunction, block: Block, target: Target) -> list[str]:
 def unread(function: CFunction, block: Block) -> Iterable[str]:
     """Names of the inputs of which no entry is read."""
     for argument in function.inputs:
+        if argument.name == "widths":  # of signs, which are no symbols
+            continue
         if block.symbols.isdisjoint(f"{argument.name}[{i}]" for i in range(argument.shape[0])):
             yield argument.name
 
