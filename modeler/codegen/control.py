@@ -13,6 +13,7 @@ from modeler import derivation
 from modeler.codegen import functions as layout
 from modeler.codegen.forward import forward_functions, without_beta
 from modeler.codegen.functions import Arguments, CFunction, entries_of
+from modeler.codegen.parameter_set import smooth_functions
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, FittedSpec
 from modeler.derivation import BaseParameters, Entries, Expr, ShaftColumn, SymbolicModel
@@ -49,10 +50,13 @@ def control_functions(
     if model.closure is not None:
         return ()
     given = layout.arguments_of(model.robot.free, model, base)
+    beta = layout.beta_symbols(model, base)
     return (
-        *_dynamics(model, layout.beta_symbols(model, base), given),
+        *_dynamics(model, beta, given),
         *_regressors(model, base, given),
         *_frames(model, control, given),
+        *forward_functions(model, beta, given),
+        *smooth_functions(model, beta, given),
     )
 
 
@@ -67,7 +71,8 @@ def fitted_control_functions(
         parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
         for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
     }
-    return tuple(map(without_beta, _dynamics(model, values, given)))
+    found = (*_dynamics(model, values, given), *forward_functions(model, values, given))
+    return tuple(map(without_beta, found))
 
 
 def _dynamics(
@@ -105,7 +110,6 @@ def _dynamics(
             ArgumentSpec("D", (2, n, n), "torque per unit of q, of qd", "derivatives"),
             entries_of(_slopes(model, beta)),
         ),
-        *forward_functions(model, beta, given),
     )  # fmt: skip
 
 

@@ -18,12 +18,13 @@ from modeler.codegen.control import (
     control_functions,
     fitted_control_functions,
 )
+from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.naming import Letters, legend
-from modeler.codegen.package import package_files, render
+from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_files, render
 from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states
@@ -41,7 +42,7 @@ from modeler.derivation import (
     geometric_symbol,
     precise_values,
 )
-from modeler.robot import Robot
+from modeler.robot import Limits, Robot
 
 # The manifest of an emitted module: everything the numeric stages will know of the robot.
 
@@ -349,7 +350,7 @@ def emit(
         return {
             **package_files(spec, code, stored),
             "base_parameters.md": render("base_parameters.md", **values),
-            manifest.MANIFEST: spec.to_json(),
+            manifest.MANIFEST: dataclasses.replace(spec, origin=origin_of()).to_json(),
         }
 
     return Emitted(spec, _Files({**code, **kernels}, others))
@@ -409,6 +410,8 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
         "spec": spec,
         "prefix": prefix,
         "macro": prefix.upper(),
+        "interface": C_INTERFACE,
+        "license": LICENSE,
         "title": layout.comment_text(spec.title or spec.robot),
         "symbols": symbols,
         "standard": chi,
@@ -482,6 +485,15 @@ def _fitted_unit(
     return dataclasses.replace(spec, fitted=fitted), _fitted_files(prefix, values, fitted)
 
 
+_SIDES = ("lower", "upper", "speed", "acceleration")
+
+
+def _limit(limits: Limits | None, side: str, literal: Callable[[float], str]) -> str:
+    """A number of C; NAN where the robot file states none."""
+    value = math.nan if limits is None else getattr(limits, side)
+    return literal(value) if math.isfinite(value) else "NAN"
+
+
 def _control_unit(
     model: SymbolicModel, spec: ModuleSpec, functions: Sequence[CFunction], values: dict[str, Any]
 ) -> tuple[ModuleSpec, dict[str, str]]:
@@ -489,11 +501,14 @@ def _control_unit(
     prefix, target = spec.prefix, OF_PRECISION[spec.precision]
     fitted = [f for f in functions if f.role.startswith("fitted_")]
     found = widths(prefix, model, fitted)
-    turning = {speed: width.constant for speed, width in found.items()}
-    blocks = [
-        (f, _block(f, values["places"], target, turning if f in fitted else None))
-        for f in functions
-    ]
+    smooth = widths(prefix, model, [f for f in functions if f.role.startswith(SMOOTH)])
+    given = list(dict.fromkeys(smooth.values()))
+    blocks = []
+    for f in functions:
+        turning = {speed: width.constant for speed, width in found.items()} if f in fitted else {}
+        if f.role.startswith(SMOOTH):
+            turning = {speed: f"widths[{given.index(w)}]" for speed, w in smooth.items()}
+        blocks.append((f, _block(f, values["places"], target, turning)))
     written = [_written(prefix, f, block, target) for f, block in blocks]
     texts = values["symbols"].texts if fitted else values["symbols"].initial
     values = values | {
@@ -503,9 +518,18 @@ def _control_unit(
         "constants": _constants(written, values, texts),
         "geometry": list(values["symbols"].macros) if fitted else [],
         "widths": tuple(dict.fromkeys(found.values())),
+        "smooth": given,
         "letters": _letters(written),
+        "limits": [
+            [_limit(model.robot.limits.get(joint.name), side, values["literal"]) for side in _SIDES]
+            for joint in spec.joints
+        ],
     }
-    files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}
+    files = {
+        f"{prefix}_{unit}.{kind}": render(f"{unit}.{kind}", **values)
+        for unit in ("control", "joints")
+        for kind in "hc"
+    }
     files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
     known = [*values["blocks"], *values.get("fitted_blocks", ())]
     control = manifest.ControlSpec(function_specs(prefix, blocks, known), manifest.code_digest(files))
@@ -528,7 +552,9 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
         more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
         more["letters"] = _letters(own)
         files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
-    runtime: tuple[str, ...] = manifest.RUNTIME
+    for kind in ("h", "c"):
+        files[f"{prefix}_batch.{kind}"] = render(f"batch.{kind}", **values)
+    runtime: tuple[str, ...] = (*manifest.RUNTIME, *manifest.BATCH_RUNTIME)
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops
         inner = [f for f in functions if f.internal]
         outer = [f for f in functions if f.unit == "_loops"]
@@ -571,8 +597,10 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         **vars(function),
         name=name,
         arguments=layout.argument_lines(function),
-        declaration=layout.prototype(name, layout.arguments(function, "", number), returns),
-        definition=layout.prototype(name, layout.arguments(function, _RESTRICT, number), returns),
+        declaration=layout.prototype(name, layout.arguments(function, number, prefix), returns),
+        definition=layout.prototype(
+            name, layout.arguments(function, number, prefix, defined=True), returns
+        ),
         lines=[] if function.status else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
     )

@@ -98,13 +98,48 @@ def forward_functions(
         ArgumentSpec("step", (3 * n,), "SI", "accelerations, pivots, diagonal"),
         entries_of([*correction, *pivots, *diagonal]), internal=True,
     )  # fmt: skip
-    inputs = (given.q, given.qd, given.tau, *given.signals, given.beta)
-    dynamics = CFunction(
-        UNIT, "forward_dynamics", "Joint accelerations under these torques, friction included.",
-        "M(q) qdd = tau - c(q, qd) - g(q) - f(qd)", inputs, given.qdd, (),
-        composed=Composed("forward_dynamics", {"step": step.role}, TURNS if found.turns else 1),
+    slopes = CFunction(
+        UNIT, "effort_slopes", "Derivatives of the torques by accelerations: M, and what effects add.",
+        "d tau/d qdd", (*given.motion, given.beta),
+        ArgumentSpec("A", (n, n), "SI", "derivatives"),
+        entries_of([x for row in found.matrix for x in row]), internal=True,
     )  # fmt: skip
-    return step, dynamics
+    inputs = (given.q, given.qd, given.tau, *given.signals, given.beta)
+    matrix = slopes.role if found.turns else "inertia_matrix"
+    damping = ArgumentSpec("damping", (1,), "as J M^-1/2", "0, or what keeps L finite")
+    space, roles = (given.q, given.beta, damping), {"matrix": "inertia_matrix", "J": "jacobian"}
+
+    def composed(role: str, does: str, equation: str, reads: tuple[ArgumentSpec, ...],
+                 output: ArgumentSpec, **calls: str) -> CFunction:  # fmt: skip
+        made = Composed(role, calls, TURNS if found.turns else 1)
+        return CFunction(UNIT, role, does, equation, reads, output, (), composed=made)
+
+    return (
+        step, *((slopes,) if found.turns else ()),
+        composed(
+            "forward_dynamics", "Joint accelerations under these torques, friction included.",
+            "M(q) qdd = tau - c(q, qd) - g(q) - f(qd)", inputs, given.qdd, step=step.role,
+        ),
+        composed(
+            "forward_derivatives",
+            "Derivatives of the accelerations by positions, speeds and torques. A leap of friction "
+            "counts as level.", "D = [d qdd/d q, d qdd/d qd, d qdd/d tau]", inputs,
+            ArgumentSpec("D", (3, n, n), "acceleration per unit of q, qd, tau", "derivatives"),
+            step=step.role, dynamics="forward_dynamics", slopes="derivatives", matrix=matrix,
+        ),
+        composed(
+            "operational_inertia",
+            "Inertia that the tool's frame has for forces and moments on it, rows as of the "
+            "Jacobian.", "L = (J M^-1 J^T + damping^2 1)^-1", space,
+            ArgumentSpec("L", (6, 6), "kg, kg m, kg m2", "operational-space inertia"), **roles,
+        ),
+        composed(
+            "operational_inverse",
+            "Inverse of the Jacobian that moves the tool with the least kinetic energy (Khatib).",
+            "Jbar = M^-1 J^T (J M^-1 J^T + damping^2 1)^-1", space,
+            ArgumentSpec("Jbar", (n, 6), "unit of q per m or rad", "inverse Jacobian"), **roles,
+        ),
+    )  # fmt: skip
 
 
 def without_beta(function: CFunction) -> CFunction:

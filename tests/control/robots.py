@@ -8,7 +8,7 @@ from modeler.codegen import derive, generate, load
 from modeler.codegen.control import Control
 from modeler.core.builtin import builtin_names
 from modeler.robot.read import robot_from_text
-from modeler.runtime import load as compiled
+from tests.modules import loaded
 
 SERIAL = (
     "puma560", "panda", "ur10e", "wrist", "rx90", "scara", "lwr", "kinova_gen3", "tx40", "so101",
@@ -46,7 +46,7 @@ def robot_of(name: str):
 def controlled(name: str, precision: str = "double"):
     """The compiled module of a robot, with the controller's unit."""
     emitted = generate(derive(robot_of(name)), precision=precision, control=Control())
-    return compiled(emitted.spec, emitted.files)
+    return loaded(emitted)
 
 
 def physical(spec, random) -> dict[str, float]:
