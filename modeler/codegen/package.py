@@ -32,14 +32,10 @@ from modeler.core.manifest import (
 FOLDER = "programs"
 """Of a module's folder, so that all C files beside the library's are the library's."""
 
-EXAMPLES = ("example_computed_torque", "example_residual_observer")
+EXAMPLES = (
+    "example_computed_torque", "example_residual_observer", "example_cartesian", "example_adaptive",
+)  # fmt: skip
 """Templates, and names of the programs."""
-
-_CALLED = {
-    EXAMPLES[0]: ("inverse_dynamics", "friction"),
-    EXAMPLES[1]: ("inertia_matrix", "gravity", "friction", "coriolis"),
-}
-"""Functions that these need."""
 
 SELF_CHECK = "self_check"
 COUNT = "count_instructions"
@@ -349,12 +345,25 @@ def _operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
 # The example programs of a fitted module: which there are, and their calls as finished strings.
 
 
+_CALLED = {
+    "example_computed_torque": ("fitted_inverse_dynamics", "fitted_friction"),
+    "example_residual_observer": (
+        "fitted_momentum", "fitted_coriolis_transpose", "fitted_gravity", "fitted_friction",
+    ),
+    "example_cartesian": (
+        "pose", "jacobian_dot_qd", "fitted_operational_inverse", "fitted_inverse_dynamics",
+    ),
+    "example_adaptive": (
+        "slotine_li_regressor", "momentum_regressor", "momentum_rest_regressor",
+    ),
+}  # fmt: skip
+
+
 def examples_of(spec: ModuleSpec) -> tuple[str, ...]:
-    """Those of a module: none without values, nor where a joint of q has no motor to obey."""
-    if spec.fitted is None or not all(joint.actuated for joint in spec.joints):
-        return ()
-    there = {f.name.removeprefix(f"{spec.prefix}_fitted_") for f in spec.fitted.functions}
-    return tuple(name for name in EXAMPLES if there.issuperset(_CALLED[name]))
+    """Those whose functions a module has; none where a joint of q has no motor to obey."""
+    roles = {f.name.removeprefix(f"{spec.prefix}_") for f in spec.every_function}
+    every = all(joint.actuated for joint in spec.joints)
+    return tuple(name for name in EXAMPLES if every and roles.issuperset(_CALLED[name]))
 
 
 def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
@@ -382,34 +391,56 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     }
 
 
+_LINES = {
+    "example_computed_torque": "q, qd, commanded q, qd, qdd",
+    "example_residual_observer": "q, qd, tau",
+    "example_cartesian": "q, qd, commanded [R | p], twist, acceleration",
+    "example_adaptive": "q, qd, commanded q, qd, qdd",
+}
+
+
 def example_values(spec: ModuleSpec, name: str) -> dict[str, Any]:
     """What the template of an example needs besides the values of all templates."""
-    assert spec.fitted is not None
-    roles = {f.name.removeprefix(f"{spec.prefix}_fitted_"): f for f in spec.fitted.functions}
+    roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.every_function}
     measured = [k for k, signal in enumerate(spec.signals) if signal.kind == "temperature"]
-    torque = name == EXAMPLES[0]
-    line = "q, qd, commanded q, qd, qdd" if torque else "q, qd, tau"
-    values = {"temperatures": measured, "line": f"{line}, temperatures" if measured else line}
-    if torque:
-        now = {"q": "now->q", "qd": "now->qd", "qdd": "v", "s": "own->s"}
+    line = _LINES[name]
+
+    def call(role: str, **named: str) -> str:
+        return call_head(roles[role], {"q": "now->q", "qd": "now->qd", "s": "own->s", **named})
+
+    values: dict[str, Any] = {"temperatures": measured}
+    values["line"] = f"{line}, temperatures" if measured else line
+    if name == "example_adaptive":
         return {
             **values,
-            "torque": call_head(roles["inverse_dynamics"], now),
-            "friction": call_head(roles["friction"], now),
-            "friction_d": call_head(roles["friction"], {**now, "qd": "now->qd_d"}),
+            "line": line,
+            "regressor": call("slotine_li_regressor"),
+            "momentum": call("momentum_regressor"),
+            "rest": call("momentum_rest_regressor"),
         }
-    now = {"qdd": "a", "s": "own->s"}
-    reads = {argument.name for argument in roles["friction"].inputs}
+    if name == "example_cartesian":
+        return {
+            **values,
+            "pose": call("pose"),
+            "rest": call("jacobian_dot_qd"),
+            "inverse": call("fitted_operational_inverse", damping="&own->damping"),
+            "torque": call("fitted_inverse_dynamics", qdd="v"),
+        }
+    if name == "example_computed_torque":
+        return {
+            **values,
+            "torque": call("fitted_inverse_dynamics", qdd="v"),
+            "friction": call("fitted_friction", qdd="v"),
+            "friction_d": call("fitted_friction", qd="now->qd_d", qdd="v"),
+        }
+    reads = {argument.name for argument in roles["fitted_friction"].inputs}
     return {
         **values,
-        "matrix": call_head(roles["inertia_matrix"], now),
-        "gravity": call_head(roles["gravity"], now),
-        "friction": call_head(roles["friction"], now),
-        "coriolis_ahead": call_head(roles["coriolis"], {**now, "qd": "ahead"}),
-        "coriolis_behind": call_head(roles["coriolis"], {**now, "qd": "behind"}),
+        **{role: call_head(roles[f"fitted_{role}"], {"qdd": "a", "s": "own->s"})
+           for role in ("momentum", "coriolis_transpose", "gravity", "friction")},
         "friction_reads_acceleration": "qdd" in reads,
         "uses_own": "s" in reads,
-    }
+    }  # fmt: skip
 
 
 def call_head(function: FunctionSpec, named: Mapping[str, str] | None = None) -> str:
