@@ -92,7 +92,9 @@ def _function(
     if "widths" in inputs:
         arithmetic = _turning(model, values, places, inputs["widths"])
     numbers = [casadi.SX(0)] * f.output.size
-    outputs = Plan(model.graph, [value for _, value in f.entries], arithmetic)(values)
+    entries = [value for _, value in f.entries]
+    graph = entries[0].graph if entries else model.graph
+    outputs = Plan(graph, entries, arithmetic)(values)
     for (place, _), x in zip(f.entries, outputs, strict=True):
         numbers[place] = x
     parts = _parts(f.output, numbers)
