@@ -89,6 +89,7 @@ def generate(
     precision: Precision = "double",
     cuda: bool = False,
     structured_text: bool = False,
+    a2l: bool = False,
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
@@ -102,6 +103,7 @@ def generate(
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
         structured_text: add function blocks in Structured Text, of a robot without loops.
+        a2l: add a description of the controller's parameter set for calibration tools.
 
     Raises:
         ManifestError: this version derives another manifest than the one that the values of the
@@ -114,7 +116,7 @@ def generate(
         derivation, _ = emitted_anew(source)
         fitted = model_file.fitted_spec(source)
     return generate_robot(
-        derivation, folder, force, fitted, precision, cuda, structured_text=structured_text
+        derivation, folder, force, fitted, precision, cuda, structured_text=structured_text, a2l=a2l
     )
 
 

@@ -97,6 +97,7 @@ def generate(
     cuda: bool = False,
     control: "Control | None" = None,
     structured_text: bool = False,
+    a2l: bool = False,
 ) -> Emitted:
     """The C module; written to `folder` if one is given, with the controller's unit.
 
@@ -109,6 +110,7 @@ def generate(
         cuda: add the base regressor in CUDA, of a robot without loops.
         control: what of the controller's unit is emitted; where a folder is given, all.
         structured_text: add function blocks in Structured Text, of a robot without loops.
+        a2l: add a description of the controller's parameter set for calibration tools.
 
     Raises:
         ModelerError: the folder holds files of these names that no earlier `generate` wrote, or
@@ -121,7 +123,7 @@ def generate(
     if control is None and folder is not None:
         control = Control()
     emitted = emit(
-        derivation.model, derivation.base, fitted, precision, cuda, control, structured_text
+        derivation.model, derivation.base, fitted, precision, cuda, control, structured_text, a2l
     )
     emitted = dataclasses.replace(emitted, log=derivation.robot.log_words)
     if folder is not None:
