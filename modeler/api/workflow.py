@@ -89,6 +89,7 @@ def generate(
     precision: Precision = "double",
     cuda: bool = False,
     structured_text: bool = False,
+    a2l: bool = False,
     frames: Sequence[str] = (),
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
@@ -103,6 +104,7 @@ def generate(
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
         structured_text: add function blocks in Structured Text, of a robot without loops.
+        a2l: add a description of the controller's parameter set for calibration tools.
         frames: rows, or links of [frames], whose pose, Jacobian and twist a controller reads
             besides those of the tool.
 
@@ -121,7 +123,7 @@ def generate(
 
         control = Control(tuple(frames))
     return generate_robot(
-        derivation, folder, force, fitted, precision, cuda, control, structured_text
+        derivation, folder, force, fitted, precision, cuda, control, structured_text, a2l
     )
 
 

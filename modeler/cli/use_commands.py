@@ -24,6 +24,7 @@ GENERATE = Command(
                "of all numbers of the C: double, or float for a microcontroller", "double"),
         flag("--cuda", "also the base regressor for graphics processors"),
         flag("--structured-text", "also function blocks for a PLC, IEC 61131-3"),
+        flag("--a2l", "also a description of the parameter set for calibration tools"),
         repeated("--frame", "NAME", places.Word,
                  "also pose, Jacobian and twist of this row, or link of [frames]; may be repeated"),
         FORCE,

@@ -209,7 +209,9 @@ def _forward(head: str, found: Mapping[str, casadi.Function]) -> casadi.Function
     if "widths" in given:
         given["widths"] = given.pop("widths")  # last
     right = tau - still
-    solved = casadi.ldl_solve(right, *casadi.ldl(M)) if kind is casadi.SX else casadi.solve(M, right)
+    solved = (
+        casadi.ldl_solve(right, *casadi.ldl(M)) if kind is casadi.SX else casadi.solve(M, right)
+    )
     name = f"{head}forward_dynamics"
     return casadi.Function(name, list(given.values()), [solved], list(given), ["qdd"])
 

@@ -10,6 +10,7 @@ from typing import Any
 import sympy
 
 from modeler.codegen import functions as layout
+from modeler.codegen.a2l import a2l_files
 from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import Solving, closed_functions, closure_tables, solving_of
 from modeler.codegen.control import (
@@ -308,6 +309,7 @@ def emit(
     cuda: bool = False,
     control: Control | None = None,
     structured_text: bool = False,
+    a2l: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -319,6 +321,7 @@ def emit(
         cuda: add the kernels of `codegen.cuda`, of a robot without loops.
         control: add the controller's unit.
         structured_text: add the function blocks of `codegen.structured_text`.
+        a2l: add the description of the controller's parameter set, of `codegen.a2l`.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -351,6 +354,8 @@ def emit(
         values |= {"spec": spec}
         if structured_text:
             kernels |= structured_texts(model, spec, values, twins)
+        if a2l:
+            kernels |= a2l_files(model, spec, values, functions)
 
     def others() -> dict[str, str]:
         stored = stored_states(model, every, OF_PRECISION[precision], kept)
@@ -569,7 +574,9 @@ def _control_unit(
     }
     files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
     known = [*values["blocks"], *values.get("fitted_blocks", ())]
-    control = manifest.ControlSpec(function_specs(prefix, blocks, known), manifest.code_digest(files))
+    control = manifest.ControlSpec(
+        function_specs(prefix, blocks, known), manifest.code_digest(files)
+    )
     return dataclasses.replace(spec, control=control), files
 
 

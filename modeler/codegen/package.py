@@ -142,7 +142,7 @@ def _unwanted(emitted: Emitted) -> set[str]:
     """
     prefix = emitted.spec.prefix
     names = {f"{prefix}_{unit}.{kind}" for unit in ("fitted", "control") for kind in "hc"}
-    names |= {f"{prefix}.cu", f"{prefix}.st"}
+    names |= {f"{prefix}.{kind}" for kind in ("cu", "st", "a2l")}
     names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
     return names - emitted.files.keys()
 
@@ -320,7 +320,10 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
     if spec.control is not None:
         signature = text_digest(spec.to_json())
-    heads = [f"{spec.prefix}{unit}.h" for unit in ("", "_fitted", "_control", "_joints", "_batch", "_tile")]
+    heads = [
+        f"{spec.prefix}{unit}.h"
+        for unit in ("", "_fitted", "_control", "_joints", "_batch", "_tile")
+    ]
     public = [name for name in (*heads, "modeler_batch.h") if name in code]
     for name in public:  # grows while it is read
         included = re.findall(r'^#include "([^"]+)"', code[name], flags=re.MULTILINE)
@@ -332,7 +335,8 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
         "sources": [name for name in own if name.endswith(".c")],
         "batch": [name for name in code if name.endswith(".c") and name not in own],
         "headers": [name for name in code if name.endswith(".h")],
-        "public": public + ([f"{spec.prefix}_generator.h", f"{spec.prefix}.hpp"] if spec.control else []),
+        "public": public
+        + ([f"{spec.prefix}_generator.h", f"{spec.prefix}.hpp"] if spec.control else []),
     }
 
 

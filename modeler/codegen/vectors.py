@@ -119,7 +119,9 @@ def _digits(x: Ball) -> str:
     if x.contains(0):
         return "0"
     if x.rel_accuracy_bits() < _DIGITS / math.log10(2) + 1:
-        raise EmitError(f"a number of the vectors is known as {x} only; fewer than {_DIGITS} digits")
+        raise EmitError(
+            f"a number of the vectors is known as {x} only; fewer than {_DIGITS} digits"
+        )
     return str(x.str(_DIGITS, radius=False))
 
 
@@ -131,9 +133,7 @@ def _inputs(model: SymbolicModel, states: int) -> dict[str, Table]:
         return [[number(i, state) for i in range(length)] for state in range(states)]
 
     def spread(factor: int, per: float) -> Callable[[int, int], float]:
-        return lambda i, state: (
-            ((factor * i + 7 * state + 3) % 23 - 11.5 + state // 23 / 4) * per
-        )
+        return lambda i, state: ((factor * i + 7 * state + 3) % 23 - 11.5 + state // 23 / 4) * per
 
     def speed(i: int, state: int) -> float:
         return (-1) ** (i + state) * (1 + (5 * i + 3 * state) % 13 / 16) / 64 ** (state % 3)
