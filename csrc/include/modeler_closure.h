@@ -102,27 +102,6 @@ int modeler_finite(const modeler_real *x, size_t length);
  * all NaN then. */
 int modeler_told(int status, modeler_real *out, size_t length);
 
-/* Emitted functions with a status, and loops over samples that keep it. */
-typedef int (*modeler_status_1)(const modeler_real *, modeler_real *);
-typedef int (*modeler_status_2)(const modeler_real *, const modeler_real *, modeler_real *);
-typedef int (*modeler_status_3)(const modeler_real *, const modeler_real *, const modeler_real *,
-                                modeler_real *);
-typedef int (*modeler_status_4)(const modeler_real *, const modeler_real *, const modeler_real *,
-                                const modeler_real *, modeler_real *);
-
-void modeler_batch_status_1(modeler_status_1 function, size_t samples,
-                            const modeler_input inputs[1], modeler_real *out, size_t out_step,
-                            int *status);
-void modeler_batch_status_2(modeler_status_2 function, size_t samples,
-                            const modeler_input inputs[2], modeler_real *out, size_t out_step,
-                            int *status);
-void modeler_batch_status_3(modeler_status_3 function, size_t samples,
-                            const modeler_input inputs[3], modeler_real *out, size_t out_step,
-                            int *status);
-void modeler_batch_status_4(modeler_status_4 function, size_t samples,
-                            const modeler_input inputs[4], modeler_real *out, size_t out_step,
-                            int *status);
-
 #ifdef __cplusplus
 }
 #endif

@@ -29,6 +29,11 @@ typedef float modeler_real;
 #define modeler_batch_3 modelerf_batch_3
 #define modeler_batch_4 modelerf_batch_4
 #define modeler_batch_5 modelerf_batch_5
+#define modeler_batch_status_1 modelerf_batch_status_1
+#define modeler_batch_status_2 modelerf_batch_status_2
+#define modeler_batch_status_3 modelerf_batch_status_3
+#define modeler_batch_status_4 modelerf_batch_status_4
+#define modeler_batch_status_5 modelerf_batch_status_5
 
 /* modeler_closure*.c */
 #define modeler_close modelerf_close
@@ -39,9 +44,5 @@ typedef float modeler_real;
 #define modeler_project modelerf_project
 #define modeler_finite modelerf_finite
 #define modeler_told modelerf_told
-#define modeler_batch_status_1 modelerf_batch_status_1
-#define modeler_batch_status_2 modelerf_batch_status_2
-#define modeler_batch_status_3 modelerf_batch_status_3
-#define modeler_batch_status_4 modelerf_batch_status_4
 
 #endif

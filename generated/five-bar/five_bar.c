@@ -7,19 +7,19 @@
  * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
  * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
  *
- *   w     angular velocity
- *   wd    angular acceleration
- *   vd    acceleration of the origin less gravity
- *   ww    products of the components of w
- *   n     moment on the link at its origin
- *   fc    force on the link and all that it carries
- *   nc    moment on the link and all that it carries
- *   lin_1 momentum of what hangs on a joint, for unit speed of it
- *   ang_1 angular momentum of what hangs on a joint, for unit speed of it
- *   x     axis x of the frame in frame 0
- *   o     origin of the frame in frame 0
- *   ...a  in axes of the antecedent: ang, fc, lin, nc, vd
- *   ...d  derivative by a variable, qd2 for qd[2], or by the time, t: o, x
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   n      moment on the link at its origin
+ *   fc     force on the link and all that it carries
+ *   nc     moment on the link and all that it carries
+ *   lin_1  momentum of what hangs on a joint, for unit speed of it
+ *   ang_1  angular momentum of what hangs on a joint, for unit speed of it
+ *   x      axis x of the frame in frame 0
+ *   o      origin of the frame in frame 0
+ *   ...a   in axes of the antecedent: ang, fc, lin, nc, vd
+ *   ...d   derivative by a variable, qd2 for qd[2], or by the time, t: o, x
  */
 #include "five_bar.h"
 

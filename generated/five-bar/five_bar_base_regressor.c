@@ -7,12 +7,12 @@
  * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
  * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
  *
- *   w     angular velocity
- *   wd    angular acceleration
- *   vd    acceleration of the origin less gravity
- *   ww    products of the components of w
- *   m_1   velocity of the origin, for unit speed of each joint below
- *   ...a  in axes of the antecedent: vd
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   m_1    velocity of the origin, for unit speed of each joint below
+ *   ...a   in axes of the antecedent: vd
  */
 #include "five_bar.h"
 

@@ -1,6 +1,6 @@
 # find_package(orthoglide_2003) takes any, find_package(orthoglide_2003 1) any of this C interface,
-# find_package(orthoglide_2003 1.52837.10098.18331) only what has the signature ce652772479b4008.
-set(PACKAGE_VERSION 1.52837.10098.18331)
+# find_package(orthoglide_2003 1.15855.31649.54428) only what has the signature 3def7ba1d49c7096.
+set(PACKAGE_VERSION 1.15855.31649.54428)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

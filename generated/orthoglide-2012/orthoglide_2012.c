@@ -7,26 +7,26 @@
  * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
  * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
  *
- *   w     angular velocity
- *   wd    angular acceleration
- *   vd    acceleration of the origin less gravity
- *   ww    products of the components of w
- *   U     acceleration of points of the link
- *   h     angular momentum J w
- *   f     force on the link
- *   n     moment on the link at its origin
- *   fc    force on the link and all that it carries
- *   nc    moment on the link and all that it carries
- *   MSc   first moments of the link and all that it carries
- *   Jc    inertia of the link and all that it carries
- *   m_1   velocity of the origin, for unit speed of each joint below
- *   lin_1 momentum of what hangs on a joint, for unit speed of it
- *   p     origin of the frame in that of its antecedent
- *   x     axis x of the frame in frame 0
- *   y     axis y of the frame in frame 0
- *   o     origin of the frame in frame 0
- *   ...a  in axes of the antecedent: fc, lin
- *   ...d  derivative by a variable, qd2 for qd[2], or by the time, t: x, y
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
+ *   h      angular momentum J w
+ *   f      force on the link
+ *   n      moment on the link at its origin
+ *   fc     force on the link and all that it carries
+ *   nc     moment on the link and all that it carries
+ *   MSc    first moments of the link and all that it carries
+ *   Jc     inertia of the link and all that it carries
+ *   m_1    velocity of the origin, for unit speed of each joint below
+ *   lin_1  momentum of what hangs on a joint, for unit speed of it
+ *   p      origin of the frame in that of its antecedent
+ *   x      axis x of the frame in frame 0
+ *   y      axis y of the frame in frame 0
+ *   o      origin of the frame in frame 0
+ *   ...a   in axes of the antecedent: fc, lin
+ *   ...d   derivative by a variable, qd2 for qd[2], or by the time, t: x, y
  */
 #include "orthoglide_2012.h"
 

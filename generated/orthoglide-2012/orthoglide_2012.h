@@ -18,9 +18,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "6ab80220da111dbb"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0x6ab80220u
-#define ORTHOGLIDE_2012_SIGNATURE_2 0xda111dbbu
+#define ORTHOGLIDE_2012_SIGNATURE "2f8df8789e1ed002"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0x2f8df878u
+#define ORTHOGLIDE_2012_SIGNATURE_2 0x9e1ed002u
 
 #define ORTHOGLIDE_2012_JOINTS 3
 #define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196

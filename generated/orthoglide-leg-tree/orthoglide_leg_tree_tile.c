@@ -54,7 +54,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "33b89bc75b65ddbf";
+    return "5e75d9cd7655b4d0";
 }
 
 #else /* for one instruction set */

@@ -1,6 +1,6 @@
 # find_package(sr400_tree) takes any, find_package(sr400_tree 1) any of this C interface,
-# find_package(sr400_tree 1.53659.18977.22896) only what has the signature d19b4a21597008d2.
-set(PACKAGE_VERSION 1.53659.18977.22896)
+# find_package(sr400_tree 1.51717.28385.36015) only what has the signature ca056ee18caf4cfe.
+set(PACKAGE_VERSION 1.51717.28385.36015)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

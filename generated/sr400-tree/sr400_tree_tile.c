@@ -70,7 +70,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "d19b4a21597008d2";
+    return "ca056ee18caf4cfe";
 }
 
 #else /* for one instruction set */

@@ -7,26 +7,26 @@
  * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
  * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
  *
- *   w     angular velocity
- *   wd    angular acceleration
- *   vd    acceleration of the origin less gravity
- *   ww    products of the components of w
- *   U     acceleration of points of the link
- *   h     angular momentum J w
- *   f     force on the link
- *   n     moment on the link at its origin
- *   fc    force on the link and all that it carries
- *   nc    moment on the link and all that it carries
- *   MSc   first moments of the link and all that it carries
- *   Jc    inertia of the link and all that it carries
- *   Js    what moving the inertia to the origin of the antecedent adds
- *   e_1   axes of the joints below, for unit speed of each
- *   lin_1 momentum of what hangs on a joint, for unit speed of it
- *   ang_1 angular momentum of what hangs on a joint, for unit speed of it
- *   x     axis x of the frame in frame 0
- *   y     axis y of the frame in frame 0
- *   o     origin of the frame in frame 0
- *   ...a  in axes of the antecedent: ang, fc, Jc, lin, nc, vd
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
+ *   h      angular momentum J w
+ *   f      force on the link
+ *   n      moment on the link at its origin
+ *   fc     force on the link and all that it carries
+ *   nc     moment on the link and all that it carries
+ *   MSc    first moments of the link and all that it carries
+ *   Jc     inertia of the link and all that it carries
+ *   Js     what moving the inertia to the origin of the antecedent adds
+ *   e_1    axes of the joints below, for unit speed of each
+ *   lin_1  momentum of what hangs on a joint, for unit speed of it
+ *   ang_1  angular momentum of what hangs on a joint, for unit speed of it
+ *   x      axis x of the frame in frame 0
+ *   y      axis y of the frame in frame 0
+ *   o      origin of the frame in frame 0
+ *   ...a   in axes of the antecedent: ang, fc, Jc, lin, nc, vd
  */
 #include "sr400.h"
 
@@ -81,7 +81,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "af85f5716ad7f3d6";
+    return "255a7ceab36c9010";
 }
 
 void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,

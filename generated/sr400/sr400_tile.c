@@ -67,7 +67,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "af85f5716ad7f3d6";
+    return "255a7ceab36c9010";
 }
 
 #else /* for one instruction set */

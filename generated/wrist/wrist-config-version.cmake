@@ -1,6 +1,6 @@
 # find_package(wrist) takes any, find_package(wrist 1) any of this C interface,
-# find_package(wrist 1.64350.38975.3445) only what has the signature fb5e983f0d75fc41.
-set(PACKAGE_VERSION 1.64350.38975.3445)
+# find_package(wrist 1.23503.23627.25142) only what has the signature 5bcf5c4b62367c54.
+set(PACKAGE_VERSION 1.23503.23627.25142)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -7,20 +7,20 @@
  * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
  * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
  *
- *   w     angular velocity
- *   wd    angular acceleration
- *   vd    acceleration of the origin less gravity
- *   ww    products of the components of w
- *   h     angular momentum J w
- *   f     force on the link
- *   n     moment on the link at its origin
- *   nc    moment on the link and all that it carries
- *   Jc    inertia of the link and all that it carries
- *   Js    what moving the inertia to the origin of the antecedent adds
- *   ang_1 angular momentum of what hangs on a joint, for unit speed of it
- *   x     axis x of the frame in frame 0
- *   y     axis y of the frame in frame 0
- *   ...a  in axes of the antecedent: ang, Jc, nc, vd
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   h      angular momentum J w
+ *   f      force on the link
+ *   n      moment on the link at its origin
+ *   nc     moment on the link and all that it carries
+ *   Jc     inertia of the link and all that it carries
+ *   Js     what moving the inertia to the origin of the antecedent adds
+ *   ang_1  angular momentum of what hangs on a joint, for unit speed of it
+ *   x      axis x of the frame in frame 0
+ *   y      axis y of the frame in frame 0
+ *   ...a   in axes of the antecedent: ang, Jc, nc, vd
  */
 #include "wrist.h"
 
@@ -57,7 +57,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "fb5e983f0d75fc41";
+    return "5bcf5c4b62367c54";
 }
 
 void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,

@@ -48,7 +48,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "fb5e983f0d75fc41";
+    return "5bcf5c4b62367c54";
 }
 
 #else /* for one instruction set */

@@ -89,6 +89,7 @@ def generate(
     precision: Precision = "double",
     cuda: bool = False,
     structured_text: bool = False,
+    frames: Sequence[str] = (),
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
@@ -102,6 +103,8 @@ def generate(
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
         structured_text: add function blocks in Structured Text, of a robot without loops.
+        frames: rows, or links of [frames], whose pose, Jacobian and twist a controller reads
+            besides those of the tool.
 
     Raises:
         ManifestError: this version derives another manifest than the one that the values of the
@@ -111,10 +114,15 @@ def generate(
     if isinstance(source, Derivation):
         derivation, fitted = source, None
     else:
-        derivation, _ = emitted_anew(source)
-        fitted = model_file.fitted_spec(source)
-    kinds = {"cuda": cuda, "structured_text": structured_text}
-    return generate_robot(derivation, folder, force, fitted, precision, **kinds)
+        derivation, fitted = emitted_anew(source)[0], model_file.fitted_spec(source)
+    control = None
+    if frames:
+        from modeler.codegen import Control  # who fits need not wait for it
+
+        control = Control(tuple(frames))
+    return generate_robot(
+        derivation, folder, force, fitted, precision, cuda, control, structured_text
+    )
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:

@@ -419,12 +419,34 @@ def argument_lines(function: CFunction) -> list[str]:
     return lines
 
 
-def arguments(function: CFunction, restrict: str, number: str) -> list[str]:
-    """C parameters of that type: inputs const; `restrict`, or nothing, goes before the output."""
-    return [
-        *(f"const {number} *{argument.name}" for argument in function.inputs),
-        f"{number} *{restrict}{function.output.name}",
-    ]
+_LENGTHS = {
+    **dict.fromkeys(("q", "qd", "qdd", "v", "a", "dq", "tau", "out", "p"), "JOINTS"),
+    "beta": "BASE_PARAMETERS", "chi": "STANDARD_PARAMETERS", "s": "SIGNALS", "after": "SIGNALS",
+}  # fmt: skip
+"""Macros of the lengths of arguments, after the robot's name."""
+
+
+def arguments(function: CFunction, number: str, prefix: str, defined: bool = False) -> list[str]:
+    """C parameters of that type with their bounds, inputs const.
+
+    Args:
+        function: whose they are.
+        number: C type.
+        prefix: of the module.
+        defined: where the function is defined, nothing else points to its output.
+    """
+
+    def bound(argument: ArgumentSpec) -> str:
+        macro = _LENGTHS.get(argument.name)
+        other = argument is function.output and argument.name == "a"  # no acceleration of joints
+        if macro is None or function.internal or other:
+            return " * ".join(map(str, argument.shape))
+        return f"{prefix}_{macro}".upper()
+
+    inputs = [f"const {number} {a.name}[{bound(a)}]" for a in function.inputs]
+    name, length = function.output.name, bound(function.output)
+    out = f"MODELER_OUT({name}, {length})" if defined else f"{name}[{length}]"
+    return [*inputs, f"{number} {out}"]
 
 
 def prototype(name: str, parameters: Sequence[str], returns: str = "void") -> str:

@@ -122,10 +122,10 @@ def legend(letters: Iterable[Letters]) -> list[str]:
     found, lines, table = set(letters), [], dict(_quantities())
     for step, meaning in table.pop("steps").items():
         owners = sorted({each[0] for each in found if step in each[2]}, key=str.lower)
-        told = f"...{step}  {meaning}: {', '.join(owners)}"
+        told = f"...{step}   {meaning}: {', '.join(owners)}"
         lines += _wrapped(told, 90).split("\n") if owners else []
     rows = [
-        f"{letter + '_1' * (kind == 'unit'):<6}{quantity[kind]}"
+        f"{letter + '_1' * (kind == 'unit'):<7}{quantity[kind]}"
         for letter, quantity in table.items()
         for kind in ("meaning", "unit")
         if any(each[:2] == (letter, kind) for each in found)

@@ -20,8 +20,11 @@ from modeler.core.result import Presented
 
 FORMAT = 2
 
-RUNTIME = ("modeler_real.h", "modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
+RUNTIME = ("modeler_real.h", "modeler_runtime.h", "modeler_sincos.h")
 """Hand-written C files that stand beside every emitted module."""
+
+BATCH_RUNTIME = ("modeler_batch.h", "modeler_batch.c")
+"""Loops over samples, which a controller has no use for."""
 
 CLOSURE_RUNTIME = ("modeler_status.h", "modeler_closure.h", "modeler_closure.c")
 """Those that stand beside a robot with loops."""
@@ -200,6 +203,15 @@ class ControlSpec(Brief):
 
 
 @dataclass(frozen=True)
+class OriginSpec:
+    """What wrote a folder; no part of any signature."""
+
+    interface: int  # of the C: see `C_INTERFACE`
+    generator: str  # "modeler 0.1.0"
+    license: str  # SPDX identifier
+
+
+@dataclass(frozen=True)
 class ModuleSpec(Brief):
     """The manifest of one robot."""
 
@@ -220,6 +232,8 @@ class ModuleSpec(Brief):
     precision: Precision = "double"  # of all numbers of the C
     inertial_uncertainty: float | None = None  # of every body, over its scale
     control: ControlSpec | None = None  # where `modeler generate` wrote it
+    origin: OriginSpec | None = None  # in the file alone
+    units: tuple[str, ...] | None = None  # "_control", ...: of some functions; None: all there are
 
     @property
     def every_function(self) -> tuple[FunctionSpec, ...]:
@@ -240,12 +254,19 @@ class ModuleSpec(Brief):
             if joint in base.rows
         )
 
+    def has(self, unit: str) -> bool:
+        """True if the C file of that name, after the robot's, is part of the module."""
+        there = {"_fitted": self.fitted, "_control": self.control, "_loops": self.closure}
+        return (self.units is None or unit in self.units) and there.get(unit, self) is not None
+
     @property
-    def sources(self) -> tuple[str, ...]:
-        """Names of the C files that the library is compiled from, headers included."""
-        units = [".h", ".c", "_regressor.c", "_base_regressor.c"]
-        units += ["_fitted.h", "_fitted.c"] if self.fitted is not None else []
-        units += ["_control.h", "_control.c"] if self.control is not None else []
+    def controller_sources(self) -> tuple[str, ...]:
+        """Names of the C files of the controller's library, headers included."""
+        units = [".h", ".c"]
+        units += [f"{unit}.c" for unit in ("_regressor", "_base_regressor") if self.has(unit)]
+        headed = [unit for unit in ("_fitted", "_control") if self.has(unit)]
+        headed += ["_joints"] if self.control is not None else []
+        units += [f"{unit}.{kind}" for unit in headed for kind in "hc"]
         runtime = list(RUNTIME)
         if self.closure is not None:
             units += ["_tree.h", "_loops.c"]
@@ -255,9 +276,15 @@ class ModuleSpec(Brief):
         return (*(self.prefix + unit for unit in units), *runtime)
 
     @property
+    def sources(self) -> tuple[str, ...]:
+        """Names of the C files that Python compiles: those, and the loops over samples."""
+        units = [f"{self.prefix}_batch.{kind}" for kind in "hc" if self.has("_batch")]
+        return (*self.controller_sources, *units, *BATCH_RUNTIME)
+
+    @property
     def tile_sources(self) -> tuple[str, ...]:
         """Names of the C files of the tiles, which can be a library of their own; () if none."""
-        if self.closure is not None or self.precision != "double":
+        if self.closure is not None or self.precision != "double" or not self.has("_batch"):
             return ()
         units = (f"{self.prefix}_tile.h", f"{self.prefix}_tile.c")
         return (*units, *TILE_RUNTIME, *(name for name in RUNTIME if name.endswith(".h")))
@@ -269,7 +296,7 @@ class ModuleSpec(Brief):
     @cached_property
     def _text(self) -> str:
         entries = dataclasses.asdict(self)
-        for name in ("fitted", "control"):
+        for name in ("fitted", "control", "origin", "units"):
             if entries[name] is None:
                 del entries[name]
         if self.precision == "double":
@@ -290,9 +317,9 @@ class ModuleSpec(Brief):
         controller's unit, and with it of the whole C text but these: two robots of the same
         signature have the same C. It is the same on every machine.
         """
-        if self.fitted is None and self.control is None:
+        if self.fitted is None and self.control is None and self.origin is None:
             return text_digest(self.to_json())
-        return dataclasses.replace(self, fitted=None, control=None).signature()
+        return dataclasses.replace(self, fitted=None, control=None, origin=None).signature()
 
 
 def text_digest(text: str) -> str:

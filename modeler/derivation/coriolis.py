@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.derivation.geometry import Geometry, GeometryRow
-from modeler.derivation.graph import Scalar, Vector
+from modeler.derivation.graph import Scalar, Vector, named, named_matrix
 from modeler.derivation.kinematics import Composite, Motion, Pose, cross, dot, plus, steiner, times
 
 
@@ -41,8 +41,8 @@ class MovingComposite(Composite):
         h: moment of momentum about the origin of what moves in the frame.
     """
 
-    def __init__(self, parameters: Mapping[str, Any], zero: Scalar) -> None:
-        super().__init__(parameters, zero)
+    def __init__(self, parameters: Mapping[str, Any], zero: Scalar, link: str = "") -> None:
+        super().__init__(parameters, zero, link)
         self.MS_rate: Vector = [zero] * 3
         self.J_rate: list[Vector] = [[zero] * 3 for _ in range(3)]
         self.h: Vector = [zero] * 3
@@ -60,7 +60,9 @@ class MovingComposite(Composite):
         ]
         rates = [plus(a, times(speed, b)) for a, b in zip(self.J_rate, turned, strict=True)]
         first = plus(self.MS_rate, times(speed, about_z(self.MS)))
-        return first, rates, plus(self.h, times(speed, [line[2] for line in J]))
+        h = plus(self.h, times(speed, [line[2] for line in J]))
+        named_matrix("Jd", self.link, rates, "t")
+        return named("MSd", self.link, first, "t"), rates, named("hc", self.link, h, "t")
 
     def carry_moving(
         self, other: "MovingComposite", frame: Pose, row: GeometryRow, speed: Scalar
@@ -71,13 +73,15 @@ class MovingComposite(Composite):
         first, rates, h = other.turn(turning)
         S, dS = frame.to_antecedent(other.MS), frame.to_antecedent(first)
         shifted = plus(S, times(other.M, p))
-        turned, zero = frame.turned(rates), 0 * other.M
+        turned, zero = named_matrix("Jd", other.link, frame.turned(rates), "a"), 0 * other.M
         for i in range(3):
             for j in range(3):
                 moved = steiner(p, dS, zero, i, j) + steiner(dp, shifted, zero, i, j)
                 self.J_rate[i][j] = self.J_rate[i][j] + turned[i][j] + moved
         self.h = plus(plus(self.h, frame.to_antecedent(h)), plus(cross(p, dS), cross(shifted, dp)))
         self.MS_rate = plus(self.MS_rate, plus(dS, times(other.M, dp)))
+        named("MSd", self.link, self.MS_rate), named("hc", self.link, self.h)
+        named_matrix("Jd", self.link, self.J_rate)
         self.carry(other, frame)
 
     def column(self, row: GeometryRow, w: Vector) -> tuple[Vector, Vector]:
@@ -129,7 +133,10 @@ def coriolis_matrix(
         parameters: per row, the inertial parameters that are not zero.
         zero: the algebra's zero.
     """
-    links = [MovingComposite(p, zero) for p in parameters]
+    links = [
+        MovingComposite(p, zero, row.joint.name)
+        for p, row in zip(parameters, geometry.rows, strict=True)
+    ]
     at_rest = [zero] * 3
     arms: list[Vector] = []  # how fast p turns and grows
     for row, frame in zip(geometry.rows, frames, strict=True):
@@ -164,7 +171,8 @@ def _fill(
     assert row.index is not None
     F, N = link.column(row, moved[k].w)
     f, n = link.momentum(row)
-    a = link.rate(row, moved[k].w)
+    a, name = link.rate(row, moved[k].w), row.joint.name
+    named("fu", name, F, of=name), named("nu", name, N, of=name), named("angd", name, a, of=name)
     for at in geometry.ancestors(k):
         other = geometry.rows[at]
         if other.index is not None:
@@ -179,3 +187,5 @@ def _fill(
         N = plus(frame.to_antecedent(N), cross(frame.p, F))
         n = plus(frame.to_antecedent(n), cross(frame.p, f))
         a = plus(frame.to_antecedent(a), cross(arms[at], f))
+        for letter, vector in (("fu", F), ("nu", N), ("lin", f), ("ang", n), ("angd", a)):
+            named(letter, other.joint.name, vector, "a", row.joint.name)

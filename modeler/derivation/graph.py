@@ -9,7 +9,7 @@ fold numbers, so that symbolic lengths cost no more operations than numeric ones
 Two expressions are equal when they are equal as functions, however they are written: every node
 carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
 circle (those of a sum are composed of those of its terms), and a new node whose value is known is
-the known node. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
+the known node, unless that reads symbols which the new one does without. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
 rational functions of degree d share a value with a probability of about d * 2**-61; emitted code is
 compared with other derivations anyway.)
 """
@@ -142,6 +142,7 @@ class Graph:
         nodes: the operations.
         labels: {node: what it is}, of those that were named; see `named`.
         links: {name: the row}, for those who write of them.
+        called: {quantity: another}, while speeds are put in the place of accelerations.
     """
 
     def __init__(self) -> None:
@@ -150,9 +151,12 @@ class Graph:
         self._index: dict[tuple[str, tuple[Any, ...]], int] = {("num", one.args): 1}
         self._residue = [0, 1]
         self._by_residue = {0: 0, 1: 1}
+        self._read = [0, 0]  # symbols that a node reads, a bit for each
+        self._symbols = 0
         self._plans: dict[tuple[int, ...], Plan] = {}
         self.labels: dict[int, Label] = {}
         self.links: dict[str, Link] = {}
+        self.called: Mapping[str, str] = {}
 
     def symbol(self, name: str, static: bool = False) -> "Expr":
         """The input of that name; `static` for geometric symbols."""
@@ -196,15 +200,31 @@ class Graph:
         ref = self._index.get(key)
         if ref is None:
             residue = self._modular(op, args)
+            read = self._bits(op, args)
             # Numbers are compared as numbers: two of them may well agree modulo the prime.
             ref = None if op == "num" else self._known(residue)
-            if ref is None:
+            if ref is None or self._read[abs(ref)] & ~read:
                 ref = len(self.nodes)
                 self.nodes.append(Node(op, args, static))
                 self._residue.append(residue)
-                self._by_residue.setdefault(residue, ref)
+                self._read.append(read)
+                if op == "num":
+                    self._by_residue.setdefault(residue, ref)
+                else:
+                    self._by_residue.pop(PRIME - residue, None)
+                    self._by_residue[residue] = ref
             self._index[key] = ref
         return ref
+
+    def _bits(self, op: str, args: tuple[Any, ...]) -> int:
+        """Which symbols an operation reads."""
+        if op == "sym":
+            self._symbols += 1
+            return 1 << self._symbols
+        read = 0
+        for arg in args if op not in ("num", "pi") else ():
+            read |= self._read[abs(arg)]
+        return read
 
     def _known(self, residue: int) -> int | None:
         if residue in self._by_residue:
@@ -456,9 +476,17 @@ def named(
         if isinstance(value, Expr) and abs(value.ref) > 1:
             known = value.graph.labels.get(abs(value.ref))
             if known is None or (known.step and not step):
-                label = Label(quantity, link, component, step, of, value.ref < 0)
+                letter = value.graph.called.get(quantity, quantity)
+                label = Label(letter, link, component, step, of, value.ref < 0)
                 value.graph.labels[abs(value.ref)] = label
     return values
+
+
+def named_matrix(quantity: str, link: str, matrix: list[Any], step: str = "") -> list[Any]:
+    """The same of the rows of a 3 x 3 matrix."""
+    for line, axis in zip(matrix, "xyz", strict=True):
+        named(quantity, link, line, step, components=[axis + other for other in "xyz"])
+    return matrix
 
 
 def combination(graph: Graph, form: Mapping[int, Fraction], values: Any) -> Expr:

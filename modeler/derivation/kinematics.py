@@ -13,7 +13,7 @@ import sympy
 
 from modeler.core.brief import Brief
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
-from modeler.derivation.graph import Algebra, Scalar, Vector, named
+from modeler.derivation.graph import Algebra, Scalar, Vector, named, named_matrix
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -336,13 +336,7 @@ def _motion(w: Vector, wd: Vector, vd: Vector, half: Vector, link: str) -> Motio
         [xy + wd[2], -(xx + zz), yz - wd[0]],
         [xz - wd[1], yz + wd[0], -(xx + yy)],
     ]
-    return Motion(w, wd, vd, [yz, xz, xy], _named_matrix("U", link, U), half, link)
-
-
-def _named_matrix(quantity: str, link: str, matrix: list[Vector], step: str = "") -> list[Vector]:
-    for line, axis in zip(matrix, "xyz", strict=True):
-        named(quantity, link, line, step, components=[axis + other for other in "xyz"])
-    return matrix
+    return Motion(w, wd, vd, [yz, xz, xy], named_matrix("U", link, U), half, link)
 
 
 def wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
@@ -475,7 +469,7 @@ class Composite:
         """
         p, S = frame.p, named("MSc", other.link, frame.to_antecedent(other.MS), "a")
         turned = frame.turned(other.J)
-        _named_matrix("Jc", other.link, turned, "a")
+        named_matrix("Jc", other.link, turned, "a")
         for i, row in enumerate("xyz"):
             for j, column in enumerate("xyz"):
                 both, shift = self.J[i][j] + turned[i][j], steiner(p, S, other.M, i, j)
@@ -483,7 +477,7 @@ class Composite:
                 self.J[i][j] = both + shift
         self.MS = plus(self.MS, plus(S, times(other.M, p)))
         self.M = self.M + other.M
-        _named_matrix("Jc", self.link, self.J)
+        named_matrix("Jc", self.link, self.J)
         named("MSc", self.link, self.MS)
         named("Mc", self.link, [self.M], components=[""])
 

@@ -44,6 +44,8 @@ _REFERRED = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
 
 _SMOOTH = ("rigid_body", "rotor_inertia", "viscous")
 
+_OF_SPEEDS = {"wd": "w", "vd": "v", "U": "W", "f": "l", "n": "k", "fc": "lc", "nc": "kc"}
+
 Entries = Mapping[tuple[int, int], Expr]
 """Structural nonzeros of a regressor: (joint, column) -> expression."""
 
@@ -169,6 +171,15 @@ class SymbolicModel(Brief):
                     value = entries.get((k, place), self.graph.constant(0)) + value
                     entries[k, place] = value
         return {at: value for at, value in entries.items() if not value.is_zero}
+
+    @contextmanager
+    def speeds_for_accelerations(self) -> Iterator[None]:
+        """While recursions are given speeds as accelerations: labels say what comes of it."""
+        self.graph.called = _OF_SPEEDS
+        try:
+            yield
+        finally:
+            self.graph.called = {}
 
     @cached_property
     def _labels(self) -> dict[int, Label]:

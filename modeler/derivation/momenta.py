@@ -53,7 +53,8 @@ def coriolis_matrix(model: SymbolicModel, parameters: Mapping[int, Expr]) -> lis
 def _as_accelerations(model: SymbolicModel) -> list[Motion]:
     """Motions whose accelerations are the speeds: wd and vd are the twists of the links."""
     still = [model.graph.constant(0)] * model.geometry.coordinates
-    return model.link_motions(still, model.inputs("qd"), gravity=False)
+    with model.speeds_for_accelerations():
+        return model.link_motions(still, model.inputs("qd"), gravity=False)
 
 
 def momentum(model: SymbolicModel, parameters: Mapping[int, Expr]) -> list[Expr]:
@@ -65,7 +66,9 @@ def momentum(model: SymbolicModel, parameters: Mapping[int, Expr]) -> list[Expr]
     """
     rows, zero = model.link_parameters(parameters), model.graph.constant(0)
     moved, qd = _as_accelerations(model), model.inputs("qd")
-    found = model.free_efforts(inverse_dynamics(model.geometry, model.frames, moved, rows, zero))
+    with model.speeds_for_accelerations():
+        found = inverse_dynamics(model.geometry, model.frames, moved, rows, zero)
+    found = model.free_efforts(found)
     for i, j, value in model.rotors(parameters):
         found[i] = found[i] + value * qd[j]
     return found
@@ -81,9 +84,11 @@ def coriolis_transpose(model: SymbolicModel, parameters: Mapping[int, Expr]) -> 
     rows, zero = model.link_parameters(parameters), model.graph.constant(0)
     moved = _as_accelerations(model)
     found = [zero] * model.geometry.joints
-    for k, f, n in wrenches(
-        model.geometry, model.frames, lambda k: link_wrench(moved[k], rows[k], zero)
-    ):
+    with model.speeds_for_accelerations():
+        momenta = list(
+            wrenches(model.geometry, model.frames, lambda k: link_wrench(moved[k], rows[k], zero))
+        )
+    for k, f, n in momenta:
         row = model.geometry.rows[k]
         if row.index is not None:
             found[row.index] = project(_turned_twist(row, moved[k]), f, n)
@@ -135,7 +140,10 @@ def momentum_regressor(model: SymbolicModel) -> Entries:
         speed = along(model, part.shaft, "qd")
         return {k: speed * coefficient for k, coefficient in part.shaft.items()}
 
-    return model.entries(model.projected(_as_accelerations(model)), shaft)
+    moved = _as_accelerations(model)
+    with model.speeds_for_accelerations():
+        links = model.projected(moved)
+    return model.entries(links, shaft)
 
 
 def momentum_rest_regressor(model: SymbolicModel) -> Entries:

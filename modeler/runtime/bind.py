@@ -238,7 +238,7 @@ def _declarations(spec: ModuleSpec) -> str:
     lines = [
         _INPUT,
         *(_BATCH.format(count, "") for count in range(1, 6)),
-        *(_BATCH.format(f"status_{count}", ", int *") for count in range(1, 5) if loops),
+        *(_BATCH.format(f"status_{count}", ", int *") for count in range(1, 6)),
         f"const char *{spec.prefix}_signature(void);",
         f"void {spec.prefix}_observation(size_t, const double *, const double *, const double *, "
         f"{signals}double *{', int *' if loops else ''});",
@@ -255,8 +255,8 @@ def _declarations(spec: ModuleSpec) -> str:
 
 _SOURCES = ("modeler_fused.c",)
 _HEADERS = (
-    "modeler_fused.h", "modeler_fused_body.h", "modeler_tile.h", "modeler_runtime.h",
-    "modeler_real.h",
+    "modeler_fused.h", "modeler_fused_body.h", "modeler_tile.h", "modeler_batch.h",
+    "modeler_runtime.h", "modeler_real.h",
 )  # fmt: skip
 _DECISIVE = ("CC", "CFLAGS", "PATH", "MODELER_CACHE", "XDG_CACHE_HOME", "HOME")
 """Variables that decide which library is meant, and where it is kept."""

@@ -51,7 +51,7 @@ def test_object_code_is_that_of_the_unnamed_text(robot, tmp_path, monkeypatch) -
     made = module(robot)
     fitted = fitted_of(made.emitted.spec)
     named = emit(made.model, made.base, fitted)
-    monkeypatch.setattr(Naming, "written", lambda self, lines: tuple(lines))
+    monkeypatch.setattr(Naming, "written", lambda self, lines, remark: tuple(lines))
     plain = emit(made.model, made.base, fitted)
     assert "const double t1 = " in str(dict(plain.files)) and names_of(plain.files)
     assert all(_NUMBERED.fullmatch(name) for name in names_of(plain.files))
@@ -166,7 +166,7 @@ def test_a_comment_states_the_equation_of_each_quantity_once() -> None:
     assert body.count("/* link 3: angular velocity, w3 = R3' w2 + qd3 z */\n") == 1
     assert body.index("angular velocity, w3 =") < body.index("const double w3_")
     assert all(len(line) <= 100 for line in text.splitlines())
-    assert " *   wd    angular acceleration\n" in text  # the legend has what occurs
+    assert " *   wd     angular acceleration\n" in text  # the legend has what occurs
     slides = module("scara").emitted.files["scara_base_regressor.c"]
     assert " + 2 w" in slides or "qdd" in slides
 
@@ -178,7 +178,7 @@ def test_names_are_c_names_and_differ_where_letters_fall_together() -> None:
     with module("wrist").model.labelled():
         graph.labels |= {2: label, 3: label, 4: label._replace(link="3", component="")}
         made = Naming(graph, {"t1": 2, "t2": 3, "t3": 4}, ["W3 = 1;"])
-    lines = made.written([f"const double t{k} = {k}.0;" for k in (1, 2, 3)])
+    lines = made.written([f"const double t{k} = {k}.0;" for k in (1, 2, 3)], "/* {} */")
     assert [line.split()[-3] for line in lines] == [
         "minus_w_lega_x",
         "minus_w_lega_x_2",
