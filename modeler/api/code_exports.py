@@ -77,7 +77,9 @@ def _fmu(thing: Robot | IdentifiedModel) -> Exported:
     place = f"binaries/{_PROCESSORS.get(machine, machine)}-{system}/{spec.prefix}.{ending}"
     sources = {name.removeprefix("sources/"): text for name, text in texts.items()}
     try:
-        files[place] = portable_library({n: t for n, t in sources.items() if n.endswith((".c", ".h"))})
+        files[place] = portable_library(
+            {n: t for n, t in sources.items() if n.endswith((".c", ".h"))}
+        )
         notes.append(f"{place}; other machines compile sources/, as buildDescription.xml says")
     except BuildError as error:
         notes.append(f"sources only, for nothing could be compiled here: {error}")

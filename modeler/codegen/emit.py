@@ -288,6 +288,9 @@ class _Written(CFunction):
     arguments: list[str]
     declaration: str
     definition: str
+    made: str  # prototypes of what is made of a closed posture, and of a state
+    at_declaration: str
+    at_definition: str
     lines: list[str]
     symbols: frozenset[str]
     additions: int
@@ -424,7 +427,7 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros]),
         "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros]),
-        "loops": closure_tables(model, solving, target) if solving else None,
+        "loops": closure_tables(model, base, solving, target) if solving else None,
         "names": constants,
         "signature": "",
         "blocks": blocks,
@@ -560,9 +563,30 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         arguments=layout.argument_lines(function),
         declaration=layout.prototype(name, layout.arguments(function, "", number), returns),
         definition=layout.prototype(name, layout.arguments(function, _RESTRICT, number), returns),
+        **_at_state(prefix, function, number),
         lines=[] if function.closed else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
     )
+
+
+def _at_state(prefix: str, function: CFunction, number: str) -> dict[str, str]:
+    """Prototypes of what a function is made with where the loops are closed."""
+    closed = function.closed
+    if closed is None:
+        return dict.fromkeys(("made", "at_declaration", "at_definition"), "")
+    motion = (closed.q, closed.qd, closed.start)
+    kept = dataclasses.replace(
+        function, inputs=tuple(a for a in function.inputs if a.name not in motion)
+    )
+    name = f"{prefix}_{function.role}_at"
+    plain, state = layout.arguments(kept, "", number), f"struct {prefix}_state *state"
+    posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
+    own = layout.arguments(kept, _RESTRICT, number)
+    return {
+        "made": layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
+        "at_declaration": layout.prototype(name, [state, *plain], "int"),
+        "at_definition": layout.prototype(name, [state, *own], "int"),
+    }
 
 
 def _letters(functions: Sequence[_Written]) -> list[str]:

@@ -122,7 +122,9 @@ def _variables(
         for joint in spec.joints:
             start = None if kind == "rate" else places[joint.name] if name == "q" else 0.0
             unit = joint.effort_unit if name == "tau" else joint.unit + per
-            yield _Variable(f"{name}{joint.name}", unit, f"{about} of joint {joint.name}", kind, start)
+            yield _Variable(
+                f"{name}{joint.name}", unit, f"{about} of joint {joint.name}", kind, start
+            )
     for base, value in zip(spec.base, beta, strict=True):
         about = " + ".join(f"{term.coefficient}*{term.parameter}" for term in base.terms)
         yield _Variable(base.name, base.unit, about, "parameter", float(value))

@@ -23,7 +23,10 @@ FORMAT = 2
 RUNTIME = ("modeler_real.h", "modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
 """Hand-written C files that stand beside every emitted module."""
 
-CLOSURE_RUNTIME = ("modeler_closure.h", "modeler_closure.c")
+CLOSURE_RUNTIME = (
+    "modeler_kept.h", "modeler_closure.h", "modeler_workspace.h", "modeler_closure.c",
+    "modeler_closure_factor.c", "modeler_closure_batch.c",
+)  # fmt: skip
 """Those that stand beside a robot with loops."""
 
 CUDA_THREADS = 128

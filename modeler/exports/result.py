@@ -196,7 +196,9 @@ def _summary(found: Exported) -> str:
     told = f" like {found.like}: {changed} of {len(found.values)} numbers changed"
     first = f"{found.robot} as {_title(found)}"
     first += told if found.like else f": {len(found.values)} numbers" * bool(found.values)
-    first += f"{',' if found.values else ':'} {len(found.functions)} functions" * bool(found.functions)
+    first += f"{',' if found.values else ':'} {len(found.functions)} functions" * bool(
+        found.functions
+    )
     lost = [f"{_title(found)} cannot hold {one.line}" for one in found.not_held]
     return "\n".join([first, *found.notes, *lost])
 
