@@ -11,13 +11,16 @@ from hypothesis.internal.conjecture import providers
 
 from modeler.core.json import nulled
 from tests.further_robots import FurtherRobots
-from tests.turns import resting, today
+from tests.turns import resting, today, turns
 
 # Hypothesis mixes the constants of whatever modules happen to be imported into its examples, and
 # which are depends on the tests that ran before in the process: examples shall be the same always.
 providers._get_local_constants = lambda: providers._local_constants
 
 ROOT = Path(__file__).resolve().parents[1]
+
+LONGEST = ("test_wheel.py", "test_typed.py")
+"""Begun first: at the end, one process would work on them while the others have nothing to do."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -45,14 +48,14 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         keepers = {"compare_with_generated", "regenerate"}
         left = [item for item in items if not keepers & set(getattr(item, "fixturenames", ()))]
     else:
-        names = [item.nodeid for item in items]
-        turns = [item.nodeid for item in items if item.get_closest_marker("in_turn")]
-        rest = resting(names, turns, config.getoption("every"), config.getoption("day"))
+        every, day = config.getoption("every"), config.getoption("day")
+        rest = resting([item.nodeid for item in items], turns(items), every, day)
         left = [item for item in items if item.nodeid in rest]
     if left:
         config.hook.pytest_deselected(items=left)
         gone = set(left)
         items[:] = [item for item in items if item not in gone]
+    items.sort(key=lambda item: not item.nodeid.partition("::")[0].endswith(LONGEST))
 
 
 @pytest.fixture

@@ -25,6 +25,7 @@ from modeler.observation.settings import Processing
 from modeler.robot.conventions import COLUMNS
 from modeler.robot.read import _KEYS, robot_from_text
 from modeler.simulation.hidden import HIDDEN
+from tests.turns import IN_TURN
 
 ROOT = Path(__file__).resolve().parents[1]
 RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "docs/processing.md",
@@ -235,7 +236,7 @@ LONG = (
 
 
 @pytest.mark.parametrize(
-    "page", [pytest.param(page, marks=[pytest.mark.slow] * (page in LONG)) for page in RUN]
+    "page", [pytest.param(page, marks=IN_TURN * (page in LONG)) for page in RUN]
 )
 def test_a_reader_gets_what_the_page_shows(page, tmp_path, monkeypatch, regenerate):
     monkeypatch.chdir(tmp_path)

@@ -5,36 +5,38 @@ from typing import Any
 
 import pytest
 
-from tests.conftest import pytest_collection_modifyitems
+from tests.conftest import LONGEST, ROOT, pytest_collection_modifyitems
 from tests.turns import IN_TURN, resting
 
 FUNCTIONS = [f"tests/{name}.py::test_{name}" for name in "abcdefghijkl"]
 QUICK = FUNCTIONS[::2]
 """Those with a case that takes no turn."""
-TURNS = [f"{function}[{k}]" for n, function in enumerate(FUNCTIONS) for k in range(n)]
-ALL = [*TURNS, *(f"{function}[quick]" for function in QUICK)]
+GROUPS = {f"{function}[{k}]": function for n, function in enumerate(FUNCTIONS) for k in range(n)}
+GROUPS |= {f"tests/z.py::test_{k}": "together" for k in range(4)}
+ALL = [*GROUPS, *(f"{function}[quick]" for function in QUICK)]
 
 
 def run(every: int, day: int) -> set[str]:
-    return set(TURNS) - resting(ALL, TURNS, every, day)
+    return set(GROUPS) - resting(ALL, GROUPS, every, day)
 
 
 @pytest.mark.parametrize("every", [1, 2, 3, 5])
 def test_each_has_its_turn(every: int) -> None:
     day = random.Random().randrange(10**6)
     days = [run(every, day + k) for k in range(every)]
-    assert set().union(*days) == set(TURNS)
-    for name in TURNS:
-        if name.partition("[")[0] in QUICK:
+    assert set().union(*days) == set(GROUPS)
+    for name, group in GROUPS.items():
+        if group in QUICK:
             assert sum(name in names for names in days) == 1
 
 
-def test_a_day_has_a_share_of_each_function() -> None:
+def test_a_day_has_a_share_of_each_group() -> None:
     left = run(3, random.Random().randrange(10**6))
-    for n, function in enumerate(FUNCTIONS):
-        mine = sum(f"{function}[{k}]" in left for k in range(n))
-        least = n // 3 if function in QUICK else min(n, max(n // 3, 1))
-        assert least <= mine <= n // 3 + 1
+    for group in set(GROUPS.values()):
+        mine = [name for name in GROUPS if GROUPS[name] == group]
+        n = len(mine)
+        least = n // 3 if group in QUICK else max(n // 3, 1)
+        assert least <= sum(name in left for name in mine) <= n // 3 + 1
 
 
 class Told:
@@ -42,10 +44,14 @@ class Told:
 
     def __init__(self, nodeid: str = "", **options: Any) -> None:
         self.nodeid, self.options = nodeid, options
-        self.hook, self.left = self, []  # type: ignore[var-annotated]
+        self.hook: Any = self
+        self.left: list[Any] = []
 
-    def get_closest_marker(self, name: str) -> bool:
-        return name == IN_TURN[1].name and self.nodeid in TURNS
+    def get_closest_marker(self, name: str) -> pytest.Mark | None:
+        if name != IN_TURN[1].name or self.nodeid not in GROUPS:
+            return None
+        group = GROUPS[self.nodeid]
+        return pytest.Mark(name, () if "::" in group else (group,), {}, _ispytest=True)
 
     def getoption(self, name: str) -> Any:
         return self.options.get(name.lstrip("-"))
@@ -58,5 +64,12 @@ def test_what_takes_no_turn_runs_every_day() -> None:
     items: list[Any] = [Told(name) for name in ALL]
     config: Any = Told(every=3, day=20000)
     pytest_collection_modifyitems(config, items)
-    assert {item.nodeid for item in items} == run(3, 20000) | set(ALL) - set(TURNS)
-    assert {item.nodeid for item in config.left} == resting(ALL, TURNS, 3, 20000)
+    assert {item.nodeid for item in items} == run(3, 20000) | set(ALL) - set(GROUPS)
+    assert {item.nodeid for item in config.left} == resting(ALL, GROUPS, 3, 20000)
+
+
+def test_what_is_longest_is_begun_first() -> None:
+    items: list[Any] = [Told(f"tests/{file}::test") for file in ("a.py", LONGEST[0], "b.py")]
+    pytest_collection_modifyitems(Told(every=1, day=0), items)  # type: ignore[arg-type]
+    assert all(any((ROOT / "tests").rglob(file)) for file in LONGEST)
+    assert [item.nodeid[6:-6] for item in items] == [LONGEST[0], "a.py", "b.py"]

@@ -1,14 +1,24 @@
-"""Long cases that repeat what quicker ones of their function show: some of them each day."""
+"""Long tests that repeat what quicker ones show: some of them each day."""
 
 import time
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Collection, Mapping
+from typing import Any
 from zlib import crc32
 
 import pytest
 
 IN_TURN = (pytest.mark.slow, pytest.mark.in_turn)
-"""Marks of a case of `parametrize`."""
+"""Marks of a case of `parametrize`; the function has quick cases, or one of these runs each day."""
+
+
+def in_turn(group: str) -> Any:
+    """Decorator of a long test beside quick ones of its subject; the group takes turns."""
+
+    def marked(function: Any) -> Any:
+        return pytest.mark.slow(pytest.mark.in_turn(group)(function))
+
+    return marked
 
 
 def today() -> int:
@@ -16,28 +26,34 @@ def today() -> int:
     return int(time.time() // 86400)
 
 
-def resting(names: Iterable[str], turns: Iterable[str], every: int, day: int) -> set[str]:
-    """The cases whose turn is not on this day: each has one day of `every`, or more.
+def turns(items: Collection[pytest.Item]) -> dict[str, str]:
+    """Test -> its group, of those that take turns: what its mark says, else its function."""
+    marks = {item.nodeid: item.get_closest_marker("in_turn") for item in items}
+    return {
+        name: mark.args[0] if mark.args else _function(name) for name, mark in marks.items() if mark
+    }
 
-    A function all of whose cases take turns has one of them on any day.
+
+def resting(names: Collection[str], groups: Mapping[str, str], every: int, day: int) -> set[str]:
+    """The tests whose turn is not on this day: each has one day of `every`, or more.
+
+    A group none of whose tests runs every day has one of them on any day.
 
     Args:
         names: of all tests, `file::function[case]`.
-        turns: those that take turns, in their order.
-        every: days; neighbours of a function have neighbouring ones.
-        day: any integer; other functions begin on other days.
+        groups: those that take turns, in their order -> their group.
+        every: days; neighbours of a group have neighbouring ones.
+        day: any integer; other groups begin on other days.
     """
-    cases: dict[str, list[str]] = defaultdict(list)
-    for name in turns:
-        cases[_function(name)].append(name)
-    taking = {name for known in cases.values() for name in known}
-    quick = {_function(name) for name in names if name not in taking}
+    members: dict[str, list[str]] = defaultdict(list)
+    for name, group in groups.items():
+        members[group].append(name)
+    quick = {_function(name) for name in names if name not in groups}
     return {
         name
-        for function, known in cases.items()
+        for group, known in members.items()
         for k, name in enumerate(known)
-        if (k + crc32(function.encode()) + day)
-        % (every if function in quick else min(every, len(known)))
+        if (k + crc32(group.encode()) + day) % (every if group in quick else min(every, len(known)))
     }
 
 

@@ -6,8 +6,8 @@
  * ends there. Every equation of every loop is checked at the end of each step, those that follow
  * from others too. Each step starts with the factors of the one before.
  *
- * modeler_closure.c walks, modeler_closure_factor.c solves, modeler_closure_batch.c calls functions
- * with a status over many samples. C99, no allocation, no global state, re-entrant.
+ * modeler_closure.c walks, modeler_closure_factor.c solves, modeler_closure_motion.c carries motion
+ * over. C99, no allocation, no global state, re-entrant.
  */
 #ifndef MODELER_CLOSURE_H
 #define MODELER_CLOSURE_H
@@ -16,6 +16,7 @@
 
 #include "modeler_kept.h"
 #include "modeler_runtime.h"
+#include "modeler_status.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -23,15 +24,6 @@ extern "C" {
 
 /* Evaluations of the closure equations in one call of modeler_close or modeler_close_next. */
 #define MODELER_EVALUATIONS 5000
-
-/* What functions of robots with loops return; outputs are NaN unless it is MODELER_CLOSED. */
-enum {
-    MODELER_CLOSED = 0,     /* done */
-    MODELER_OPEN = 1,       /* the loops cannot be closed on the way to these values */
-    MODELER_SINGULAR = 2,   /* singular posture: the passive joints are not determined */
-    MODELER_NOT_FINITE = 3, /* an input is not finite, or an output would not be */
-    MODELER_UNFINISHED = 4  /* too far: MODELER_EVALUATIONS did not do */
-};
 
 /* The loops of a robot; its functions are straight-line code without the zeros of df/du.
  *
@@ -144,27 +136,6 @@ int modeler_finite(const modeler_real *x, size_t length);
 /* What a function returns: the status, or MODELER_NOT_FINITE. Unless it is MODELER_CLOSED, `out` is
  * all NaN then. */
 int modeler_told(int status, modeler_real *out, size_t length);
-
-/* Emitted functions with a status, and loops over samples that keep it. */
-typedef int (*modeler_status_1)(const modeler_real *, modeler_real *);
-typedef int (*modeler_status_2)(const modeler_real *, const modeler_real *, modeler_real *);
-typedef int (*modeler_status_3)(const modeler_real *, const modeler_real *, const modeler_real *,
-                                modeler_real *);
-typedef int (*modeler_status_4)(const modeler_real *, const modeler_real *, const modeler_real *,
-                                const modeler_real *, modeler_real *);
-
-void modeler_batch_status_1(modeler_status_1 function, size_t samples,
-                            const modeler_input inputs[1], modeler_real *out, size_t out_step,
-                            int *status);
-void modeler_batch_status_2(modeler_status_2 function, size_t samples,
-                            const modeler_input inputs[2], modeler_real *out, size_t out_step,
-                            int *status);
-void modeler_batch_status_3(modeler_status_3 function, size_t samples,
-                            const modeler_input inputs[3], modeler_real *out, size_t out_step,
-                            int *status);
-void modeler_batch_status_4(modeler_status_4 function, size_t samples,
-                            const modeler_input inputs[4], modeler_real *out, size_t out_step,
-                            int *status);
 
 #ifdef __cplusplus
 }

@@ -12,7 +12,7 @@
 
 #include <stddef.h>
 
-#include "modeler_runtime.h"
+#include "modeler_batch.h"
 #include "modeler_tile.h"
 
 #ifdef __cplusplus

@@ -20,6 +20,7 @@ typedef double modeler_real;
 #define MODELER_CONVERGED 1e-8 /* a correction after which the error is its square */
 #define MODELER_EXACT 1e-14    /* a correction that is not worth making */
 #define MODELER_FLAT 1e-11     /* pivots below this share of the largest are zero */
+#define MODELER_PIVOT 1e-13     /* pivots below this share of the diagonal are zero */
 #define MODELER_SHORTEST 1e-7  /* share of a way; where shorter steps fail too, it ends */
 
 #endif

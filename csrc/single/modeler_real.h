@@ -20,6 +20,7 @@ typedef float modeler_real;
 #define MODELER_CONVERGED 2e-4f /* a correction after which the error is its square */
 #define MODELER_EXACT 2e-6f     /* a correction that is not worth making */
 #define MODELER_FLAT 1e-4f      /* pivots below this share of the largest are zero */
+#define MODELER_PIVOT 1e-5f     /* pivots below this share of the diagonal are zero */
 #define MODELER_SHORTEST 1e-4f  /* share of a way; where shorter steps fail too, it ends */
 
 /* modeler_batch.c */
@@ -28,6 +29,11 @@ typedef float modeler_real;
 #define modeler_batch_3 modelerf_batch_3
 #define modeler_batch_4 modelerf_batch_4
 #define modeler_batch_5 modelerf_batch_5
+#define modeler_batch_status_1 modelerf_batch_status_1
+#define modeler_batch_status_2 modelerf_batch_status_2
+#define modeler_batch_status_3 modelerf_batch_status_3
+#define modeler_batch_status_4 modelerf_batch_status_4
+#define modeler_batch_status_5 modelerf_batch_status_5
 
 /* modeler_closure*.c */
 #define modeler_close modelerf_close
@@ -47,9 +53,5 @@ typedef float modeler_real;
 #define modeler_apply_more modelerf_apply_more
 #define modeler_finite modelerf_finite
 #define modeler_told modelerf_told
-#define modeler_batch_status_1 modelerf_batch_status_1
-#define modeler_batch_status_2 modelerf_batch_status_2
-#define modeler_batch_status_3 modelerf_batch_status_3
-#define modeler_batch_status_4 modelerf_batch_status_4
 
 #endif

@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 1) any of this C interface,
-# find_package(evra 1.55484.13908.25864) only what has the signature d8bc365465081827.
-set(PACKAGE_VERSION 1.55484.13908.25864)
+# find_package(evra 1.53186.21547.2400) only what has the signature cfc2542b09605c49.
+set(PACKAGE_VERSION 1.53186.21547.2400)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -2,6 +2,32 @@
  *
  * Functions of evra.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
+ *   h      angular momentum J w
+ *   f      force on the link
+ *   n      moment on the link at its origin
+ *   fc     force on the link and all that it carries
+ *   nc     moment on the link and all that it carries
+ *   MSc    first moments of the link and all that it carries
+ *   Jc     inertia of the link and all that it carries
+ *   Js     what moving the inertia to the origin of the antecedent adds
+ *   lin_1  momentum of what hangs on a joint, for unit speed of it
+ *   ang_1  angular momentum of what hangs on a joint, for unit speed of it
+ *   p      origin of the frame in that of its antecedent
+ *   x      axis x of the frame in frame 0
+ *   y      axis y of the frame in frame 0
+ *   o      origin of the frame in frame 0
+ *   ...a   in axes of the antecedent: ang, lin, nc
+ *   ...d   derivative by a variable, qd2 for qd[2], or by the time, t: o, x, y
  */
 #include "evra.h"
 
@@ -80,18 +106,18 @@ static const double evra_geo_phi6 = EVRA_GEO_phi6;
 void evra_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
                                 const double *beta, double *MODELER_RESTRICT tau)
 {
-    const double k1 = cos(evra_geo_beta1);
-    const double k2 = sin(evra_geo_beta1);
-    const double k3 = cos(evra_geo_beta2);
-    const double k4 = sin(evra_geo_beta2);
-    const double k5 = cos(evra_geo_beta3);
-    const double k6 = sin(evra_geo_beta3);
-    const double k7 = cos(evra_geo_beta4);
-    const double k8 = sin(evra_geo_beta4);
-    const double k9 = cos(evra_geo_beta5);
-    const double k10 = sin(evra_geo_beta5);
-    const double k11 = cos(evra_geo_beta6);
-    const double k12 = sin(evra_geo_beta6);
+    const double x_B1_x = cos(evra_geo_beta1);
+    const double x_B1_y = sin(evra_geo_beta1);
+    const double x_B2_x = cos(evra_geo_beta2);
+    const double x_B2_y = sin(evra_geo_beta2);
+    const double x_B3_x = cos(evra_geo_beta3);
+    const double x_B3_y = sin(evra_geo_beta3);
+    const double x_B4_x = cos(evra_geo_beta4);
+    const double x_B4_y = sin(evra_geo_beta4);
+    const double x_B5_x = cos(evra_geo_beta5);
+    const double x_B5_y = sin(evra_geo_beta5);
+    const double x_B6_x = cos(evra_geo_beta6);
+    const double x_B6_y = sin(evra_geo_beta6);
 
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
@@ -124,335 +150,518 @@ void evra_tree_inverse_dynamics(const double *q, const double *qd, const double 
     double s24, c24;
     modeler_sincos(q[24], &s24, &c24);
 
-    const double t1 = qdd[2] + evra_geo_g;
-    const double t2 = c3*t1 - s3*qdd[1];
-    const double t3 = c4*t2 + s4*qdd[0];
-    const double t4 = c4*qd[3];
-    const double t5 = s4*qd[3];
-    const double t6 = c4*qdd[3] - qd[4]*t5;
-    const double t7 = c5*t4 + s5*qd[4];
-    const double t8 = c5*qdd[4] - s5*t6 - qd[5]*t7;
-    const double t9 = qd[5] + t5;
-    const double t10 = t7*t9;
-    const double t11 = c5*qd[4] - s5*t4;
-    const double t12 = c5*t6 + s5*qdd[4] + qd[5]*t11;
-    const double t13 = t11*t9;
-    const double t14 = (t8 - t10)*beta[6] - (t12 + t13)*beta[7] + (t4*t4 + qd[4]*qd[4])*beta[8];
-    const double t15 = t3*beta[9] - t14;
-    const double t16 = c4*qdd[0] - s4*t2;
-    const double t17 = c3*qdd[1] + s3*t1;
-    const double t18 = c5*t16 + s5*t17;
-    const double t19 = t9*t9;
-    const double t20 = s4*qdd[3] + qd[4]*t4 + qdd[5];
-    const double t21 = t7*t11;
-    const double t22 = (t11*t11 + t19)*beta[6] + (t20 - t21)*beta[7] - (t8 + t10)*beta[8];
-    const double t23 = t18*beta[9] - t22;
-    const double t24 = c5*t17 - s5*t16;
-    const double t25 = (t7*t7 + t19)*beta[7] - (t20 + t21)*beta[6] + (t12 - t13)*beta[8];
-    const double t26 = t24*beta[9] - t25;
-    const double t27 = c5*t23 - s5*t26;
-    tau[0] = s4*t15 + c4*t27;
-    const double t28 = s5*t23 + c5*t26;
-    const double t29 = c4*t15 - s4*t27;
-    tau[1] = c3*t28 - s3*t29;
-    tau[2] = s3*t28 + c3*t29;
-    const double t30 = t7*beta[1] + t11*beta[3] + t9*beta[4];
-    const double t31 = t7*beta[0] + t11*beta[1] + t9*beta[2];
-    const double t32 = t7*t30 - t11*t31 + (t12*beta[2] + t8*beta[4] + t20*beta[5]);
-    const double t33 = t24*beta[6] - t18*beta[7] + t32;
-    const double t34 = t7*beta[2] + t11*beta[4] + t9*beta[5];
-    const double t35 = t11*t34 - t9*t30 + (t12*beta[0] + t8*beta[1] + t20*beta[2]);
-    const double t36 = t3*beta[7] - t24*beta[8] + t35;
-    const double t37 = t9*t31 - t7*t34 + (t12*beta[1] + t8*beta[3] + t20*beta[4]);
-    const double t38 = t18*beta[8] - t3*beta[6] + t37;
-    tau[3] = s4*t33 + c4*(c5*t36 - s5*t38);
-    tau[4] = s5*t36 + c5*t38;
-    tau[5] = t33;
-    const double t39 = s24*qd[23];
-    const double t40 = qd[24]*qd[24];
-    const double t41 = t39*t39 + t40;
-    const double t42 = s24*qdd[23];
-    const double t43 = c24*qd[23];
-    const double t44 = t43*t39;
-    const double t45 = qdd[24] + t44;
-    const double t46 = t41*beta[87] + t42*beta[88] - t45*beta[89];
-    const double t47 = t41*beta[85] + t45*beta[86] + t46;
-    const double t48 = t43*t43 + t40;
-    const double t49 = qdd[24] - t44;
-    const double t50 = c24*qdd[23];
-    const double t51 = t49*beta[87] - t50*beta[88] + t48*beta[89];
-    const double t52 = t49*beta[85] - t48*beta[86] + t51;
-    const double t53 = qd[23]*qd[23];
-    const double t54 = qd[24]*t43;
-    const double t55 = t42 + t54;
-    const double t56 = t54 + t55;
-    const double t57 = qd[24]*t39;
-    const double t58 = t50 - t57;
-    const double t59 = t57 - t58;
-    const double t60 = t53*beta[88] - t56*beta[87] - t59*beta[89];
-    const double t61 = t59*beta[86] - t56*beta[85] + t60 + (qdd[23]*beta[78] - t53*beta[79]);
-    const double t62 = s23*(s24*t47 - c24*t52 - (t53*beta[78] + qdd[23]*beta[79])) + c23*t61;
-    const double t63 = c24*t47 + s24*t52;
-    const double t64 = s21*qd[20];
-    const double t65 = qd[21]*qd[21];
-    const double t66 = t64*t64 + t65;
-    const double t67 = s21*qdd[20];
-    const double t68 = c21*qd[20];
-    const double t69 = t68*t64;
-    const double t70 = qdd[21] + t69;
-    const double t71 = t66*beta[74] + t67*beta[75] - t70*beta[76];
-    const double t72 = t66*beta[72] + t70*beta[73] + t71;
-    const double t73 = t68*t68 + t65;
-    const double t74 = qdd[21] - t69;
-    const double t75 = c21*qdd[20];
-    const double t76 = t74*beta[74] - t75*beta[75] + t73*beta[76];
-    const double t77 = t74*beta[72] - t73*beta[73] + t76;
-    const double t78 = qd[20]*qd[20];
-    const double t79 = qd[21]*t68;
-    const double t80 = t67 + t79;
-    const double t81 = t79 + t80;
-    const double t82 = qd[21]*t64;
-    const double t83 = t75 - t82;
-    const double t84 = t82 - t83;
-    const double t85 = t78*beta[75] - t81*beta[74] - t84*beta[76];
-    const double t86 = t84*beta[73] - t81*beta[72] + t85 + (qdd[20]*beta[65] - t78*beta[66]);
-    const double t87 = s20*(s21*t72 - c21*t77 - (t78*beta[65] + qdd[20]*beta[66])) + c20*t86;
-    const double t88 = c21*t72 + s21*t77;
-    const double t89 = s18*qd[17];
-    const double t90 = qd[18]*qd[18];
-    const double t91 = t89*t89 + t90;
-    const double t92 = s18*qdd[17];
-    const double t93 = c18*qd[17];
-    const double t94 = t93*t89;
-    const double t95 = qdd[18] + t94;
-    const double t96 = t91*beta[61] + t92*beta[62] - t95*beta[63];
-    const double t97 = t91*beta[59] + t95*beta[60] + t96;
-    const double t98 = t93*t93 + t90;
-    const double t99 = qdd[18] - t94;
-    const double t100 = c18*qdd[17];
-    const double t101 = t99*beta[61] - t100*beta[62] + t98*beta[63];
-    const double t102 = t99*beta[59] - t98*beta[60] + t101;
-    const double t103 = qd[17]*qd[17];
-    const double t104 = qd[18]*t93;
-    const double t105 = t92 + t104;
-    const double t106 = t104 + t105;
-    const double t107 = qd[18]*t89;
-    const double t108 = t100 - t107;
-    const double t109 = t107 - t108;
-    const double t110 = t103*beta[62] - t106*beta[61] - t109*beta[63];
-    const double t111 = t109*beta[60] - t106*beta[59] + t110 + (qdd[17]*beta[52] - t103*beta[53]);
-    const double t112 = s17*(s18*t97 - c18*t102 - (t103*beta[52] + qdd[17]*beta[53])) + c17*t111;
-    const double t113 = c18*t97 + s18*t102;
-    const double t114 = s15*qd[14];
-    const double t115 = qd[15]*qd[15];
-    const double t116 = t114*t114 + t115;
-    const double t117 = s15*qdd[14];
-    const double t118 = c15*qd[14];
-    const double t119 = t118*t114;
-    const double t120 = qdd[15] + t119;
-    const double t121 = t116*beta[48] + t117*beta[49] - t120*beta[50];
-    const double t122 = t116*beta[46] + t120*beta[47] + t121;
-    const double t123 = t118*t118 + t115;
-    const double t124 = qdd[15] - t119;
-    const double t125 = c15*qdd[14];
-    const double t126 = t124*beta[48] - t125*beta[49] + t123*beta[50];
-    const double t127 = t124*beta[46] - t123*beta[47] + t126;
-    const double t128 = qd[14]*qd[14];
-    const double t129 = qd[15]*t118;
-    const double t130 = t117 + t129;
-    const double t131 = t129 + t130;
-    const double t132 = qd[15]*t114;
-    const double t133 = t125 - t132;
-    const double t134 = t132 - t133;
-    const double t135 = t128*beta[49] - t131*beta[48] - t134*beta[50];
-    const double t136 = t134*beta[47] - t131*beta[46] + t135 + (qdd[14]*beta[39] - t128*beta[40]);
-    const double t137 = s14*(s15*t122 - c15*t127 - (t128*beta[39] + qdd[14]*beta[40])) + c14*t136;
-    const double t138 = c15*t122 + s15*t127;
-    const double t139 = k11*t62 - k12*t63 + (k9*t87 - k10*t88) + (k7*t112 - k8*t113);
-    const double t140 = s12*qd[11];
-    const double t141 = qd[12]*qd[12];
-    const double t142 = t140*t140 + t141;
-    const double t143 = s12*qdd[11];
-    const double t144 = c12*qd[11];
-    const double t145 = t144*t140;
-    const double t146 = qdd[12] + t145;
-    const double t147 = t142*beta[35] + t143*beta[36] - t146*beta[37];
-    const double t148 = t142*beta[33] + t146*beta[34] + t147;
-    const double t149 = t144*t144 + t141;
-    const double t150 = qdd[12] - t145;
-    const double t151 = c12*qdd[11];
-    const double t152 = t150*beta[35] - t151*beta[36] + t149*beta[37];
-    const double t153 = t150*beta[33] - t149*beta[34] + t152;
-    const double t154 = qd[11]*qd[11];
-    const double t155 = qd[12]*t144;
-    const double t156 = t143 + t155;
-    const double t157 = t155 + t156;
-    const double t158 = qd[12]*t140;
-    const double t159 = t151 - t158;
-    const double t160 = t158 - t159;
-    const double t161 = t154*beta[36] - t157*beta[35] - t160*beta[37];
-    const double t162 = t160*beta[34] - t157*beta[33] + t161 + (qdd[11]*beta[26] - t154*beta[27]);
-    const double t163 = s11*(s12*t148 - c12*t153 - (t154*beta[26] + qdd[11]*beta[27])) + c11*t162;
-    const double t164 = c12*t148 + s12*t153;
-    const double t165 = s9*qd[8];
-    const double t166 = qd[9]*qd[9];
-    const double t167 = t165*t165 + t166;
-    const double t168 = s9*qdd[8];
-    const double t169 = c9*qd[8];
-    const double t170 = t169*t165;
-    const double t171 = qdd[9] + t170;
-    const double t172 = t167*beta[22] + t168*beta[23] - t171*beta[24];
-    const double t173 = t167*beta[20] + t171*beta[21] + t172;
-    const double t174 = t169*t169 + t166;
-    const double t175 = qdd[9] - t170;
-    const double t176 = c9*qdd[8];
-    const double t177 = t175*beta[22] - t176*beta[23] + t174*beta[24];
-    const double t178 = t175*beta[20] - t174*beta[21] + t177;
-    const double t179 = qd[8]*qd[8];
-    const double t180 = qd[9]*t169;
-    const double t181 = t168 + t180;
-    const double t182 = t180 + t181;
-    const double t183 = qd[9]*t165;
-    const double t184 = t176 - t183;
-    const double t185 = t183 - t184;
-    const double t186 = t179*beta[23] - t182*beta[22] - t185*beta[24];
-    const double t187 = t185*beta[21] - t182*beta[20] + t186 + (qdd[8]*beta[13] - t179*beta[14]);
-    const double t188 = s8*(s9*t173 - c9*t178 - (t179*beta[13] + qdd[8]*beta[14])) + c8*t187;
-    const double t189 = c9*t173 + s9*t178;
-    const double t190 = k5*t137 - k6*t138 + t139 + (k3*t163 - k4*t164) + (k1*t188 - k2*t189);
-    tau[6] = qdd[6]*beta[10] - (t190 - qdd[6]*beta[11]);
-    const double t191 = k12*t62 + k11*t63 + (k10*t87 + k9*t88) + (k8*t112 + k7*t113);
-    const double t192 = k6*t137 + k5*t138 + t191 + (k4*t163 + k3*t164) + (k2*t188 + k1*t189);
-    tau[7] = qdd[7]*beta[11] - t192;
-    const double t193 = k1*qdd[7] - k2*qdd[6];
-    const double t194 = k1*qdd[6] + k2*qdd[7];
-    const double t195 = s8*t194 + evra_geo_g*c8;
-    const double t196 = s9*t193 - c9*t195;
-    const double t197 = t196 - q[10]*t174 + qdd[10];
-    const double t198 = evra_geo_g*s8 - c8*t194;
-    const double t199 = t198 - q[10]*t185 + qd[10]*t169*2.0;
-    const double t200 = t169*beta[17] - t165*beta[18] + qd[9]*beta[19];
-    const double t201 = t169*beta[16] + qd[9]*beta[18];
-    const double t202 = t165*t200 + qd[9]*t201 - (t184*beta[15] - t181*beta[16] + qdd[9]*beta[17]);
-    const double t203 = s9*t195 + c9*t193;
-    const double t204 = t203 + q[10]*t171 + qd[9]*qd[10]*2.0;
-    const double t205 = t169*beta[15] - t165*beta[16] + qd[9]*beta[17];
-    const double t206 = qd[9]*t205 - t169*t200 + (t184*beta[16] + qdd[9]*beta[18]) + t198*beta[20];
-    const double t207 = c9*(t197*beta[23] + t199*beta[24] + q[10]*t186 - (t202 + t198*beta[21]));
-    const double t208 = t207 - s9*(t199*beta[22] + t204*beta[23] + t206);
-    tau[8] = t198*beta[13] + t195*beta[14] + qdd[8]*beta[12] + t208;
-    const double t209 = t169*t201 + t165*t205 + (t184*beta[17] - t181*beta[18] + qdd[9]*beta[19]);
-    const double t210 = t204*beta[24] - t197*beta[22] - q[10]*t172;
-    tau[9] = t209 - (t196*beta[20] + t203*beta[21]) + t210;
-    tau[10] = -t177;
-    const double t211 = k3*qdd[7] - k4*qdd[6];
-    const double t212 = k3*qdd[6] + k4*qdd[7];
-    const double t213 = s11*t212 + evra_geo_g*c11;
-    const double t214 = s12*t211 - c12*t213;
-    const double t215 = t214 - q[13]*t149 + qdd[13];
-    const double t216 = evra_geo_g*s11 - c11*t212;
-    const double t217 = t216 - q[13]*t160 + qd[13]*t144*2.0;
-    const double t218 = t144*beta[30] - t140*beta[31] + qd[12]*beta[32];
-    const double t219 = t144*beta[29] + qd[12]*beta[31];
-    const double t220 = t159*beta[28] - t156*beta[29] + qdd[12]*beta[30];
-    const double t221 = t140*t218 + qd[12]*t219 - t220 + t216*beta[34];
-    const double t222 = s12*t213 + c12*t211;
-    const double t223 = t222 + q[13]*t146 + qd[12]*qd[13]*2.0;
-    const double t224 = t144*beta[28] - t140*beta[29] + qd[12]*beta[30];
-    const double t225 = qd[12]*t224 - t144*t218 + (t159*beta[29] + qdd[12]*beta[31]);
-    const double t226 = s12*(t217*beta[35] + t223*beta[36] + (t225 + t216*beta[33]));
-    const double t227 = c12*(t215*beta[36] + t217*beta[37] + q[13]*t161 - t221) - t226;
-    tau[11] = t216*beta[26] + t213*beta[27] + qdd[11]*beta[25] + t227;
-    const double t228 = t144*t219 + t140*t224 + (t159*beta[30] - t156*beta[31] + qdd[12]*beta[32]);
-    const double t229 = t223*beta[37] - t215*beta[35] - q[13]*t147;
-    tau[12] = t228 - (t214*beta[33] + t222*beta[34]) + t229;
-    tau[13] = -t152;
-    const double t230 = k5*qdd[7] - k6*qdd[6];
-    const double t231 = k5*qdd[6] + k6*qdd[7];
-    const double t232 = s14*t231 + evra_geo_g*c14;
-    const double t233 = s15*t230 - c15*t232;
-    const double t234 = t233 - q[16]*t123 + qdd[16];
-    const double t235 = evra_geo_g*s14 - c14*t231;
-    const double t236 = t235 - q[16]*t134 + qd[16]*t118*2.0;
-    const double t237 = t118*beta[43] - t114*beta[44] + qd[15]*beta[45];
-    const double t238 = t118*beta[42] + qd[15]*beta[44];
-    const double t239 = t133*beta[41] - t130*beta[42] + qdd[15]*beta[43];
-    const double t240 = t114*t237 + qd[15]*t238 - t239 + t235*beta[47];
-    const double t241 = s15*t232 + c15*t230;
-    const double t242 = t241 + q[16]*t120 + qd[15]*qd[16]*2.0;
-    const double t243 = t118*beta[41] - t114*beta[42] + qd[15]*beta[43];
-    const double t244 = qd[15]*t243 - t118*t237 + (t133*beta[42] + qdd[15]*beta[44]);
-    const double t245 = s15*(t236*beta[48] + t242*beta[49] + (t244 + t235*beta[46]));
-    const double t246 = c15*(t234*beta[49] + t236*beta[50] + q[16]*t135 - t240) - t245;
-    tau[14] = t235*beta[39] + t232*beta[40] + qdd[14]*beta[38] + t246;
-    const double t247 = t118*t238 + t114*t243 + (t133*beta[43] - t130*beta[44] + qdd[15]*beta[45]);
-    const double t248 = t242*beta[50] - t234*beta[48] - q[16]*t121;
-    tau[15] = t247 - (t233*beta[46] + t241*beta[47]) + t248;
-    tau[16] = -t126;
-    const double t249 = k7*qdd[7] - k8*qdd[6];
-    const double t250 = k7*qdd[6] + k8*qdd[7];
-    const double t251 = s17*t250 + evra_geo_g*c17;
-    const double t252 = s18*t249 - c18*t251;
-    const double t253 = t252 - q[19]*t98 + qdd[19];
-    const double t254 = evra_geo_g*s17 - c17*t250;
-    const double t255 = t254 - q[19]*t109 + qd[19]*t93*2.0;
-    const double t256 = t93*beta[56] - t89*beta[57] + qd[18]*beta[58];
-    const double t257 = t93*beta[55] + qd[18]*beta[57];
-    const double t258 = t108*beta[54] - t105*beta[55] + qdd[18]*beta[56];
-    const double t259 = t89*t256 + qd[18]*t257 - t258 + t254*beta[60];
-    const double t260 = s18*t251 + c18*t249;
-    const double t261 = t260 + q[19]*t95 + qd[18]*qd[19]*2.0;
-    const double t262 = t93*beta[54] - t89*beta[55] + qd[18]*beta[56];
-    const double t263 = qd[18]*t262 - t93*t256 + (t108*beta[55] + qdd[18]*beta[57]);
-    const double t264 = s18*(t255*beta[61] + t261*beta[62] + (t263 + t254*beta[59]));
-    const double t265 = c18*(t253*beta[62] + t255*beta[63] + q[19]*t110 - t259) - t264;
-    tau[17] = t254*beta[52] + t251*beta[53] + qdd[17]*beta[51] + t265;
-    const double t266 = t93*t257 + t89*t262 + (t108*beta[56] - t105*beta[57] + qdd[18]*beta[58]);
-    const double t267 = t261*beta[63] - t253*beta[61] - q[19]*t96;
-    tau[18] = t266 - (t252*beta[59] + t260*beta[60]) + t267;
-    tau[19] = -t101;
-    const double t268 = k9*qdd[7] - k10*qdd[6];
-    const double t269 = k9*qdd[6] + k10*qdd[7];
-    const double t270 = s20*t269 + evra_geo_g*c20;
-    const double t271 = s21*t268 - c21*t270;
-    const double t272 = t271 - q[22]*t73 + qdd[22];
-    const double t273 = evra_geo_g*s20 - c20*t269;
-    const double t274 = t273 - q[22]*t84 + qd[22]*t68*2.0;
-    const double t275 = t68*beta[69] - t64*beta[70] + qd[21]*beta[71];
-    const double t276 = t68*beta[68] + qd[21]*beta[70];
-    const double t277 = t64*t275 + qd[21]*t276 - (t83*beta[67] - t80*beta[68] + qdd[21]*beta[69]);
-    const double t278 = s21*t270 + c21*t268;
-    const double t279 = t278 + q[22]*t70 + qd[21]*qd[22]*2.0;
-    const double t280 = t68*beta[67] - t64*beta[68] + qd[21]*beta[69];
-    const double t281 = qd[21]*t280 - t68*t275 + (t83*beta[68] + qdd[21]*beta[70]) + t273*beta[72];
-    const double t282 = c21*(t272*beta[75] + t274*beta[76] + q[22]*t85 - (t277 + t273*beta[73]));
-    const double t283 = t282 - s21*(t274*beta[74] + t279*beta[75] + t281);
-    tau[20] = t273*beta[65] + t270*beta[66] + qdd[20]*beta[64] + t283;
-    const double t284 = t68*t276 + t64*t280 + (t83*beta[69] - t80*beta[70] + qdd[21]*beta[71]);
-    const double t285 = t279*beta[76] - t272*beta[74] - q[22]*t71;
-    tau[21] = t284 - (t271*beta[72] + t278*beta[73]) + t285;
-    tau[22] = -t76;
-    const double t286 = k11*qdd[7] - k12*qdd[6];
-    const double t287 = k11*qdd[6] + k12*qdd[7];
-    const double t288 = s23*t287 + evra_geo_g*c23;
-    const double t289 = s24*t286 - c24*t288;
-    const double t290 = t289 - q[25]*t48 + qdd[25];
-    const double t291 = evra_geo_g*s23 - c23*t287;
-    const double t292 = t291 - q[25]*t59 + qd[25]*t43*2.0;
-    const double t293 = t43*beta[82] - t39*beta[83] + qd[24]*beta[84];
-    const double t294 = t43*beta[81] + qd[24]*beta[83];
-    const double t295 = t39*t293 + qd[24]*t294 - (t58*beta[80] - t55*beta[81] + qdd[24]*beta[82]);
-    const double t296 = s24*t288 + c24*t286;
-    const double t297 = t296 + q[25]*t45 + qd[24]*qd[25]*2.0;
-    const double t298 = t43*beta[80] - t39*beta[81] + qd[24]*beta[82];
-    const double t299 = qd[24]*t298 - t43*t293 + (t58*beta[81] + qdd[24]*beta[83]) + t291*beta[85];
-    const double t300 = c24*(t290*beta[88] + t292*beta[89] + q[25]*t60 - (t295 + t291*beta[86]));
-    const double t301 = t300 - s24*(t292*beta[87] + t297*beta[88] + t299);
-    tau[23] = t291*beta[78] + t288*beta[79] + qdd[23]*beta[77] + t301;
-    const double t302 = t43*t294 + t39*t298 + (t58*beta[82] - t55*beta[83] + qdd[24]*beta[84]);
-    const double t303 = t297*beta[89] - t290*beta[87] - q[25]*t46;
-    tau[24] = t302 - (t289*beta[85] + t296*beta[86]) + t303;
-    tau[25] = -t51;
+    /* link Pz: acceleration of the origin less gravity, vd_Pz = R_Pz' (vd_Py + U_Py p_Pz) + 2 w_Pz
+        x qd_Pz z + qdd_Pz z */
+    const double vd_Pz_z = qdd[2] + evra_geo_g;
+    /* link Pa: acceleration of the origin less gravity, vd_Pa = R_Pa' (vd_Pz + U_Pz p_Pa) */
+    const double vd_Pa_y = c3*vd_Pz_z - s3*qdd[1];
+    /* link Pb: acceleration of the origin less gravity, vd_Pb = R_Pb' (vd_Pa + U_Pa p_Pb) */
+    const double vd_Pb_x = c4*vd_Pa_y + s4*qdd[0];
+    /* link Pb: angular velocity, w_Pb = R_Pb' w_Pa + qd_Pb z */
+    const double w_Pb_y = c4*qd[3];
+    const double w_Pb_x = s4*qd[3];
+    /* link Pb: angular acceleration, wd_Pb = R_Pb' wd_Pa + (R_Pb' w_Pa) x qd_Pb z + qdd_Pb z */
+    const double wd_Pb_y = c4*qdd[3] - qd[4]*w_Pb_x;
+    /* link P: angular velocity, w_P = R_P' w_Pb + qd_P z */
+    const double w_P_x = c5*w_Pb_y + s5*qd[4];
+    /* link P: angular acceleration, wd_P = R_P' wd_Pb + (R_P' w_Pb) x qd_P z + qdd_P z */
+    const double wd_P_y = c5*qdd[4] - s5*wd_Pb_y - qd[5]*w_P_x;
+    const double w_P_z = qd[5] + w_Pb_x;
+    const double ww_P_xz = w_P_x*w_P_z;
+    const double w_P_y = c5*qd[4] - s5*w_Pb_y;
+    const double wd_P_x = c5*wd_Pb_y + s5*qdd[4] + qd[5]*w_P_y;
+    const double ww_P_yz = w_P_y*w_P_z;
+    const double t14 = (wd_P_y - ww_P_xz)*beta[6] - (wd_P_x + ww_P_yz)*beta[7] + (w_Pb_y*w_Pb_y +
+        qd[4]*qd[4])*beta[8];
+    /* link P: force on the link, f_P = M_P vd_P + U_P MS_P */
+    const double f_P_z = vd_Pb_x*beta[9] - t14;
+    const double vd_Pb_y = c4*qdd[0] - s4*vd_Pa_y;
+    const double vd_Pa_x = c3*qdd[1] + s3*vd_Pz_z;
+    /* link P: acceleration of the origin less gravity, vd_P = R_P' (vd_Pb + U_Pb p_P) */
+    const double vd_P_x = c5*vd_Pb_y + s5*vd_Pa_x;
+    const double ww_P_zz = w_P_z*w_P_z;
+    const double wd_P_z = s4*qdd[3] + qd[4]*w_Pb_y + qdd[5];
+    const double ww_P_xy = w_P_x*w_P_y;
+    const double t22 = (w_P_y*w_P_y + ww_P_zz)*beta[6] + (wd_P_z - ww_P_xy)*beta[7] - (wd_P_y +
+        ww_P_xz)*beta[8];
+    const double f_P_x = vd_P_x*beta[9] - t22;
+    const double vd_P_y = c5*vd_Pa_x - s5*vd_Pb_y;
+    const double t25 = (w_P_x*w_P_x + ww_P_zz)*beta[7] - (wd_P_z + ww_P_xy)*beta[6] + (wd_P_x -
+        ww_P_yz)*beta[8];
+    const double f_P_y = vd_P_y*beta[9] - t25;
+    /* link Pb: force on the link and all that it carries, fc_Pb = f_Pb + sum of R fc of what hangs
+        on it */
+    const double fc_Pb_y = c5*f_P_x - s5*f_P_y;
+    tau[0] = s4*f_P_z + c4*fc_Pb_y;
+    const double fc_Pb_z = s5*f_P_x + c5*f_P_y;
+    /* link Pa: force on the link and all that it carries, fc_Pa = f_Pa + sum of R fc of what hangs
+        on it */
+    const double fc_Pa_y = c4*f_P_z - s4*fc_Pb_y;
+    tau[1] = c3*fc_Pb_z - s3*fc_Pa_y;
+    tau[2] = s3*fc_Pb_z + c3*fc_Pa_y;
+    const double h_P_y = w_P_x*beta[1] + w_P_y*beta[3] + w_P_z*beta[4];
+    const double h_P_x = w_P_x*beta[0] + w_P_y*beta[1] + w_P_z*beta[2];
+    const double t32 = w_P_x*h_P_y - w_P_y*h_P_x + (wd_P_x*beta[2] + wd_P_y*beta[4] +
+        wd_P_z*beta[5]);
+    /* link P: moment on the link at its origin, n_P = J_P wd_P + w_P x J_P w_P + MS_P x vd_P */
+    const double n_P_z = vd_P_y*beta[6] - vd_P_x*beta[7] + t32;
+    const double h_P_z = w_P_x*beta[2] + w_P_y*beta[4] + w_P_z*beta[5];
+    const double t35 = w_P_y*h_P_z - w_P_z*h_P_y + (wd_P_x*beta[0] + wd_P_y*beta[1] +
+        wd_P_z*beta[2]);
+    const double n_P_x = vd_Pb_x*beta[7] - vd_P_y*beta[8] + t35;
+    const double t37 = w_P_z*h_P_x - w_P_x*h_P_z + (wd_P_x*beta[1] + wd_P_y*beta[3] +
+        wd_P_z*beta[4]);
+    const double n_P_y = vd_P_x*beta[8] - vd_Pb_x*beta[6] + t37;
+    tau[3] = s4*n_P_z + c4*(c5*n_P_x - s5*n_P_y);
+    tau[4] = s5*n_P_x + c5*n_P_y;
+    tau[5] = n_P_z;
+    /* link 26: angular velocity, w26 = R26' w16 + qd26 z */
+    const double minus_w26_y = s24*qd[23];
+    const double ww26_zz = qd[24]*qd[24];
+    /* link 26: acceleration of points of the link, U26 = [wd26 x] + [w26 x][w26 x] */
+    const double minus_U26_xx = minus_w26_y*minus_w26_y + ww26_zz;
+    const double minus_U26_xz = s24*qdd[23];
+    const double w26_x = c24*qd[23];
+    const double minus_ww26_xy = w26_x*minus_w26_y;
+    const double minus_U26_xy = qdd[24] + minus_ww26_xy;
+    /* link 36: force on the link, f36 = M36 vd36 + U36 MS36 */
+    const double minus_f36_x = minus_U26_xx*beta[87] + minus_U26_xz*beta[88] -
+        minus_U26_xy*beta[89];
+    /* link 26: force on the link and all that it carries, fc26 = f26 + sum of R fc of what hangs on
+        it */
+    const double minus_fc26_x = minus_U26_xx*beta[85] + minus_U26_xy*beta[86] + minus_f36_x;
+    const double minus_U26_yy = w26_x*w26_x + ww26_zz;
+    const double U26_yx = qdd[24] - minus_ww26_xy;
+    const double minus_U26_yz = c24*qdd[23];
+    const double minus_f36_z = U26_yx*beta[87] - minus_U26_yz*beta[88] + minus_U26_yy*beta[89];
+    const double fc26_y = U26_yx*beta[85] - minus_U26_yy*beta[86] + minus_f36_z;
+    const double ww16_zz = qd[23]*qd[23];
+    const double ww26_xz = qd[24]*w26_x;
+    /* link 26: angular acceleration, wd26 = R26' wd16 + (R26' w16) x qd26 z + qdd26 z */
+    const double minus_wd26_y = minus_U26_xz + ww26_xz;
+    const double U26_zx = ww26_xz + minus_wd26_y;
+    const double minus_ww26_yz = qd[24]*minus_w26_y;
+    const double wd26_x = minus_U26_yz - minus_ww26_yz;
+    const double minus_U26_zy = minus_ww26_yz - wd26_x;
+    const double minus_f36_y = ww16_zz*beta[88] - U26_zx*beta[87] - minus_U26_zy*beta[89];
+    /* link 16: force on the link and all that it carries, fc16 = f16 + sum of R fc of what hangs on
+        it */
+    const double fc16_y = minus_U26_zy*beta[86] - U26_zx*beta[85] + minus_f36_y + (qdd[23]*beta[78]
+        - ww16_zz*beta[79]);
+    /* link B6: force on the link and all that it carries, fc_B6 = f_B6 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B6_x = s23*(s24*minus_fc26_x - c24*fc26_y - (ww16_zz*beta[78] +
+        qdd[23]*beta[79])) + c23*fc16_y;
+    const double minus_fc16_z = c24*minus_fc26_x + s24*fc26_y;
+    /* link 25: angular velocity, w25 = R25' w15 + qd25 z */
+    const double minus_w25_y = s21*qd[20];
+    const double ww25_zz = qd[21]*qd[21];
+    /* link 25: acceleration of points of the link, U25 = [wd25 x] + [w25 x][w25 x] */
+    const double minus_U25_xx = minus_w25_y*minus_w25_y + ww25_zz;
+    const double minus_U25_xz = s21*qdd[20];
+    const double w25_x = c21*qd[20];
+    const double minus_ww25_xy = w25_x*minus_w25_y;
+    const double minus_U25_xy = qdd[21] + minus_ww25_xy;
+    /* link 35: force on the link, f35 = M35 vd35 + U35 MS35 */
+    const double minus_f35_x = minus_U25_xx*beta[74] + minus_U25_xz*beta[75] -
+        minus_U25_xy*beta[76];
+    /* link 25: force on the link and all that it carries, fc25 = f25 + sum of R fc of what hangs on
+        it */
+    const double minus_fc25_x = minus_U25_xx*beta[72] + minus_U25_xy*beta[73] + minus_f35_x;
+    const double minus_U25_yy = w25_x*w25_x + ww25_zz;
+    const double U25_yx = qdd[21] - minus_ww25_xy;
+    const double minus_U25_yz = c21*qdd[20];
+    const double minus_f35_z = U25_yx*beta[74] - minus_U25_yz*beta[75] + minus_U25_yy*beta[76];
+    const double fc25_y = U25_yx*beta[72] - minus_U25_yy*beta[73] + minus_f35_z;
+    const double ww15_zz = qd[20]*qd[20];
+    const double ww25_xz = qd[21]*w25_x;
+    /* link 25: angular acceleration, wd25 = R25' wd15 + (R25' w15) x qd25 z + qdd25 z */
+    const double minus_wd25_y = minus_U25_xz + ww25_xz;
+    const double U25_zx = ww25_xz + minus_wd25_y;
+    const double minus_ww25_yz = qd[21]*minus_w25_y;
+    const double wd25_x = minus_U25_yz - minus_ww25_yz;
+    const double minus_U25_zy = minus_ww25_yz - wd25_x;
+    const double minus_f35_y = ww15_zz*beta[75] - U25_zx*beta[74] - minus_U25_zy*beta[76];
+    /* link 15: force on the link and all that it carries, fc15 = f15 + sum of R fc of what hangs on
+        it */
+    const double fc15_y = minus_U25_zy*beta[73] - U25_zx*beta[72] + minus_f35_y + (qdd[20]*beta[65]
+        - ww15_zz*beta[66]);
+    /* link B5: force on the link and all that it carries, fc_B5 = f_B5 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B5_x = s20*(s21*minus_fc25_x - c21*fc25_y - (ww15_zz*beta[65] +
+        qdd[20]*beta[66])) + c20*fc15_y;
+    const double minus_fc15_z = c21*minus_fc25_x + s21*fc25_y;
+    /* link 24: angular velocity, w24 = R24' w14 + qd24 z */
+    const double minus_w24_y = s18*qd[17];
+    const double ww24_zz = qd[18]*qd[18];
+    /* link 24: acceleration of points of the link, U24 = [wd24 x] + [w24 x][w24 x] */
+    const double minus_U24_xx = minus_w24_y*minus_w24_y + ww24_zz;
+    const double minus_U24_xz = s18*qdd[17];
+    const double w24_x = c18*qd[17];
+    const double minus_ww24_xy = w24_x*minus_w24_y;
+    const double minus_U24_xy = qdd[18] + minus_ww24_xy;
+    /* link 34: force on the link, f34 = M34 vd34 + U34 MS34 */
+    const double minus_f34_x = minus_U24_xx*beta[61] + minus_U24_xz*beta[62] -
+        minus_U24_xy*beta[63];
+    /* link 24: force on the link and all that it carries, fc24 = f24 + sum of R fc of what hangs on
+        it */
+    const double minus_fc24_x = minus_U24_xx*beta[59] + minus_U24_xy*beta[60] + minus_f34_x;
+    const double minus_U24_yy = w24_x*w24_x + ww24_zz;
+    const double U24_yx = qdd[18] - minus_ww24_xy;
+    const double minus_U24_yz = c18*qdd[17];
+    const double minus_f34_z = U24_yx*beta[61] - minus_U24_yz*beta[62] + minus_U24_yy*beta[63];
+    const double fc24_y = U24_yx*beta[59] - minus_U24_yy*beta[60] + minus_f34_z;
+    const double ww14_zz = qd[17]*qd[17];
+    const double ww24_xz = qd[18]*w24_x;
+    /* link 24: angular acceleration, wd24 = R24' wd14 + (R24' w14) x qd24 z + qdd24 z */
+    const double minus_wd24_y = minus_U24_xz + ww24_xz;
+    const double U24_zx = ww24_xz + minus_wd24_y;
+    const double minus_ww24_yz = qd[18]*minus_w24_y;
+    const double wd24_x = minus_U24_yz - minus_ww24_yz;
+    const double minus_U24_zy = minus_ww24_yz - wd24_x;
+    const double minus_f34_y = ww14_zz*beta[62] - U24_zx*beta[61] - minus_U24_zy*beta[63];
+    /* link 14: force on the link and all that it carries, fc14 = f14 + sum of R fc of what hangs on
+        it */
+    const double fc14_y = minus_U24_zy*beta[60] - U24_zx*beta[59] + minus_f34_y + (qdd[17]*beta[52]
+        - ww14_zz*beta[53]);
+    /* link B4: force on the link and all that it carries, fc_B4 = f_B4 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B4_x = s17*(s18*minus_fc24_x - c18*fc24_y - (ww14_zz*beta[52] +
+        qdd[17]*beta[53])) + c17*fc14_y;
+    const double minus_fc14_z = c18*minus_fc24_x + s18*fc24_y;
+    /* link 23: angular velocity, w23 = R23' w13 + qd23 z */
+    const double minus_w23_y = s15*qd[14];
+    const double ww23_zz = qd[15]*qd[15];
+    /* link 23: acceleration of points of the link, U23 = [wd23 x] + [w23 x][w23 x] */
+    const double minus_U23_xx = minus_w23_y*minus_w23_y + ww23_zz;
+    const double minus_U23_xz = s15*qdd[14];
+    const double w23_x = c15*qd[14];
+    const double minus_ww23_xy = w23_x*minus_w23_y;
+    const double minus_U23_xy = qdd[15] + minus_ww23_xy;
+    /* link 33: force on the link, f33 = M33 vd33 + U33 MS33 */
+    const double minus_f33_x = minus_U23_xx*beta[48] + minus_U23_xz*beta[49] -
+        minus_U23_xy*beta[50];
+    /* link 23: force on the link and all that it carries, fc23 = f23 + sum of R fc of what hangs on
+        it */
+    const double minus_fc23_x = minus_U23_xx*beta[46] + minus_U23_xy*beta[47] + minus_f33_x;
+    const double minus_U23_yy = w23_x*w23_x + ww23_zz;
+    const double U23_yx = qdd[15] - minus_ww23_xy;
+    const double minus_U23_yz = c15*qdd[14];
+    const double minus_f33_z = U23_yx*beta[48] - minus_U23_yz*beta[49] + minus_U23_yy*beta[50];
+    const double fc23_y = U23_yx*beta[46] - minus_U23_yy*beta[47] + minus_f33_z;
+    const double ww13_zz = qd[14]*qd[14];
+    const double ww23_xz = qd[15]*w23_x;
+    /* link 23: angular acceleration, wd23 = R23' wd13 + (R23' w13) x qd23 z + qdd23 z */
+    const double minus_wd23_y = minus_U23_xz + ww23_xz;
+    const double U23_zx = ww23_xz + minus_wd23_y;
+    const double minus_ww23_yz = qd[15]*minus_w23_y;
+    const double wd23_x = minus_U23_yz - minus_ww23_yz;
+    const double minus_U23_zy = minus_ww23_yz - wd23_x;
+    const double minus_f33_y = ww13_zz*beta[49] - U23_zx*beta[48] - minus_U23_zy*beta[50];
+    /* link 13: force on the link and all that it carries, fc13 = f13 + sum of R fc of what hangs on
+        it */
+    const double fc13_y = minus_U23_zy*beta[47] - U23_zx*beta[46] + minus_f33_y + (qdd[14]*beta[39]
+        - ww13_zz*beta[40]);
+    /* link B3: force on the link and all that it carries, fc_B3 = f_B3 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B3_x = s14*(s15*minus_fc23_x - c15*fc23_y - (ww13_zz*beta[39] +
+        qdd[14]*beta[40])) + c14*fc13_y;
+    const double minus_fc13_z = c15*minus_fc23_x + s15*fc23_y;
+    const double t139 = x_B6_x*minus_fc_B6_x - x_B6_y*minus_fc16_z + (x_B5_x*minus_fc_B5_x -
+        x_B5_y*minus_fc15_z) + (x_B4_x*minus_fc_B4_x - x_B4_y*minus_fc14_z);
+    /* link 22: angular velocity, w22 = R22' w12 + qd22 z */
+    const double minus_w22_y = s12*qd[11];
+    const double ww22_zz = qd[12]*qd[12];
+    /* link 22: acceleration of points of the link, U22 = [wd22 x] + [w22 x][w22 x] */
+    const double minus_U22_xx = minus_w22_y*minus_w22_y + ww22_zz;
+    const double minus_U22_xz = s12*qdd[11];
+    const double w22_x = c12*qd[11];
+    const double minus_ww22_xy = w22_x*minus_w22_y;
+    const double minus_U22_xy = qdd[12] + minus_ww22_xy;
+    /* link 32: force on the link, f32 = M32 vd32 + U32 MS32 */
+    const double minus_f32_x = minus_U22_xx*beta[35] + minus_U22_xz*beta[36] -
+        minus_U22_xy*beta[37];
+    /* link 22: force on the link and all that it carries, fc22 = f22 + sum of R fc of what hangs on
+        it */
+    const double minus_fc22_x = minus_U22_xx*beta[33] + minus_U22_xy*beta[34] + minus_f32_x;
+    const double minus_U22_yy = w22_x*w22_x + ww22_zz;
+    const double U22_yx = qdd[12] - minus_ww22_xy;
+    const double minus_U22_yz = c12*qdd[11];
+    const double minus_f32_z = U22_yx*beta[35] - minus_U22_yz*beta[36] + minus_U22_yy*beta[37];
+    const double fc22_y = U22_yx*beta[33] - minus_U22_yy*beta[34] + minus_f32_z;
+    const double ww12_zz = qd[11]*qd[11];
+    const double ww22_xz = qd[12]*w22_x;
+    /* link 22: angular acceleration, wd22 = R22' wd12 + (R22' w12) x qd22 z + qdd22 z */
+    const double minus_wd22_y = minus_U22_xz + ww22_xz;
+    const double U22_zx = ww22_xz + minus_wd22_y;
+    const double minus_ww22_yz = qd[12]*minus_w22_y;
+    const double wd22_x = minus_U22_yz - minus_ww22_yz;
+    const double minus_U22_zy = minus_ww22_yz - wd22_x;
+    const double minus_f32_y = ww12_zz*beta[36] - U22_zx*beta[35] - minus_U22_zy*beta[37];
+    /* link 12: force on the link and all that it carries, fc12 = f12 + sum of R fc of what hangs on
+        it */
+    const double fc12_y = minus_U22_zy*beta[34] - U22_zx*beta[33] + minus_f32_y + (qdd[11]*beta[26]
+        - ww12_zz*beta[27]);
+    /* link B2: force on the link and all that it carries, fc_B2 = f_B2 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B2_x = s11*(s12*minus_fc22_x - c12*fc22_y - (ww12_zz*beta[26] +
+        qdd[11]*beta[27])) + c11*fc12_y;
+    const double minus_fc12_z = c12*minus_fc22_x + s12*fc22_y;
+    /* link 21: angular velocity, w21 = R21' w11 + qd21 z */
+    const double minus_w21_y = s9*qd[8];
+    const double ww21_zz = qd[9]*qd[9];
+    /* link 21: acceleration of points of the link, U21 = [wd21 x] + [w21 x][w21 x] */
+    const double minus_U21_xx = minus_w21_y*minus_w21_y + ww21_zz;
+    const double minus_U21_xz = s9*qdd[8];
+    const double w21_x = c9*qd[8];
+    const double minus_ww21_xy = w21_x*minus_w21_y;
+    const double minus_U21_xy = qdd[9] + minus_ww21_xy;
+    /* link 31: force on the link, f31 = M31 vd31 + U31 MS31 */
+    const double minus_f31_x = minus_U21_xx*beta[22] + minus_U21_xz*beta[23] -
+        minus_U21_xy*beta[24];
+    /* link 21: force on the link and all that it carries, fc21 = f21 + sum of R fc of what hangs on
+        it */
+    const double minus_fc21_x = minus_U21_xx*beta[20] + minus_U21_xy*beta[21] + minus_f31_x;
+    const double minus_U21_yy = w21_x*w21_x + ww21_zz;
+    const double U21_yx = qdd[9] - minus_ww21_xy;
+    const double minus_U21_yz = c9*qdd[8];
+    const double minus_f31_z = U21_yx*beta[22] - minus_U21_yz*beta[23] + minus_U21_yy*beta[24];
+    const double fc21_y = U21_yx*beta[20] - minus_U21_yy*beta[21] + minus_f31_z;
+    const double ww11_zz = qd[8]*qd[8];
+    const double ww21_xz = qd[9]*w21_x;
+    /* link 21: angular acceleration, wd21 = R21' wd11 + (R21' w11) x qd21 z + qdd21 z */
+    const double minus_wd21_y = minus_U21_xz + ww21_xz;
+    const double U21_zx = ww21_xz + minus_wd21_y;
+    const double minus_ww21_yz = qd[9]*minus_w21_y;
+    const double wd21_x = minus_U21_yz - minus_ww21_yz;
+    const double minus_U21_zy = minus_ww21_yz - wd21_x;
+    const double minus_f31_y = ww11_zz*beta[23] - U21_zx*beta[22] - minus_U21_zy*beta[24];
+    /* link 11: force on the link and all that it carries, fc11 = f11 + sum of R fc of what hangs on
+        it */
+    const double fc11_y = minus_U21_zy*beta[21] - U21_zx*beta[20] + minus_f31_y + (qdd[8]*beta[13] -
+        ww11_zz*beta[14]);
+    /* link B1: force on the link and all that it carries, fc_B1 = f_B1 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B1_x = s8*(s9*minus_fc21_x - c9*fc21_y - (ww11_zz*beta[13] +
+        qdd[8]*beta[14])) + c8*fc11_y;
+    const double minus_fc11_z = c9*minus_fc21_x + s9*fc21_y;
+    /* link B: force on the link and all that it carries, fc_B = f_B + sum of R fc of what hangs on
+        it */
+    const double minus_fc_B_x = x_B3_x*minus_fc_B3_x - x_B3_y*minus_fc13_z + t139 +
+        (x_B2_x*minus_fc_B2_x - x_B2_y*minus_fc12_z) + (x_B1_x*minus_fc_B1_x - x_B1_y*minus_fc11_z);
+    tau[6] = qdd[6]*beta[10] - (minus_fc_B_x - qdd[6]*beta[11]);
+    const double t191 = x_B6_y*minus_fc_B6_x + x_B6_x*minus_fc16_z + (x_B5_y*minus_fc_B5_x +
+        x_B5_x*minus_fc15_z) + (x_B4_y*minus_fc_B4_x + x_B4_x*minus_fc14_z);
+    const double minus_fc_B_y = x_B3_y*minus_fc_B3_x + x_B3_x*minus_fc13_z + t191 +
+        (x_B2_y*minus_fc_B2_x + x_B2_x*minus_fc12_z) + (x_B1_y*minus_fc_B1_x + x_B1_x*minus_fc11_z);
+    tau[7] = qdd[7]*beta[11] - minus_fc_B_y;
+    /* link B1: acceleration of the origin less gravity, vd_B1 = R_B1' (vd_B + U_B p_B1) */
+    const double vd_B1_y = x_B1_x*qdd[7] - x_B1_y*qdd[6];
+    const double vd_B1_x = x_B1_x*qdd[6] + x_B1_y*qdd[7];
+    /* link 11: acceleration of the origin less gravity, vd11 = R11' (vd_B1 + U_B1 p11) */
+    const double minus_vd11_x = s8*vd_B1_x + evra_geo_g*c8;
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double minus_vd21_y = s9*vd_B1_y - c9*minus_vd11_x;
+    /* link 31: acceleration of the origin less gravity, vd31 = R31' (vd21 + U21 p31) + 2 w31 x qd31
+        z + qdd31 z */
+    const double vd31_z = minus_vd21_y - q[10]*minus_U21_yy + qdd[10];
+    const double vd11_y = evra_geo_g*s8 - c8*vd_B1_x;
+    const double minus_vd31_y = vd11_y - q[10]*minus_U21_zy + qd[10]*w21_x*2.0;
+    const double h21_z = w21_x*beta[17] - minus_w21_y*beta[18] + qd[9]*beta[19];
+    const double h21_y = w21_x*beta[16] + qd[9]*beta[18];
+    const double t202 = minus_w21_y*h21_z + qd[9]*h21_y - (wd21_x*beta[15] - minus_wd21_y*beta[16] +
+        qdd[9]*beta[17]);
+    const double vd21_x = s9*minus_vd11_x + c9*vd_B1_y;
+    const double vd31_x = vd21_x + q[10]*minus_U21_xy + qd[9]*qd[10]*2.0;
+    const double h21_x = w21_x*beta[15] - minus_w21_y*beta[16] + qd[9]*beta[17];
+    /* link 21: moment on the link at its origin, n21 = J21 wd21 + w21 x J21 w21 + MS21 x vd21 */
+    const double n21_y = qd[9]*h21_x - w21_x*h21_z + (wd21_x*beta[16] + qdd[9]*beta[18]) +
+        vd11_y*beta[20];
+    const double t207 = c9*(vd31_z*beta[23] + minus_vd31_y*beta[24] + q[10]*minus_f31_y - (t202 +
+        vd11_y*beta[21]));
+    /* link 21: moment on the link and all that it carries, nc21 = n21 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc21a_z = t207 - s9*(minus_vd31_y*beta[22] + vd31_x*beta[23] + n21_y);
+    tau[8] = vd11_y*beta[13] + minus_vd11_x*beta[14] + qdd[8]*beta[12] + nc21a_z;
+    const double t209 = w21_x*h21_y + minus_w21_y*h21_x + (wd21_x*beta[17] - minus_wd21_y*beta[18] +
+        qdd[9]*beta[19]);
+    /* link 31: moment on the link and all that it carries, nc31 = n31 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc31a_z = vd31_x*beta[24] - vd31_z*beta[22] - q[10]*minus_f31_x;
+    tau[9] = t209 - (minus_vd21_y*beta[20] + vd21_x*beta[21]) + nc31a_z;
+    tau[10] = -minus_f31_z;
+    /* link B2: acceleration of the origin less gravity, vd_B2 = R_B2' (vd_B + U_B p_B2) */
+    const double vd_B2_y = x_B2_x*qdd[7] - x_B2_y*qdd[6];
+    const double vd_B2_x = x_B2_x*qdd[6] + x_B2_y*qdd[7];
+    /* link 12: acceleration of the origin less gravity, vd12 = R12' (vd_B2 + U_B2 p12) */
+    const double minus_vd12_x = s11*vd_B2_x + evra_geo_g*c11;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double minus_vd22_y = s12*vd_B2_y - c12*minus_vd12_x;
+    /* link 32: acceleration of the origin less gravity, vd32 = R32' (vd22 + U22 p32) + 2 w32 x qd32
+        z + qdd32 z */
+    const double vd32_z = minus_vd22_y - q[13]*minus_U22_yy + qdd[13];
+    const double vd12_y = evra_geo_g*s11 - c11*vd_B2_x;
+    const double minus_vd32_y = vd12_y - q[13]*minus_U22_zy + qd[13]*w22_x*2.0;
+    const double h22_z = w22_x*beta[30] - minus_w22_y*beta[31] + qd[12]*beta[32];
+    const double h22_y = w22_x*beta[29] + qd[12]*beta[31];
+    const double t220 = wd22_x*beta[28] - minus_wd22_y*beta[29] + qdd[12]*beta[30];
+    /* link 22: moment on the link at its origin, n22 = J22 wd22 + w22 x J22 w22 + MS22 x vd22 */
+    const double minus_n22_x = minus_w22_y*h22_z + qd[12]*h22_y - t220 + vd12_y*beta[34];
+    const double vd22_x = s12*minus_vd12_x + c12*vd_B2_y;
+    const double vd32_x = vd22_x + q[13]*minus_U22_xy + qd[12]*qd[13]*2.0;
+    const double h22_x = w22_x*beta[28] - minus_w22_y*beta[29] + qd[12]*beta[30];
+    const double t225 = qd[12]*h22_x - w22_x*h22_z + (wd22_x*beta[29] + qdd[12]*beta[31]);
+    const double t226 = s12*(minus_vd32_y*beta[35] + vd32_x*beta[36] + (t225 + vd12_y*beta[33]));
+    /* link 22: moment on the link and all that it carries, nc22 = n22 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc22a_z = c12*(vd32_z*beta[36] + minus_vd32_y*beta[37] + q[13]*minus_f32_y -
+        minus_n22_x) - t226;
+    tau[11] = vd12_y*beta[26] + minus_vd12_x*beta[27] + qdd[11]*beta[25] + nc22a_z;
+    const double t228 = w22_x*h22_y + minus_w22_y*h22_x + (wd22_x*beta[30] - minus_wd22_y*beta[31] +
+        qdd[12]*beta[32]);
+    /* link 32: moment on the link and all that it carries, nc32 = n32 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc32a_z = vd32_x*beta[37] - vd32_z*beta[35] - q[13]*minus_f32_x;
+    tau[12] = t228 - (minus_vd22_y*beta[33] + vd22_x*beta[34]) + nc32a_z;
+    tau[13] = -minus_f32_z;
+    /* link B3: acceleration of the origin less gravity, vd_B3 = R_B3' (vd_B + U_B p_B3) */
+    const double vd_B3_y = x_B3_x*qdd[7] - x_B3_y*qdd[6];
+    const double vd_B3_x = x_B3_x*qdd[6] + x_B3_y*qdd[7];
+    /* link 13: acceleration of the origin less gravity, vd13 = R13' (vd_B3 + U_B3 p13) */
+    const double minus_vd13_x = s14*vd_B3_x + evra_geo_g*c14;
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double minus_vd23_y = s15*vd_B3_y - c15*minus_vd13_x;
+    /* link 33: acceleration of the origin less gravity, vd33 = R33' (vd23 + U23 p33) + 2 w33 x qd33
+        z + qdd33 z */
+    const double vd33_z = minus_vd23_y - q[16]*minus_U23_yy + qdd[16];
+    const double vd13_y = evra_geo_g*s14 - c14*vd_B3_x;
+    const double minus_vd33_y = vd13_y - q[16]*minus_U23_zy + qd[16]*w23_x*2.0;
+    const double h23_z = w23_x*beta[43] - minus_w23_y*beta[44] + qd[15]*beta[45];
+    const double h23_y = w23_x*beta[42] + qd[15]*beta[44];
+    const double t239 = wd23_x*beta[41] - minus_wd23_y*beta[42] + qdd[15]*beta[43];
+    /* link 23: moment on the link at its origin, n23 = J23 wd23 + w23 x J23 w23 + MS23 x vd23 */
+    const double minus_n23_x = minus_w23_y*h23_z + qd[15]*h23_y - t239 + vd13_y*beta[47];
+    const double vd23_x = s15*minus_vd13_x + c15*vd_B3_y;
+    const double vd33_x = vd23_x + q[16]*minus_U23_xy + qd[15]*qd[16]*2.0;
+    const double h23_x = w23_x*beta[41] - minus_w23_y*beta[42] + qd[15]*beta[43];
+    const double t244 = qd[15]*h23_x - w23_x*h23_z + (wd23_x*beta[42] + qdd[15]*beta[44]);
+    const double t245 = s15*(minus_vd33_y*beta[48] + vd33_x*beta[49] + (t244 + vd13_y*beta[46]));
+    /* link 23: moment on the link and all that it carries, nc23 = n23 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc23a_z = c15*(vd33_z*beta[49] + minus_vd33_y*beta[50] + q[16]*minus_f33_y -
+        minus_n23_x) - t245;
+    tau[14] = vd13_y*beta[39] + minus_vd13_x*beta[40] + qdd[14]*beta[38] + nc23a_z;
+    const double t247 = w23_x*h23_y + minus_w23_y*h23_x + (wd23_x*beta[43] - minus_wd23_y*beta[44] +
+        qdd[15]*beta[45]);
+    /* link 33: moment on the link and all that it carries, nc33 = n33 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc33a_z = vd33_x*beta[50] - vd33_z*beta[48] - q[16]*minus_f33_x;
+    tau[15] = t247 - (minus_vd23_y*beta[46] + vd23_x*beta[47]) + nc33a_z;
+    tau[16] = -minus_f33_z;
+    /* link B4: acceleration of the origin less gravity, vd_B4 = R_B4' (vd_B + U_B p_B4) */
+    const double vd_B4_y = x_B4_x*qdd[7] - x_B4_y*qdd[6];
+    const double vd_B4_x = x_B4_x*qdd[6] + x_B4_y*qdd[7];
+    /* link 14: acceleration of the origin less gravity, vd14 = R14' (vd_B4 + U_B4 p14) */
+    const double minus_vd14_x = s17*vd_B4_x + evra_geo_g*c17;
+    /* link 24: acceleration of the origin less gravity, vd24 = R24' (vd14 + U14 p24) */
+    const double minus_vd24_y = s18*vd_B4_y - c18*minus_vd14_x;
+    /* link 34: acceleration of the origin less gravity, vd34 = R34' (vd24 + U24 p34) + 2 w34 x qd34
+        z + qdd34 z */
+    const double vd34_z = minus_vd24_y - q[19]*minus_U24_yy + qdd[19];
+    const double vd14_y = evra_geo_g*s17 - c17*vd_B4_x;
+    const double minus_vd34_y = vd14_y - q[19]*minus_U24_zy + qd[19]*w24_x*2.0;
+    const double h24_z = w24_x*beta[56] - minus_w24_y*beta[57] + qd[18]*beta[58];
+    const double h24_y = w24_x*beta[55] + qd[18]*beta[57];
+    const double t258 = wd24_x*beta[54] - minus_wd24_y*beta[55] + qdd[18]*beta[56];
+    /* link 24: moment on the link at its origin, n24 = J24 wd24 + w24 x J24 w24 + MS24 x vd24 */
+    const double minus_n24_x = minus_w24_y*h24_z + qd[18]*h24_y - t258 + vd14_y*beta[60];
+    const double vd24_x = s18*minus_vd14_x + c18*vd_B4_y;
+    const double vd34_x = vd24_x + q[19]*minus_U24_xy + qd[18]*qd[19]*2.0;
+    const double h24_x = w24_x*beta[54] - minus_w24_y*beta[55] + qd[18]*beta[56];
+    const double t263 = qd[18]*h24_x - w24_x*h24_z + (wd24_x*beta[55] + qdd[18]*beta[57]);
+    const double t264 = s18*(minus_vd34_y*beta[61] + vd34_x*beta[62] + (t263 + vd14_y*beta[59]));
+    /* link 24: moment on the link and all that it carries, nc24 = n24 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc24a_z = c18*(vd34_z*beta[62] + minus_vd34_y*beta[63] + q[19]*minus_f34_y -
+        minus_n24_x) - t264;
+    tau[17] = vd14_y*beta[52] + minus_vd14_x*beta[53] + qdd[17]*beta[51] + nc24a_z;
+    const double t266 = w24_x*h24_y + minus_w24_y*h24_x + (wd24_x*beta[56] - minus_wd24_y*beta[57] +
+        qdd[18]*beta[58]);
+    /* link 34: moment on the link and all that it carries, nc34 = n34 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc34a_z = vd34_x*beta[63] - vd34_z*beta[61] - q[19]*minus_f34_x;
+    tau[18] = t266 - (minus_vd24_y*beta[59] + vd24_x*beta[60]) + nc34a_z;
+    tau[19] = -minus_f34_z;
+    /* link B5: acceleration of the origin less gravity, vd_B5 = R_B5' (vd_B + U_B p_B5) */
+    const double vd_B5_y = x_B5_x*qdd[7] - x_B5_y*qdd[6];
+    const double vd_B5_x = x_B5_x*qdd[6] + x_B5_y*qdd[7];
+    /* link 15: acceleration of the origin less gravity, vd15 = R15' (vd_B5 + U_B5 p15) */
+    const double minus_vd15_x = s20*vd_B5_x + evra_geo_g*c20;
+    /* link 25: acceleration of the origin less gravity, vd25 = R25' (vd15 + U15 p25) */
+    const double minus_vd25_y = s21*vd_B5_y - c21*minus_vd15_x;
+    /* link 35: acceleration of the origin less gravity, vd35 = R35' (vd25 + U25 p35) + 2 w35 x qd35
+        z + qdd35 z */
+    const double vd35_z = minus_vd25_y - q[22]*minus_U25_yy + qdd[22];
+    const double vd15_y = evra_geo_g*s20 - c20*vd_B5_x;
+    const double minus_vd35_y = vd15_y - q[22]*minus_U25_zy + qd[22]*w25_x*2.0;
+    const double h25_z = w25_x*beta[69] - minus_w25_y*beta[70] + qd[21]*beta[71];
+    const double h25_y = w25_x*beta[68] + qd[21]*beta[70];
+    const double t277 = minus_w25_y*h25_z + qd[21]*h25_y - (wd25_x*beta[67] - minus_wd25_y*beta[68]
+        + qdd[21]*beta[69]);
+    const double vd25_x = s21*minus_vd15_x + c21*vd_B5_y;
+    const double vd35_x = vd25_x + q[22]*minus_U25_xy + qd[21]*qd[22]*2.0;
+    const double h25_x = w25_x*beta[67] - minus_w25_y*beta[68] + qd[21]*beta[69];
+    /* link 25: moment on the link at its origin, n25 = J25 wd25 + w25 x J25 w25 + MS25 x vd25 */
+    const double n25_y = qd[21]*h25_x - w25_x*h25_z + (wd25_x*beta[68] + qdd[21]*beta[70]) +
+        vd15_y*beta[72];
+    const double t282 = c21*(vd35_z*beta[75] + minus_vd35_y*beta[76] + q[22]*minus_f35_y - (t277 +
+        vd15_y*beta[73]));
+    /* link 25: moment on the link and all that it carries, nc25 = n25 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc25a_z = t282 - s21*(minus_vd35_y*beta[74] + vd35_x*beta[75] + n25_y);
+    tau[20] = vd15_y*beta[65] + minus_vd15_x*beta[66] + qdd[20]*beta[64] + nc25a_z;
+    const double t284 = w25_x*h25_y + minus_w25_y*h25_x + (wd25_x*beta[69] - minus_wd25_y*beta[70] +
+        qdd[21]*beta[71]);
+    /* link 35: moment on the link and all that it carries, nc35 = n35 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc35a_z = vd35_x*beta[76] - vd35_z*beta[74] - q[22]*minus_f35_x;
+    tau[21] = t284 - (minus_vd25_y*beta[72] + vd25_x*beta[73]) + nc35a_z;
+    tau[22] = -minus_f35_z;
+    /* link B6: acceleration of the origin less gravity, vd_B6 = R_B6' (vd_B + U_B p_B6) */
+    const double vd_B6_y = x_B6_x*qdd[7] - x_B6_y*qdd[6];
+    const double vd_B6_x = x_B6_x*qdd[6] + x_B6_y*qdd[7];
+    /* link 16: acceleration of the origin less gravity, vd16 = R16' (vd_B6 + U_B6 p16) */
+    const double minus_vd16_x = s23*vd_B6_x + evra_geo_g*c23;
+    /* link 26: acceleration of the origin less gravity, vd26 = R26' (vd16 + U16 p26) */
+    const double minus_vd26_y = s24*vd_B6_y - c24*minus_vd16_x;
+    /* link 36: acceleration of the origin less gravity, vd36 = R36' (vd26 + U26 p36) + 2 w36 x qd36
+        z + qdd36 z */
+    const double vd36_z = minus_vd26_y - q[25]*minus_U26_yy + qdd[25];
+    const double vd16_y = evra_geo_g*s23 - c23*vd_B6_x;
+    const double minus_vd36_y = vd16_y - q[25]*minus_U26_zy + qd[25]*w26_x*2.0;
+    const double h26_z = w26_x*beta[82] - minus_w26_y*beta[83] + qd[24]*beta[84];
+    const double h26_y = w26_x*beta[81] + qd[24]*beta[83];
+    const double t295 = minus_w26_y*h26_z + qd[24]*h26_y - (wd26_x*beta[80] - minus_wd26_y*beta[81]
+        + qdd[24]*beta[82]);
+    const double vd26_x = s24*minus_vd16_x + c24*vd_B6_y;
+    const double vd36_x = vd26_x + q[25]*minus_U26_xy + qd[24]*qd[25]*2.0;
+    const double h26_x = w26_x*beta[80] - minus_w26_y*beta[81] + qd[24]*beta[82];
+    /* link 26: moment on the link at its origin, n26 = J26 wd26 + w26 x J26 w26 + MS26 x vd26 */
+    const double n26_y = qd[24]*h26_x - w26_x*h26_z + (wd26_x*beta[81] + qdd[24]*beta[83]) +
+        vd16_y*beta[85];
+    const double t300 = c24*(vd36_z*beta[88] + minus_vd36_y*beta[89] + q[25]*minus_f36_y - (t295 +
+        vd16_y*beta[86]));
+    /* link 26: moment on the link and all that it carries, nc26 = n26 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc26a_z = t300 - s24*(minus_vd36_y*beta[87] + vd36_x*beta[88] + n26_y);
+    tau[23] = vd16_y*beta[78] + minus_vd16_x*beta[79] + qdd[23]*beta[77] + nc26a_z;
+    const double t302 = w26_x*h26_y + minus_w26_y*h26_x + (wd26_x*beta[82] - minus_wd26_y*beta[83] +
+        qdd[24]*beta[84]);
+    /* link 36: moment on the link and all that it carries, nc36 = n36 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc36a_z = vd36_x*beta[89] - vd36_z*beta[87] - q[25]*minus_f36_x;
+    tau[24] = t302 - (minus_vd26_y*beta[85] + vd26_x*beta[86]) + nc36a_z;
+    tau[25] = -minus_f36_z;
 }
 
 /* Inertia matrix, rotor inertias included; symmetric.
@@ -461,18 +670,18 @@ void evra_tree_inertia_matrix(const double *q, const double *beta, double *MODEL
 {
     MODELER_ALL_ZEROS(M, 676);
 
-    const double k1 = cos(evra_geo_beta1);
-    const double k2 = sin(evra_geo_beta1);
-    const double k3 = cos(evra_geo_beta2);
-    const double k4 = sin(evra_geo_beta2);
-    const double k5 = cos(evra_geo_beta3);
-    const double k6 = sin(evra_geo_beta3);
-    const double k7 = cos(evra_geo_beta4);
-    const double k8 = sin(evra_geo_beta4);
-    const double k9 = cos(evra_geo_beta5);
-    const double k10 = sin(evra_geo_beta5);
-    const double k11 = cos(evra_geo_beta6);
-    const double k12 = sin(evra_geo_beta6);
+    const double x_B1_x = cos(evra_geo_beta1);
+    const double x_B1_y = sin(evra_geo_beta1);
+    const double x_B2_x = cos(evra_geo_beta2);
+    const double x_B2_y = sin(evra_geo_beta2);
+    const double x_B3_x = cos(evra_geo_beta3);
+    const double x_B3_y = sin(evra_geo_beta3);
+    const double x_B4_x = cos(evra_geo_beta4);
+    const double x_B4_y = sin(evra_geo_beta4);
+    const double x_B5_x = cos(evra_geo_beta5);
+    const double x_B5_y = sin(evra_geo_beta5);
+    const double x_B6_x = cos(evra_geo_beta6);
+    const double x_B6_y = sin(evra_geo_beta6);
 
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
@@ -506,42 +715,50 @@ void evra_tree_inertia_matrix(const double *q, const double *beta, double *MODEL
     modeler_sincos(q[24], &s24, &c24);
 
     M[0] = beta[9];
-    const double t1 = s5*beta[7] - c5*beta[6];
-    const double t2 = s4*t1 + c4*beta[8];
+    /* link Pb: first moments of the link and all that it carries, MSc_Pb = MS_Pb + sum of R MSc +
+        Mc p of what hangs on it */
+    const double minus_MSc_Pb_y = s5*beta[7] - c5*beta[6];
+    /* link Pa: first moments of the link and all that it carries, MSc_Pa = MS_Pa + sum of R MSc +
+        Mc p of what hangs on it */
+    const double MSc_Pa_y = s4*minus_MSc_Pb_y + c4*beta[8];
     MODELER_ZEROS(M + 1, 3);
-    M[4] = t2;
-    const double t3 = c5*beta[7] + s5*beta[6];
+    M[4] = MSc_Pa_y;
+    const double MSc_Pb_z = c5*beta[7] + s5*beta[6];
     MODELER_ZEROS(M + 6, 8);
-    const double t4 = c4*t3;
-    M[5] = -t4;
+    const double minus_lin_Pba_Pz = c4*MSc_Pb_z;
+    M[5] = -minus_lin_Pba_Pz;
     M[27] = beta[9];
     MODELER_ZEROS(M + 14, 8);
-    const double t5 = c3*t2 + s3*t3;
-    M[29] = -t5;
+    /* link Pz: first moments of the link and all that it carries, MSc_Pz = MS_Pz + sum of R MSc +
+        Mc p of what hangs on it */
+    const double MSc_Pz_z = c3*MSc_Pa_y + s3*MSc_Pb_z;
+    M[29] = -MSc_Pz_z;
     MODELER_ZEROS(M + 22, 5);
-    const double t6 = c4*t1 - s4*beta[8];
-    const double t7 = s3*t6;
+    const double minus_MSc_Pa_z = c4*minus_MSc_Pb_y - s4*beta[8];
+    const double minus_lin_Paa_Pby = s3*minus_MSc_Pa_z;
     MODELER_ZEROS(M + 28, 1);
-    M[30] = -t7;
-    const double t8 = s4*t3;
-    const double t9 = c3*t1 + s3*t8;
+    M[30] = -minus_lin_Paa_Pby;
+    const double lin_Pba_Py = s4*MSc_Pb_z;
+    const double minus_lin_Paa_Py = c3*minus_MSc_Pb_y + s3*lin_Pba_Py;
     MODELER_ZEROS(M + 32, 8);
-    M[31] = -t9;
+    M[31] = -minus_lin_Paa_Py;
     M[54] = beta[9];
     MODELER_ZEROS(M + 40, 8);
-    const double t10 = s3*t2 - c3*t3;
-    M[55] = -t10;
-    const double t11 = c3*t6;
+    const double minus_MSc_Pz_y = s3*MSc_Pa_y - c3*MSc_Pb_z;
+    M[55] = -minus_MSc_Pz_y;
+    const double lin_Paa_Pbz = c3*minus_MSc_Pa_z;
     MODELER_ZEROS(M + 48, 6);
-    M[56] = t11;
-    const double t12 = s3*t1 - c3*t8;
+    M[56] = lin_Paa_Pbz;
+    const double minus_lin_Paa_Pz = s3*minus_MSc_Pb_y - c3*lin_Pba_Py;
     MODELER_ZEROS(M + 58, 8);
-    M[57] = -t12;
-    M[79] = -t5;
+    M[57] = -minus_lin_Paa_Pz;
+    M[79] = -MSc_Pz_z;
     MODELER_ZEROS(M + 66, 8);
-    M[80] = -t10;
-    const double t13 = c5*beta[2] - s5*beta[4];
-    const double t14 = s4*beta[5] + c4*t13;
+    M[80] = -minus_MSc_Pz_y;
+    /* link Pb: inertia of the link and all that it carries, Jc_Pb = J_Pb + sum of R Jc R' + Js of
+        what hangs on it */
+    const double Jc_Pb_xy = c5*beta[2] - s5*beta[4];
+    const double ang_Pba_Pz = s4*beta[5] + c4*Jc_Pb_xy;
     MODELER_ZEROS(M + 74, 5);
     const double t15 = s5*beta[1];
     const double t16 = c5*beta[0] - t15;
@@ -549,278 +766,316 @@ void evra_tree_inertia_matrix(const double *q, const double *beta, double *MODEL
     const double t17 = c5*beta[1];
     const double t18 = t17 - s5*beta[3];
     MODELER_ZEROS(M + 92, 8);
-    M[81] = s4*t14 + c4*(s4*t13 + c4*(c5*t16 - s5*t18));
-    const double t19 = s5*beta[2] + c5*beta[4];
-    const double t20 = s4*t19 + c4*(s5*t16 + c5*t18);
+    M[81] = s4*ang_Pba_Pz + c4*(s4*Jc_Pb_xy + c4*(c5*t16 - s5*t18));
+    const double Jc_Pb_xz = s5*beta[2] + c5*beta[4];
+    /* link Pa: inertia of the link and all that it carries, Jc_Pa = J_Pa + sum of R Jc R' + Js of
+        what hangs on it */
+    const double Jc_Pa_xz = s4*Jc_Pb_xz + c4*(s5*t16 + c5*t18);
     MODELER_ZEROS(M + 100, 4);
-    M[82] = t20;
-    M[83] = t14;
+    M[82] = Jc_Pa_xz;
+    M[83] = ang_Pba_Pz;
     MODELER_ZEROS(M + 110, 8);
-    M[104] = t2;
-    M[105] = -t7;
-    M[106] = t11;
+    M[104] = MSc_Pa_y;
+    M[105] = -minus_lin_Paa_Pby;
+    M[106] = lin_Paa_Pbz;
     MODELER_ZEROS(M + 118, 8);
-    M[107] = t20;
+    M[107] = Jc_Pa_xz;
     M[108] = s5*(s5*beta[0] + t17) + c5*(t15 + c5*beta[3]);
     MODELER_ZEROS(M + 126, 4);
-    M[109] = t19;
-    M[130] = -t4;
+    M[109] = Jc_Pb_xz;
+    M[130] = -minus_lin_Pba_Pz;
     MODELER_ZEROS(M + 136, 8);
-    M[131] = -t9;
-    M[132] = -t12;
-    M[133] = t14;
+    M[131] = -minus_lin_Paa_Py;
+    M[132] = -minus_lin_Paa_Pz;
+    M[133] = ang_Pba_Pz;
     MODELER_ZEROS(M + 144, 8);
-    M[134] = t19;
+    M[134] = Jc_Pb_xz;
     M[135] = beta[5];
     MODELER_ZEROS(M + 152, 8);
     M[162] = beta[10] + beta[11];
-    const double t21 = beta[21] - beta[24];
-    const double t22 = beta[20] + beta[22];
+    /* link 21: first moments of the link and all that it carries, MSc21 = MS21 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc21_y = beta[21] - beta[24];
+    const double MSc21_x = beta[20] + beta[22];
     MODELER_ZEROS(M + 160, 2);
-    const double t23 = c9*t21 + s9*t22;
-    const double t24 = s8*(beta[14] - beta[23]) - c8*(beta[13] - t23);
+    const double minus_lin21a_21z = c9*MSc21_y + s9*MSc21_x;
+    /* link B1: first moments of the link and all that it carries, MSc_B1 = MS_B1 + sum of R MSc +
+        Mc p of what hangs on it */
+    const double MSc_B1_z = s8*(beta[14] - beta[23]) - c8*(beta[13] - minus_lin21a_21z);
     MODELER_ZEROS(M + 163, 1);
-    const double t25 = k1*t24;
-    M[164] = t25;
+    const double lin_B1a_11x = x_B1_x*MSc_B1_z;
+    M[164] = lin_B1a_11x;
     MODELER_ZEROS(M + 166, 1);
-    const double t26 = s8*(s9*t21 - c9*t22);
-    const double t27 = k1*t26 - k2*t23;
-    M[165] = -t27;
+    const double minus_lin11a_21x = s8*(s9*MSc21_y - c9*MSc21_x);
+    const double minus_lin_B1a_21x = x_B1_x*minus_lin11a_21x - x_B1_y*minus_lin21a_21z;
+    M[165] = -minus_lin_B1a_21x;
     MODELER_ZEROS(M + 169, 1);
-    const double t28 = beta[34] - beta[37];
-    const double t29 = beta[33] + beta[35];
+    /* link 22: first moments of the link and all that it carries, MSc22 = MS22 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc22_y = beta[34] - beta[37];
+    const double MSc22_x = beta[33] + beta[35];
     MODELER_ZEROS(M + 172, 1);
-    const double t30 = c12*t28 + s12*t29;
-    const double t31 = s11*(beta[27] - beta[36]) - c11*(beta[26] - t30);
+    const double minus_lin22a_22z = c12*MSc22_y + s12*MSc22_x;
+    /* link B2: first moments of the link and all that it carries, MSc_B2 = MS_B2 + sum of R MSc +
+        Mc p of what hangs on it */
+    const double MSc_B2_z = s11*(beta[27] - beta[36]) - c11*(beta[26] - minus_lin22a_22z);
     MODELER_ZEROS(M + 175, 1);
-    const double t32 = k3*t31;
-    M[167] = t32;
-    const double t33 = s11*(s12*t28 - c12*t29);
+    const double lin_B2a_12x = x_B2_x*MSc_B2_z;
+    M[167] = lin_B2a_12x;
+    const double minus_lin12a_22x = s11*(s12*MSc22_y - c12*MSc22_x);
     MODELER_ZEROS(M + 178, 1);
-    const double t34 = k3*t33 - k4*t30;
-    M[168] = -t34;
+    const double minus_lin_B2a_22x = x_B2_x*minus_lin12a_22x - x_B2_y*minus_lin22a_22z;
+    M[168] = -minus_lin_B2a_22x;
     MODELER_ZEROS(M + 181, 8);
-    const double t35 = beta[47] - beta[50];
-    const double t36 = beta[46] + beta[48];
-    const double t37 = c15*t35 + s15*t36;
+    /* link 23: first moments of the link and all that it carries, MSc23 = MS23 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc23_y = beta[47] - beta[50];
+    const double MSc23_x = beta[46] + beta[48];
+    const double minus_lin23a_23z = c15*MSc23_y + s15*MSc23_x;
     MODELER_ZEROS(M + 192, 1);
-    const double t38 = s14*(beta[40] - beta[49]) - c14*(beta[39] - t37);
-    const double t39 = k5*t38;
+    /* link B3: first moments of the link and all that it carries, MSc_B3 = MS_B3 + sum of R MSc +
+        Mc p of what hangs on it */
+    const double MSc_B3_z = s14*(beta[40] - beta[49]) - c14*(beta[39] - minus_lin23a_23z);
+    const double lin_B3a_13x = x_B3_x*MSc_B3_z;
     MODELER_ZEROS(M + 195, 1);
-    M[170] = t39;
-    const double t40 = s14*(s15*t35 - c15*t36);
+    M[170] = lin_B3a_13x;
+    const double minus_lin13a_23x = s14*(s15*MSc23_y - c15*MSc23_x);
     MODELER_ZEROS(M + 198, 1);
-    const double t41 = k5*t40 - k6*t37;
-    M[171] = -t41;
-    const double t42 = beta[60] - beta[63];
+    const double minus_lin_B3a_23x = x_B3_x*minus_lin13a_23x - x_B3_y*minus_lin23a_23z;
+    M[171] = -minus_lin_B3a_23x;
+    /* link 24: first moments of the link and all that it carries, MSc24 = MS24 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc24_y = beta[60] - beta[63];
     MODELER_ZEROS(M + 201, 1);
-    const double t43 = beta[59] + beta[61];
-    const double t44 = c18*t42 + s18*t43;
+    const double MSc24_x = beta[59] + beta[61];
+    const double minus_lin24a_24z = c18*MSc24_y + s18*MSc24_x;
     MODELER_ZEROS(M + 204, 1);
-    const double t45 = s17*(beta[53] - beta[62]) - c17*(beta[52] - t44);
-    const double t46 = k7*t45;
-    M[173] = t46;
+    /* link B4: first moments of the link and all that it carries, MSc_B4 = MS_B4 + sum of R MSc +
+        Mc p of what hangs on it */
+    const double MSc_B4_z = s17*(beta[53] - beta[62]) - c17*(beta[52] - minus_lin24a_24z);
+    const double lin_B4a_14x = x_B4_x*MSc_B4_z;
+    M[173] = lin_B4a_14x;
     MODELER_ZEROS(M + 207, 7);
-    const double t47 = s17*(s18*t42 - c18*t43);
-    const double t48 = k7*t47 - k8*t44;
+    const double minus_lin14a_24x = s17*(s18*MSc24_y - c18*MSc24_x);
+    const double minus_lin_B4a_24x = x_B4_x*minus_lin14a_24x - x_B4_y*minus_lin24a_24z;
     MODELER_ZEROS(M + 219, 8);
-    M[174] = -t48;
-    const double t49 = beta[73] - beta[76];
+    M[174] = -minus_lin_B4a_24x;
+    /* link 25: first moments of the link and all that it carries, MSc25 = MS25 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc25_y = beta[73] - beta[76];
     MODELER_ZEROS(M + 227, 8);
-    const double t50 = beta[72] + beta[74];
-    const double t51 = c21*t49 + s21*t50;
-    const double t52 = s20*(beta[66] - beta[75]) - c20*(beta[65] - t51);
+    const double MSc25_x = beta[72] + beta[74];
+    const double minus_lin25a_25z = c21*MSc25_y + s21*MSc25_x;
+    /* link B5: first moments of the link and all that it carries, MSc_B5 = MS_B5 + sum of R MSc +
+        Mc p of what hangs on it */
+    const double MSc_B5_z = s20*(beta[66] - beta[75]) - c20*(beta[65] - minus_lin25a_25z);
     MODELER_ZEROS(M + 235, 5);
-    const double t53 = k9*t52;
-    M[176] = t53;
+    const double lin_B5a_15x = x_B5_x*MSc_B5_z;
+    M[176] = lin_B5a_15x;
     MODELER_ZEROS(M + 245, 8);
-    const double t54 = s20*(s21*t49 - c21*t50);
-    const double t55 = k9*t54 - k10*t51;
+    const double minus_lin15a_25x = s20*(s21*MSc25_y - c21*MSc25_x);
+    const double minus_lin_B5a_25x = x_B5_x*minus_lin15a_25x - x_B5_y*minus_lin25a_25z;
     MODELER_ZEROS(M + 253, 8);
-    M[177] = -t55;
-    const double t56 = beta[86] - beta[89];
-    const double t57 = beta[85] + beta[87];
+    M[177] = -minus_lin_B5a_25x;
+    /* link 26: first moments of the link and all that it carries, MSc26 = MS26 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc26_y = beta[86] - beta[89];
+    const double MSc26_x = beta[85] + beta[87];
     MODELER_ZEROS(M + 261, 7);
-    const double t58 = c24*t56 + s24*t57;
-    const double t59 = s23*(beta[79] - beta[88]) - c23*(beta[78] - t58);
+    const double minus_lin26a_26z = c24*MSc26_y + s24*MSc26_x;
+    /* link B6: first moments of the link and all that it carries, MSc_B6 = MS_B6 + sum of R MSc +
+        Mc p of what hangs on it */
+    const double MSc_B6_z = s23*(beta[79] - beta[88]) - c23*(beta[78] - minus_lin26a_26z);
     MODELER_ZEROS(M + 270, 8);
-    const double t60 = k11*t59;
-    M[179] = t60;
-    const double t61 = s23*(s24*t56 - c24*t57);
+    const double lin_B6a_16x = x_B6_x*MSc_B6_z;
+    M[179] = lin_B6a_16x;
+    const double minus_lin16a_26x = s23*(s24*MSc26_y - c24*MSc26_x);
     MODELER_ZEROS(M + 278, 8);
-    const double t62 = k11*t61 - k12*t58;
-    M[180] = -t62;
+    const double minus_lin_B6a_26x = x_B6_x*minus_lin16a_26x - x_B6_y*minus_lin26a_26z;
+    M[180] = -minus_lin_B6a_26x;
     MODELER_ZEROS(M + 286, 6);
     M[189] = beta[11];
-    const double t63 = k2*t24;
+    const double lin_B1a_11y = x_B1_y*MSc_B1_z;
     MODELER_ZEROS(M + 294, 3);
-    M[190] = t63;
-    const double t64 = k2*t26 + k1*t23;
-    M[191] = -t64;
+    M[190] = lin_B1a_11y;
+    const double minus_lin_B1a_21y = x_B1_y*minus_lin11a_21x + x_B1_x*minus_lin21a_21z;
+    M[191] = -minus_lin_B1a_21y;
     MODELER_ZEROS(M + 300, 8);
-    const double t65 = k4*t31;
-    M[193] = t65;
+    const double lin_B2a_12y = x_B2_y*MSc_B2_z;
+    M[193] = lin_B2a_12y;
     MODELER_ZEROS(M + 308, 8);
-    const double t66 = k4*t33 + k3*t30;
-    M[194] = -t66;
+    const double minus_lin_B2a_22y = x_B2_y*minus_lin12a_22x + x_B2_x*minus_lin22a_22z;
+    M[194] = -minus_lin_B2a_22y;
     MODELER_ZEROS(M + 316, 2);
-    const double t67 = k6*t38;
-    M[196] = t67;
-    const double t68 = k6*t40 + k5*t37;
+    const double lin_B3a_13y = x_B3_y*MSc_B3_z;
+    M[196] = lin_B3a_13y;
+    const double minus_lin_B3a_23y = x_B3_y*minus_lin13a_23x + x_B3_x*minus_lin23a_23z;
     MODELER_ZEROS(M + 320, 3);
-    M[197] = -t68;
-    const double t69 = k8*t45;
+    M[197] = -minus_lin_B3a_23y;
+    const double lin_B4a_14y = x_B4_y*MSc_B4_z;
     MODELER_ZEROS(M + 326, 8);
-    M[199] = t69;
-    const double t70 = k8*t47 + k7*t44;
-    M[200] = -t70;
+    M[199] = lin_B4a_14y;
+    const double minus_lin_B4a_24y = x_B4_y*minus_lin14a_24x + x_B4_x*minus_lin24a_24z;
+    M[200] = -minus_lin_B4a_24y;
     MODELER_ZEROS(M + 334, 8);
-    const double t71 = k10*t52;
-    M[202] = t71;
+    const double lin_B5a_15y = x_B5_y*MSc_B5_z;
+    M[202] = lin_B5a_15y;
     MODELER_ZEROS(M + 342, 7);
-    const double t72 = k10*t54 + k9*t51;
-    M[203] = -t72;
+    const double minus_lin_B5a_25y = x_B5_y*minus_lin15a_25x + x_B5_x*minus_lin25a_25z;
+    M[203] = -minus_lin_B5a_25y;
     MODELER_ZEROS(M + 351, 8);
-    const double t73 = k12*t59;
-    M[205] = t73;
-    const double t74 = k12*t61 + k11*t58;
+    const double lin_B6a_16y = x_B6_y*MSc_B6_z;
+    M[205] = lin_B6a_16y;
+    const double minus_lin_B6a_26y = x_B6_y*minus_lin16a_26x + x_B6_x*minus_lin26a_26z;
     MODELER_ZEROS(M + 359, 8);
-    M[206] = -t74;
-    M[214] = t25;
+    M[206] = -minus_lin_B6a_26y;
+    M[214] = lin_B1a_11x;
     MODELER_ZEROS(M + 367, 3);
-    M[215] = t63;
+    M[215] = lin_B1a_11y;
     const double t75 = s9*(beta[16] + q[10]*beta[22]);
-    const double t76 = q[10]*beta[24]*2.0;
+    const double Js31_xx = q[10]*beta[24]*2.0;
     MODELER_ZEROS(M + 372, 6);
-    M[216] = c9*(c9*(beta[15] + t76) - t75) - c9*t75 + beta[12];
-    const double t77 = c9*beta[17] - s9*(beta[18] + q[10]*beta[23]);
+    M[216] = c9*(c9*(beta[15] + Js31_xx) - t75) - c9*t75 + beta[12];
+    /* link 11: inertia of the link and all that it carries, Jc11 = J11 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc11_yz = c9*beta[17] - s9*(beta[18] + q[10]*beta[23]);
     MODELER_ZEROS(M + 381, 8);
-    M[217] = t77;
-    const double t78 = c9*beta[23];
+    M[217] = minus_Jc11_yz;
+    const double ang21a_31z = c9*beta[23];
     MODELER_ZEROS(M + 389, 7);
-    M[218] = t78;
-    M[240] = -t27;
-    M[241] = -t64;
+    M[218] = ang21a_31z;
+    M[240] = -minus_lin_B1a_21x;
+    M[241] = -minus_lin_B1a_21y;
     MODELER_ZEROS(M + 398, 6);
-    M[242] = t77;
-    M[243] = beta[19] + t76;
+    M[242] = minus_Jc11_yz;
+    M[243] = beta[19] + Js31_xx;
     MODELER_ZEROS(M + 407, 8);
     M[244] = -beta[22];
-    M[268] = t78;
+    M[268] = ang21a_31z;
     MODELER_ZEROS(M + 415, 8);
     M[269] = -beta[22];
-    M[292] = t32;
-    M[293] = t65;
+    M[292] = lin_B2a_12x;
+    M[293] = lin_B2a_12y;
     MODELER_ZEROS(M + 423, 7);
     const double t79 = s12*(beta[29] + q[13]*beta[35]);
-    const double t80 = q[13]*beta[37]*2.0;
+    const double Js32_xx = q[13]*beta[37]*2.0;
     MODELER_ZEROS(M + 432, 8);
-    M[297] = c12*(c12*(beta[28] + t80) - t79) - c12*t79 + beta[25];
-    const double t81 = c12*beta[30] - s12*(beta[31] + q[13]*beta[36]);
-    M[298] = t81;
+    M[297] = c12*(c12*(beta[28] + Js32_xx) - t79) - c12*t79 + beta[25];
+    /* link 12: inertia of the link and all that it carries, Jc12 = J12 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc12_yz = c12*beta[30] - s12*(beta[31] + q[13]*beta[36]);
+    M[298] = minus_Jc12_yz;
     MODELER_ZEROS(M + 440, 8);
-    const double t82 = c12*beta[36];
-    M[299] = t82;
+    const double ang22a_32z = c12*beta[36];
+    M[299] = ang22a_32z;
     MODELER_ZEROS(M + 450, 8);
-    M[318] = -t34;
-    M[319] = -t66;
+    M[318] = -minus_lin_B2a_22x;
+    M[319] = -minus_lin_B2a_22y;
     MODELER_ZEROS(M + 458, 1);
-    M[323] = t81;
-    M[324] = beta[32] + t80;
+    M[323] = minus_Jc12_yz;
+    M[324] = beta[32] + Js32_xx;
     M[325] = -beta[35];
     MODELER_ZEROS(M + 462, 8);
-    M[349] = t82;
+    M[349] = ang22a_32z;
     M[350] = -beta[35];
     MODELER_ZEROS(M + 470, 4);
-    M[370] = t39;
-    M[371] = t67;
+    M[370] = lin_B3a_13x;
+    M[371] = lin_B3a_13y;
     const double t83 = s15*(beta[42] + q[16]*beta[48]);
     MODELER_ZEROS(M + 476, 8);
-    const double t84 = q[16]*beta[50]*2.0;
-    M[378] = c15*(c15*(beta[41] + t84) - t83) - c15*t83 + beta[38];
+    const double Js33_xx = q[16]*beta[50]*2.0;
+    M[378] = c15*(c15*(beta[41] + Js33_xx) - t83) - c15*t83 + beta[38];
     MODELER_ZEROS(M + 484, 1);
-    const double t85 = c15*beta[43] - s15*(beta[44] + q[16]*beta[49]);
-    M[379] = t85;
+    /* link 13: inertia of the link and all that it carries, Jc13 = J13 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc13_yz = c15*beta[43] - s15*(beta[44] + q[16]*beta[49]);
+    M[379] = minus_Jc13_yz;
     MODELER_ZEROS(M + 488, 8);
-    const double t86 = c15*beta[49];
-    M[380] = t86;
-    M[396] = -t41;
+    const double ang23a_33z = c15*beta[49];
+    M[380] = ang23a_33z;
+    M[396] = -minus_lin_B3a_23x;
     MODELER_ZEROS(M + 496, 8);
-    M[397] = -t68;
-    M[404] = t85;
+    M[397] = -minus_lin_B3a_23y;
+    M[404] = minus_Jc13_yz;
     MODELER_ZEROS(M + 504, 7);
-    M[405] = beta[45] + t84;
+    M[405] = beta[45] + Js33_xx;
     M[406] = -beta[48];
     MODELER_ZEROS(M + 513, 8);
-    M[430] = t86;
+    M[430] = ang23a_33z;
     M[431] = -beta[48];
-    M[448] = t46;
+    M[448] = lin_B4a_14x;
     MODELER_ZEROS(M + 521, 5);
-    M[449] = t69;
+    M[449] = lin_B4a_14y;
     const double t87 = s18*(beta[55] + q[19]*beta[61]);
     MODELER_ZEROS(M + 528, 8);
-    const double t88 = q[19]*beta[63]*2.0;
-    M[459] = c18*(c18*(beta[54] + t88) - t87) - c18*t87 + beta[51];
-    const double t89 = c18*beta[56] - s18*(beta[57] + q[19]*beta[62]);
+    const double Js34_xx = q[19]*beta[63]*2.0;
+    M[459] = c18*(c18*(beta[54] + Js34_xx) - t87) - c18*t87 + beta[51];
+    /* link 14: inertia of the link and all that it carries, Jc14 = J14 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc14_yz = c18*beta[56] - s18*(beta[57] + q[19]*beta[62]);
     MODELER_ZEROS(M + 536, 4);
-    M[460] = t89;
-    const double t90 = c18*beta[62];
+    M[460] = minus_Jc14_yz;
+    const double ang24a_34z = c18*beta[62];
     MODELER_ZEROS(M + 543, 8);
-    M[461] = t90;
-    M[474] = -t48;
+    M[461] = ang24a_34z;
+    M[474] = -minus_lin_B4a_24x;
     MODELER_ZEROS(M + 551, 1);
-    M[475] = -t70;
-    M[485] = t89;
-    M[486] = beta[58] + t88;
+    M[475] = -minus_lin_B4a_24y;
+    M[485] = minus_Jc14_yz;
+    M[486] = beta[58] + Js34_xx;
     MODELER_ZEROS(M + 554, 8);
     M[487] = -beta[61];
-    M[511] = t90;
+    M[511] = ang24a_34z;
     MODELER_ZEROS(M + 562, 4);
     M[512] = -beta[61];
-    M[526] = t53;
-    M[527] = t71;
+    M[526] = lin_B5a_15x;
+    M[527] = lin_B5a_15y;
     MODELER_ZEROS(M + 569, 8);
     const double t91 = s21*(beta[68] + q[22]*beta[74]);
-    const double t92 = q[22]*beta[76]*2.0;
+    const double Js35_xx = q[22]*beta[76]*2.0;
     MODELER_ZEROS(M + 577, 8);
-    M[540] = c21*(c21*(beta[67] + t92) - t91) - c21*t91 + beta[64];
-    const double t93 = c21*beta[69] - s21*(beta[70] + q[22]*beta[75]);
+    M[540] = c21*(c21*(beta[67] + Js35_xx) - t91) - c21*t91 + beta[64];
+    /* link 15: inertia of the link and all that it carries, Jc15 = J15 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc15_yz = c21*beta[69] - s21*(beta[70] + q[22]*beta[75]);
     MODELER_ZEROS(M + 585, 7);
-    M[541] = t93;
-    const double t94 = c21*beta[75];
-    M[542] = t94;
+    M[541] = minus_Jc15_yz;
+    const double ang25a_35z = c21*beta[75];
+    M[542] = ang25a_35z;
     MODELER_ZEROS(M + 594, 8);
-    M[552] = -t55;
-    M[553] = -t72;
+    M[552] = -minus_lin_B5a_25x;
+    M[553] = -minus_lin_B5a_25y;
     MODELER_ZEROS(M + 602, 2);
-    M[566] = t93;
-    M[567] = beta[71] + t92;
+    M[566] = minus_Jc15_yz;
+    M[567] = beta[71] + Js35_xx;
     MODELER_ZEROS(M + 606, 8);
     M[568] = -beta[74];
-    M[592] = t94;
+    M[592] = ang25a_35z;
     M[593] = -beta[74];
     MODELER_ZEROS(M + 614, 7);
-    M[604] = t60;
-    M[605] = t73;
+    M[604] = lin_B6a_16x;
+    M[605] = lin_B6a_16y;
     MODELER_ZEROS(M + 624, 6);
     const double t95 = s24*(beta[81] + q[25]*beta[87]);
-    const double t96 = q[25]*beta[89]*2.0;
-    M[621] = c24*(c24*(beta[80] + t96) - t95) - c24*t95 + beta[77];
+    const double Js36_xx = q[25]*beta[89]*2.0;
+    M[621] = c24*(c24*(beta[80] + Js36_xx) - t95) - c24*t95 + beta[77];
     MODELER_ZEROS(M + 632, 8);
-    const double t97 = c24*beta[82] - s24*(beta[83] + q[25]*beta[88]);
-    M[622] = t97;
+    /* link 16: inertia of the link and all that it carries, Jc16 = J16 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc16_yz = c24*beta[82] - s24*(beta[83] + q[25]*beta[88]);
+    M[622] = minus_Jc16_yz;
     MODELER_ZEROS(M + 640, 7);
-    const double t98 = c24*beta[88];
-    M[623] = t98;
+    const double ang26a_36z = c24*beta[88];
+    M[623] = ang26a_36z;
     MODELER_ZEROS(M + 650, 8);
-    M[630] = -t62;
-    M[631] = -t74;
-    M[647] = t97;
+    M[630] = -minus_lin_B6a_26x;
+    M[631] = -minus_lin_B6a_26y;
+    M[647] = minus_Jc16_yz;
     MODELER_ZEROS(M + 658, 8);
-    M[648] = beta[84] + t96;
+    M[648] = beta[84] + Js36_xx;
     M[649] = -beta[87];
     MODELER_ZEROS(M + 666, 7);
-    M[673] = t98;
+    M[673] = ang26a_36z;
     M[674] = -beta[87];
     MODELER_ZEROS(M + 675, 1);
 }
@@ -871,69 +1126,99 @@ void evra_tree_gravity(const double *q, const double *beta, double *MODELER_REST
     double s24, c24;
     modeler_sincos(q[24], &s24, &c24);
 
-    const double t1 = evra_geo_g*c3;
-    const double t2 = s4*t1;
-    const double t3 = evra_geo_g*s3;
-    const double t4 = c5*t2 - s5*t3;
-    const double t5 = beta[9]*t4;
-    const double t6 = c5*t3 + s5*t2;
-    const double t7 = beta[9]*t6;
-    const double t8 = c4*t1;
-    tau[2] = c3*(beta[9]*t8*c4 + s4*(c5*t5 + s5*t7)) - s3*(s5*t5 - c5*t7);
-    const double t9 = beta[6]*t6 + beta[7]*t4;
-    const double t10 = beta[7]*t8 - beta[8]*t6;
-    const double t11 = beta[8]*t4 + beta[6]*t8;
-    tau[3] = s4*t9 + c4*(c5*t10 + s5*t11);
-    tau[4] = s5*t10 - c5*t11;
-    tau[5] = t9;
-    const double t12 = evra_geo_g*c8;
-    const double t13 = c9*t12;
-    const double t14 = evra_geo_g*s8;
-    const double t15 = s9*t12;
-    const double t16 = c9*(beta[23]*t13 - t14*beta[24] + t14*beta[21]);
-    const double t17 = t16 + s9*(t14*beta[22] + beta[23]*t15 + t14*beta[20]);
-    tau[8] = t14*beta[13] + t12*beta[14] - t17;
-    tau[9] = beta[24]*t15 + beta[22]*t13 + (beta[20]*t13 - beta[21]*t15);
-    const double t18 = evra_geo_g*c11;
-    const double t19 = c12*t18;
-    const double t20 = evra_geo_g*s11;
-    const double t21 = s12*t18;
-    const double t22 = c12*(beta[36]*t19 - t20*beta[37] + t20*beta[34]);
-    const double t23 = t22 + s12*(t20*beta[35] + beta[36]*t21 + t20*beta[33]);
-    tau[11] = t20*beta[26] + t18*beta[27] - t23;
-    tau[12] = beta[37]*t21 + beta[35]*t19 + (beta[33]*t19 - beta[34]*t21);
-    const double t24 = evra_geo_g*c14;
-    const double t25 = c15*t24;
-    const double t26 = evra_geo_g*s14;
-    const double t27 = s15*t24;
-    const double t28 = c15*(beta[49]*t25 - t26*beta[50] + t26*beta[47]);
-    const double t29 = t28 + s15*(t26*beta[48] + beta[49]*t27 + t26*beta[46]);
-    tau[14] = t26*beta[39] + t24*beta[40] - t29;
-    tau[15] = beta[50]*t27 + beta[48]*t25 + (beta[46]*t25 - beta[47]*t27);
-    const double t30 = evra_geo_g*c17;
-    const double t31 = c18*t30;
-    const double t32 = evra_geo_g*s17;
-    const double t33 = s18*t30;
-    const double t34 = c18*(beta[62]*t31 - t32*beta[63] + t32*beta[60]);
-    const double t35 = t34 + s18*(t32*beta[61] + beta[62]*t33 + t32*beta[59]);
-    tau[17] = t32*beta[52] + t30*beta[53] - t35;
-    tau[18] = beta[63]*t33 + beta[61]*t31 + (beta[59]*t31 - beta[60]*t33);
-    const double t36 = evra_geo_g*c20;
-    const double t37 = c21*t36;
-    const double t38 = evra_geo_g*s20;
-    const double t39 = s21*t36;
-    const double t40 = c21*(beta[75]*t37 - t38*beta[76] + t38*beta[73]);
-    const double t41 = t40 + s21*(t38*beta[74] + beta[75]*t39 + t38*beta[72]);
-    tau[20] = t38*beta[65] + t36*beta[66] - t41;
-    tau[21] = beta[76]*t39 + beta[74]*t37 + (beta[72]*t37 - beta[73]*t39);
-    const double t42 = evra_geo_g*c23;
-    const double t43 = c24*t42;
-    const double t44 = evra_geo_g*s23;
-    const double t45 = s24*t42;
-    const double t46 = c24*(beta[88]*t43 - t44*beta[89] + t44*beta[86]);
-    const double t47 = t46 + s24*(t44*beta[87] + beta[88]*t45 + t44*beta[85]);
-    tau[23] = t44*beta[78] + t42*beta[79] - t47;
-    tau[24] = beta[89]*t45 + beta[87]*t43 + (beta[85]*t43 - beta[86]*t45);
+    /* link Pa: acceleration of the origin less gravity, vd_Pa = R_Pa' (vd_Pz + U_Pz p_Pa) */
+    const double vd_Pa_y = evra_geo_g*c3;
+    /* link Pb: acceleration of the origin less gravity, vd_Pb = R_Pb' (vd_Pa + U_Pa p_Pb) */
+    const double minus_vd_Pb_y = s4*vd_Pa_y;
+    const double vd_Pa_x = evra_geo_g*s3;
+    /* link P: acceleration of the origin less gravity, vd_P = R_P' (vd_Pb + U_Pb p_P) */
+    const double minus_vd_P_x = c5*minus_vd_Pb_y - s5*vd_Pa_x;
+    /* link P: force on the link, f_P = M_P vd_P + U_P MS_P */
+    const double minus_f_P_x = beta[9]*minus_vd_P_x;
+    const double vd_P_y = c5*vd_Pa_x + s5*minus_vd_Pb_y;
+    const double f_P_y = beta[9]*vd_P_y;
+    const double vd_Pb_x = c4*vd_Pa_y;
+    tau[2] = c3*(beta[9]*vd_Pb_x*c4 + s4*(c5*minus_f_P_x + s5*f_P_y)) - s3*(s5*minus_f_P_x -
+        c5*f_P_y);
+    /* link P: moment on the link at its origin, n_P = J_P wd_P + w_P x J_P w_P + MS_P x vd_P */
+    const double n_P_z = beta[6]*vd_P_y + beta[7]*minus_vd_P_x;
+    const double n_P_x = beta[7]*vd_Pb_x - beta[8]*vd_P_y;
+    const double minus_n_P_y = beta[8]*minus_vd_P_x + beta[6]*vd_Pb_x;
+    tau[3] = s4*n_P_z + c4*(c5*n_P_x + s5*minus_n_P_y);
+    tau[4] = s5*n_P_x - c5*minus_n_P_y;
+    tau[5] = n_P_z;
+    /* link 11: acceleration of the origin less gravity, vd11 = R11' (vd_B1 + U_B1 p11) */
+    const double minus_vd11_x = evra_geo_g*c8;
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double vd21_y = c9*minus_vd11_x;
+    const double vd11_y = evra_geo_g*s8;
+    const double vd21_x = s9*minus_vd11_x;
+    const double t16 = c9*(beta[23]*vd21_y - vd11_y*beta[24] + vd11_y*beta[21]);
+    /* link 21: moment on the link and all that it carries, nc21 = n21 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc21a_z = t16 + s9*(vd11_y*beta[22] + beta[23]*vd21_x + vd11_y*beta[20]);
+    tau[8] = vd11_y*beta[13] + minus_vd11_x*beta[14] - minus_nc21a_z;
+    tau[9] = beta[24]*vd21_x + beta[22]*vd21_y + (beta[20]*vd21_y - beta[21]*vd21_x);
+    /* link 12: acceleration of the origin less gravity, vd12 = R12' (vd_B2 + U_B2 p12) */
+    const double minus_vd12_x = evra_geo_g*c11;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double vd22_y = c12*minus_vd12_x;
+    const double vd12_y = evra_geo_g*s11;
+    const double vd22_x = s12*minus_vd12_x;
+    const double t22 = c12*(beta[36]*vd22_y - vd12_y*beta[37] + vd12_y*beta[34]);
+    /* link 22: moment on the link and all that it carries, nc22 = n22 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc22a_z = t22 + s12*(vd12_y*beta[35] + beta[36]*vd22_x + vd12_y*beta[33]);
+    tau[11] = vd12_y*beta[26] + minus_vd12_x*beta[27] - minus_nc22a_z;
+    tau[12] = beta[37]*vd22_x + beta[35]*vd22_y + (beta[33]*vd22_y - beta[34]*vd22_x);
+    /* link 13: acceleration of the origin less gravity, vd13 = R13' (vd_B3 + U_B3 p13) */
+    const double minus_vd13_x = evra_geo_g*c14;
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double vd23_y = c15*minus_vd13_x;
+    const double vd13_y = evra_geo_g*s14;
+    const double vd23_x = s15*minus_vd13_x;
+    const double t28 = c15*(beta[49]*vd23_y - vd13_y*beta[50] + vd13_y*beta[47]);
+    /* link 23: moment on the link and all that it carries, nc23 = n23 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc23a_z = t28 + s15*(vd13_y*beta[48] + beta[49]*vd23_x + vd13_y*beta[46]);
+    tau[14] = vd13_y*beta[39] + minus_vd13_x*beta[40] - minus_nc23a_z;
+    tau[15] = beta[50]*vd23_x + beta[48]*vd23_y + (beta[46]*vd23_y - beta[47]*vd23_x);
+    /* link 14: acceleration of the origin less gravity, vd14 = R14' (vd_B4 + U_B4 p14) */
+    const double minus_vd14_x = evra_geo_g*c17;
+    /* link 24: acceleration of the origin less gravity, vd24 = R24' (vd14 + U14 p24) */
+    const double vd24_y = c18*minus_vd14_x;
+    const double vd14_y = evra_geo_g*s17;
+    const double vd24_x = s18*minus_vd14_x;
+    const double t34 = c18*(beta[62]*vd24_y - vd14_y*beta[63] + vd14_y*beta[60]);
+    /* link 24: moment on the link and all that it carries, nc24 = n24 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc24a_z = t34 + s18*(vd14_y*beta[61] + beta[62]*vd24_x + vd14_y*beta[59]);
+    tau[17] = vd14_y*beta[52] + minus_vd14_x*beta[53] - minus_nc24a_z;
+    tau[18] = beta[63]*vd24_x + beta[61]*vd24_y + (beta[59]*vd24_y - beta[60]*vd24_x);
+    /* link 15: acceleration of the origin less gravity, vd15 = R15' (vd_B5 + U_B5 p15) */
+    const double minus_vd15_x = evra_geo_g*c20;
+    /* link 25: acceleration of the origin less gravity, vd25 = R25' (vd15 + U15 p25) */
+    const double vd25_y = c21*minus_vd15_x;
+    const double vd15_y = evra_geo_g*s20;
+    const double vd25_x = s21*minus_vd15_x;
+    const double t40 = c21*(beta[75]*vd25_y - vd15_y*beta[76] + vd15_y*beta[73]);
+    /* link 25: moment on the link and all that it carries, nc25 = n25 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc25a_z = t40 + s21*(vd15_y*beta[74] + beta[75]*vd25_x + vd15_y*beta[72]);
+    tau[20] = vd15_y*beta[65] + minus_vd15_x*beta[66] - minus_nc25a_z;
+    tau[21] = beta[76]*vd25_x + beta[74]*vd25_y + (beta[72]*vd25_y - beta[73]*vd25_x);
+    /* link 16: acceleration of the origin less gravity, vd16 = R16' (vd_B6 + U_B6 p16) */
+    const double minus_vd16_x = evra_geo_g*c23;
+    /* link 26: acceleration of the origin less gravity, vd26 = R26' (vd16 + U16 p26) */
+    const double vd26_y = c24*minus_vd16_x;
+    const double vd16_y = evra_geo_g*s23;
+    const double vd26_x = s24*minus_vd16_x;
+    const double t46 = c24*(beta[88]*vd26_y - vd16_y*beta[89] + vd16_y*beta[86]);
+    /* link 26: moment on the link and all that it carries, nc26 = n26 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc26a_z = t46 + s24*(vd16_y*beta[87] + beta[88]*vd26_x + vd16_y*beta[85]);
+    tau[23] = vd16_y*beta[78] + minus_vd16_x*beta[79] - minus_nc26a_z;
+    tau[24] = beta[89]*vd26_x + beta[87]*vd26_y + (beta[85]*vd26_y - beta[86]*vd26_x);
 }
 
 /* Torques without gravity and friction.
@@ -941,18 +1226,18 @@ void evra_tree_gravity(const double *q, const double *beta, double *MODELER_REST
 void evra_tree_coriolis(const double *q, const double *qd, const double *qdd, const double *beta,
                         double *MODELER_RESTRICT tau)
 {
-    const double k1 = cos(evra_geo_beta1);
-    const double k2 = sin(evra_geo_beta1);
-    const double k3 = cos(evra_geo_beta2);
-    const double k4 = sin(evra_geo_beta2);
-    const double k5 = cos(evra_geo_beta3);
-    const double k6 = sin(evra_geo_beta3);
-    const double k7 = cos(evra_geo_beta4);
-    const double k8 = sin(evra_geo_beta4);
-    const double k9 = cos(evra_geo_beta5);
-    const double k10 = sin(evra_geo_beta5);
-    const double k11 = cos(evra_geo_beta6);
-    const double k12 = sin(evra_geo_beta6);
+    const double x_B1_x = cos(evra_geo_beta1);
+    const double x_B1_y = sin(evra_geo_beta1);
+    const double x_B2_x = cos(evra_geo_beta2);
+    const double x_B2_y = sin(evra_geo_beta2);
+    const double x_B3_x = cos(evra_geo_beta3);
+    const double x_B3_y = sin(evra_geo_beta3);
+    const double x_B4_x = cos(evra_geo_beta4);
+    const double x_B4_y = sin(evra_geo_beta4);
+    const double x_B5_x = cos(evra_geo_beta5);
+    const double x_B5_y = sin(evra_geo_beta5);
+    const double x_B6_x = cos(evra_geo_beta6);
+    const double x_B6_y = sin(evra_geo_beta6);
 
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
@@ -985,342 +1270,527 @@ void evra_tree_coriolis(const double *q, const double *qd, const double *qdd, co
     double s24, c24;
     modeler_sincos(q[24], &s24, &c24);
 
-    const double t1 = qdd[2] + evra_geo_g;
+    /* link Pz: acceleration of the origin less gravity, vd_Pz = R_Pz' (vd_Py + U_Py p_Pz) + 2 w_Pz
+        x qd_Pz z + qdd_Pz z */
+    const double vd_Pz_z = qdd[2] + evra_geo_g;
     const double t2 = s3*qdd[1];
-    const double t3 = c3*t1 - t2;
+    /* link Pa: acceleration of the origin less gravity, vd_Pa = R_Pa' (vd_Pz + U_Pz p_Pa) */
+    const double vd_Pa_y = c3*vd_Pz_z - t2;
     const double t4 = s4*qdd[0];
-    const double t5 = c4*qd[3];
-    const double t6 = s4*qd[3];
-    const double t7 = c4*qdd[3] - qd[4]*t6;
-    const double t8 = c5*t5 + s5*qd[4];
-    const double t9 = c5*qdd[4] - s5*t7 - qd[5]*t8;
-    const double t10 = qd[5] + t6;
-    const double t11 = t8*t10;
-    const double t12 = c5*qd[4] - s5*t5;
-    const double t13 = c5*t7 + s5*qdd[4] + qd[5]*t12;
-    const double t14 = t12*t10;
-    const double t15 = (t9 - t11)*beta[6] - (t13 + t14)*beta[7] + (t5*t5 + qd[4]*qd[4])*beta[8];
-    const double t16 = (c4*t3 + t4)*beta[9] - t15;
+    /* link Pb: angular velocity, w_Pb = R_Pb' w_Pa + qd_Pb z */
+    const double w_Pb_y = c4*qd[3];
+    const double w_Pb_x = s4*qd[3];
+    /* link Pb: angular acceleration, wd_Pb = R_Pb' wd_Pa + (R_Pb' w_Pa) x qd_Pb z + qdd_Pb z */
+    const double wd_Pb_y = c4*qdd[3] - qd[4]*w_Pb_x;
+    /* link P: angular velocity, w_P = R_P' w_Pb + qd_P z */
+    const double w_P_x = c5*w_Pb_y + s5*qd[4];
+    /* link P: angular acceleration, wd_P = R_P' wd_Pb + (R_P' w_Pb) x qd_P z + qdd_P z */
+    const double wd_P_y = c5*qdd[4] - s5*wd_Pb_y - qd[5]*w_P_x;
+    const double w_P_z = qd[5] + w_Pb_x;
+    const double ww_P_xz = w_P_x*w_P_z;
+    const double w_P_y = c5*qd[4] - s5*w_Pb_y;
+    const double wd_P_x = c5*wd_Pb_y + s5*qdd[4] + qd[5]*w_P_y;
+    const double ww_P_yz = w_P_y*w_P_z;
+    const double t15 = (wd_P_y - ww_P_xz)*beta[6] - (wd_P_x + ww_P_yz)*beta[7] + (w_Pb_y*w_Pb_y +
+        qd[4]*qd[4])*beta[8];
+    /* link P: force on the link, f_P = M_P vd_P + U_P MS_P */
+    const double f_P_z = (c4*vd_Pa_y + t4)*beta[9] - t15;
     const double t17 = c4*qdd[0];
-    const double t18 = t17 - s4*t3;
+    /* link Pb: acceleration of the origin less gravity, vd_Pb = R_Pb' (vd_Pa + U_Pa p_Pb) */
+    const double vd_Pb_y = t17 - s4*vd_Pa_y;
     const double t19 = c3*qdd[1];
-    const double t20 = t19 + s3*t1;
-    const double t21 = t10*t10;
-    const double t22 = s4*qdd[3] + qd[4]*t5 + qdd[5];
-    const double t23 = t8*t12;
-    const double t24 = (t12*t12 + t21)*beta[6] + (t22 - t23)*beta[7] - (t9 + t11)*beta[8];
-    const double t25 = (c5*t18 + s5*t20)*beta[9] - t24;
-    const double t26 = (t8*t8 + t21)*beta[7] - (t22 + t23)*beta[6] + (t13 - t14)*beta[8];
-    const double t27 = (c5*t20 - s5*t18)*beta[9] - t26;
-    const double t28 = c5*t25 - s5*t27;
-    tau[0] = s4*t16 + c4*t28;
-    tau[1] = c3*(s5*t25 + c5*t27) - s3*(c4*t16 - s4*t28);
-    const double t29 = t2 - c3*qdd[2];
-    const double t30 = t17 + s4*t29;
-    const double t31 = t19 + s3*qdd[2];
-    const double t32 = c5*t30 + s5*t31;
-    const double t33 = t24 - beta[9]*t32;
-    const double t34 = c5*t31 - s5*t30;
-    const double t35 = t26 - beta[9]*t34;
-    const double t36 = t4 - c4*t29;
-    tau[2] = -(s3*(s5*t33 + c5*t35) + c3*(c4*(t15 - beta[9]*t36) - s4*(c5*t33 - s5*t35)));
-    const double t37 = t8*beta[1] + t12*beta[3] + t10*beta[4];
-    const double t38 = t8*beta[0] + t12*beta[1] + t10*beta[2];
-    const double t39 = t8*t37 - t12*t38 + (t13*beta[2] + t9*beta[4] + t22*beta[5]);
-    const double t40 = beta[6]*t34 - beta[7]*t32 + t39;
-    const double t41 = t8*beta[2] + t12*beta[4] + t10*beta[5];
-    const double t42 = t12*t41 - t10*t37 + (t13*beta[0] + t9*beta[1] + t22*beta[2]);
-    const double t43 = beta[7]*t36 - beta[8]*t34 + t42;
-    const double t44 = t10*t38 - t8*t41 + (t13*beta[1] + t9*beta[3] + t22*beta[4]);
-    const double t45 = beta[8]*t32 - beta[6]*t36 + t44;
-    tau[3] = s4*t40 + c4*(c5*t43 - s5*t45);
-    tau[4] = s5*t43 + c5*t45;
-    tau[5] = t40;
-    const double t46 = s24*qd[23];
-    const double t47 = qd[24]*qd[24];
-    const double t48 = t46*t46 + t47;
-    const double t49 = s24*qdd[23];
-    const double t50 = c24*qd[23];
-    const double t51 = t50*t46;
-    const double t52 = qdd[24] + t51;
-    const double t53 = t48*beta[87] + t49*beta[88] - t52*beta[89];
-    const double t54 = t48*beta[85] + t52*beta[86] + t53;
-    const double t55 = t50*t50 + t47;
-    const double t56 = qdd[24] - t51;
-    const double t57 = c24*qdd[23];
-    const double t58 = t56*beta[87] - t57*beta[88] + t55*beta[89];
-    const double t59 = t56*beta[85] - t55*beta[86] + t58;
-    const double t60 = qd[23]*qd[23];
-    const double t61 = qd[24]*t50;
-    const double t62 = t49 + t61;
-    const double t63 = t61 + t62;
-    const double t64 = qd[24]*t46;
-    const double t65 = t57 - t64;
-    const double t66 = t64 - t65;
-    const double t67 = t60*beta[88] - t63*beta[87] - t66*beta[89];
-    const double t68 = t66*beta[86] - t63*beta[85] + t67 + (qdd[23]*beta[78] - t60*beta[79]);
-    const double t69 = s23*(s24*t54 - c24*t59 - (t60*beta[78] + qdd[23]*beta[79])) + c23*t68;
-    const double t70 = c24*t54 + s24*t59;
-    const double t71 = s21*qd[20];
-    const double t72 = qd[21]*qd[21];
-    const double t73 = t71*t71 + t72;
-    const double t74 = s21*qdd[20];
-    const double t75 = c21*qd[20];
-    const double t76 = t75*t71;
-    const double t77 = qdd[21] + t76;
-    const double t78 = t73*beta[74] + t74*beta[75] - t77*beta[76];
-    const double t79 = t73*beta[72] + t77*beta[73] + t78;
-    const double t80 = t75*t75 + t72;
-    const double t81 = qdd[21] - t76;
-    const double t82 = c21*qdd[20];
-    const double t83 = t81*beta[74] - t82*beta[75] + t80*beta[76];
-    const double t84 = t81*beta[72] - t80*beta[73] + t83;
-    const double t85 = qd[20]*qd[20];
-    const double t86 = qd[21]*t75;
-    const double t87 = t74 + t86;
-    const double t88 = t86 + t87;
-    const double t89 = qd[21]*t71;
-    const double t90 = t82 - t89;
-    const double t91 = t89 - t90;
-    const double t92 = t85*beta[75] - t88*beta[74] - t91*beta[76];
-    const double t93 = t91*beta[73] - t88*beta[72] + t92 + (qdd[20]*beta[65] - t85*beta[66]);
-    const double t94 = s20*(s21*t79 - c21*t84 - (t85*beta[65] + qdd[20]*beta[66])) + c20*t93;
-    const double t95 = c21*t79 + s21*t84;
-    const double t96 = s18*qd[17];
-    const double t97 = qd[18]*qd[18];
-    const double t98 = t96*t96 + t97;
-    const double t99 = s18*qdd[17];
-    const double t100 = c18*qd[17];
-    const double t101 = t100*t96;
-    const double t102 = qdd[18] + t101;
-    const double t103 = t98*beta[61] + t99*beta[62] - t102*beta[63];
-    const double t104 = t98*beta[59] + t102*beta[60] + t103;
-    const double t105 = t100*t100 + t97;
-    const double t106 = qdd[18] - t101;
-    const double t107 = c18*qdd[17];
-    const double t108 = t106*beta[61] - t107*beta[62] + t105*beta[63];
-    const double t109 = t106*beta[59] - t105*beta[60] + t108;
-    const double t110 = qd[17]*qd[17];
-    const double t111 = qd[18]*t100;
-    const double t112 = t99 + t111;
-    const double t113 = t111 + t112;
-    const double t114 = qd[18]*t96;
-    const double t115 = t107 - t114;
-    const double t116 = t114 - t115;
-    const double t117 = t110*beta[62] - t113*beta[61] - t116*beta[63];
-    const double t118 = t116*beta[60] - t113*beta[59] + t117 + (qdd[17]*beta[52] - t110*beta[53]);
-    const double t119 = s17*(s18*t104 - c18*t109 - (t110*beta[52] + qdd[17]*beta[53])) + c17*t118;
-    const double t120 = c18*t104 + s18*t109;
-    const double t121 = s15*qd[14];
-    const double t122 = qd[15]*qd[15];
-    const double t123 = t121*t121 + t122;
-    const double t124 = s15*qdd[14];
-    const double t125 = c15*qd[14];
-    const double t126 = t125*t121;
-    const double t127 = qdd[15] + t126;
-    const double t128 = t123*beta[48] + t124*beta[49] - t127*beta[50];
-    const double t129 = t123*beta[46] + t127*beta[47] + t128;
-    const double t130 = t125*t125 + t122;
-    const double t131 = qdd[15] - t126;
-    const double t132 = c15*qdd[14];
-    const double t133 = t131*beta[48] - t132*beta[49] + t130*beta[50];
-    const double t134 = t131*beta[46] - t130*beta[47] + t133;
-    const double t135 = qd[14]*qd[14];
-    const double t136 = qd[15]*t125;
-    const double t137 = t124 + t136;
-    const double t138 = t136 + t137;
-    const double t139 = qd[15]*t121;
-    const double t140 = t132 - t139;
-    const double t141 = t139 - t140;
-    const double t142 = t135*beta[49] - t138*beta[48] - t141*beta[50];
-    const double t143 = t141*beta[47] - t138*beta[46] + t142 + (qdd[14]*beta[39] - t135*beta[40]);
-    const double t144 = s14*(s15*t129 - c15*t134 - (t135*beta[39] + qdd[14]*beta[40])) + c14*t143;
-    const double t145 = c15*t129 + s15*t134;
-    const double t146 = k11*t69 - k12*t70 + (k9*t94 - k10*t95) + (k7*t119 - k8*t120);
-    const double t147 = s12*qd[11];
-    const double t148 = qd[12]*qd[12];
-    const double t149 = t147*t147 + t148;
-    const double t150 = s12*qdd[11];
-    const double t151 = c12*qd[11];
-    const double t152 = t151*t147;
-    const double t153 = qdd[12] + t152;
-    const double t154 = t149*beta[35] + t150*beta[36] - t153*beta[37];
-    const double t155 = t149*beta[33] + t153*beta[34] + t154;
-    const double t156 = t151*t151 + t148;
-    const double t157 = qdd[12] - t152;
-    const double t158 = c12*qdd[11];
-    const double t159 = t157*beta[35] - t158*beta[36] + t156*beta[37];
-    const double t160 = t157*beta[33] - t156*beta[34] + t159;
-    const double t161 = qd[11]*qd[11];
-    const double t162 = qd[12]*t151;
-    const double t163 = t150 + t162;
-    const double t164 = t162 + t163;
-    const double t165 = qd[12]*t147;
-    const double t166 = t158 - t165;
-    const double t167 = t165 - t166;
-    const double t168 = t161*beta[36] - t164*beta[35] - t167*beta[37];
-    const double t169 = t167*beta[34] - t164*beta[33] + t168 + (qdd[11]*beta[26] - t161*beta[27]);
-    const double t170 = s11*(s12*t155 - c12*t160 - (t161*beta[26] + qdd[11]*beta[27])) + c11*t169;
-    const double t171 = c12*t155 + s12*t160;
-    const double t172 = s9*qd[8];
-    const double t173 = qd[9]*qd[9];
-    const double t174 = t172*t172 + t173;
-    const double t175 = s9*qdd[8];
-    const double t176 = c9*qd[8];
-    const double t177 = t176*t172;
-    const double t178 = qdd[9] + t177;
-    const double t179 = t174*beta[22] + t175*beta[23] - t178*beta[24];
-    const double t180 = t174*beta[20] + t178*beta[21] + t179;
-    const double t181 = t176*t176 + t173;
-    const double t182 = qdd[9] - t177;
-    const double t183 = c9*qdd[8];
-    const double t184 = t182*beta[22] - t183*beta[23] + t181*beta[24];
-    const double t185 = t182*beta[20] - t181*beta[21] + t184;
-    const double t186 = qd[8]*qd[8];
-    const double t187 = qd[9]*t176;
-    const double t188 = t175 + t187;
-    const double t189 = t187 + t188;
-    const double t190 = qd[9]*t172;
-    const double t191 = t183 - t190;
-    const double t192 = t190 - t191;
-    const double t193 = t186*beta[23] - t189*beta[22] - t192*beta[24];
-    const double t194 = t192*beta[21] - t189*beta[20] + t193 + (qdd[8]*beta[13] - t186*beta[14]);
-    const double t195 = s8*(s9*t180 - c9*t185 - (t186*beta[13] + qdd[8]*beta[14])) + c8*t194;
-    const double t196 = c9*t180 + s9*t185;
-    const double t197 = k5*t144 - k6*t145 + t146 + (k3*t170 - k4*t171) + (k1*t195 - k2*t196);
-    tau[6] = qdd[6]*beta[10] - (t197 - qdd[6]*beta[11]);
-    const double t198 = k12*t69 + k11*t70 + (k10*t94 + k9*t95) + (k8*t119 + k7*t120);
-    const double t199 = k6*t144 + k5*t145 + t198 + (k4*t170 + k3*t171) + (k2*t195 + k1*t196);
-    tau[7] = qdd[7]*beta[11] - t199;
-    const double t200 = k1*qdd[7] - k2*qdd[6];
-    const double t201 = k1*qdd[6] + k2*qdd[7];
-    const double t202 = s8*t201;
-    const double t203 = s9*t200 - c9*t202;
-    const double t204 = t203 - q[10]*t181 + qdd[10];
-    const double t205 = c8*t201;
-    const double t206 = qd[10]*t176*2.0 - (t205 + q[10]*t192);
-    const double t207 = t176*beta[17] - t172*beta[18] + qd[9]*beta[19];
-    const double t208 = t176*beta[16] + qd[9]*beta[18];
-    const double t209 = t172*t207 + qd[9]*t208 - (t191*beta[15] - t188*beta[16] + qdd[9]*beta[17]);
-    const double t210 = c9*t200 + s9*t202;
-    const double t211 = q[10]*t178 + t210 + qd[9]*qd[10]*2.0;
-    const double t212 = t176*beta[15] - t172*beta[16] + qd[9]*beta[17];
-    const double t213 = qd[9]*t212 - t176*t207 + (t191*beta[16] + qdd[9]*beta[18]) - t205*beta[20];
-    const double t214 = c9*(beta[23]*t204 + beta[24]*t206 + q[10]*t193 + (t205*beta[21] - t209));
-    const double t215 = t214 - s9*(beta[22]*t206 + beta[23]*t211 + t213);
-    tau[8] = t202*beta[14] - t205*beta[13] + qdd[8]*beta[12] + t215;
-    const double t216 = t176*t208 + t172*t212 + (t191*beta[17] - t188*beta[18] + qdd[9]*beta[19]);
-    const double t217 = beta[22]*t204 - beta[24]*t211 + q[10]*t179;
-    tau[9] = t216 - (beta[20]*t203 + beta[21]*t210) - t217;
-    tau[10] = -t184;
-    const double t218 = k3*qdd[7] - k4*qdd[6];
-    const double t219 = k3*qdd[6] + k4*qdd[7];
-    const double t220 = s11*t219;
-    const double t221 = s12*t218 - c12*t220;
-    const double t222 = t221 - q[13]*t156 + qdd[13];
-    const double t223 = c11*t219;
-    const double t224 = qd[13]*t151*2.0 - (t223 + q[13]*t167);
-    const double t225 = t151*beta[30] - t147*beta[31] + qd[12]*beta[32];
-    const double t226 = t151*beta[29] + qd[12]*beta[31];
-    const double t227 = t166*beta[28] - t163*beta[29] + qdd[12]*beta[30];
-    const double t228 = t147*t225 + qd[12]*t226 - t227 - t223*beta[34];
-    const double t229 = c12*t218 + s12*t220;
-    const double t230 = q[13]*t153 + t229 + qd[12]*qd[13]*2.0;
-    const double t231 = t151*beta[28] - t147*beta[29] + qd[12]*beta[30];
-    const double t232 = qd[12]*t231 - t151*t225 + (t166*beta[29] + qdd[12]*beta[31]);
-    const double t233 = s12*(beta[35]*t224 + beta[36]*t230 + (t232 - t223*beta[33]));
-    const double t234 = c12*(beta[36]*t222 + beta[37]*t224 + q[13]*t168 - t228) - t233;
-    tau[11] = t220*beta[27] - t223*beta[26] + qdd[11]*beta[25] + t234;
-    const double t235 = t151*t226 + t147*t231 + (t166*beta[30] - t163*beta[31] + qdd[12]*beta[32]);
-    const double t236 = beta[35]*t222 - beta[37]*t230 + q[13]*t154;
-    tau[12] = t235 - (beta[33]*t221 + beta[34]*t229) - t236;
-    tau[13] = -t159;
-    const double t237 = k5*qdd[7] - k6*qdd[6];
-    const double t238 = k5*qdd[6] + k6*qdd[7];
-    const double t239 = s14*t238;
-    const double t240 = s15*t237 - c15*t239;
-    const double t241 = t240 - q[16]*t130 + qdd[16];
-    const double t242 = c14*t238;
-    const double t243 = qd[16]*t125*2.0 - (t242 + q[16]*t141);
-    const double t244 = t125*beta[43] - t121*beta[44] + qd[15]*beta[45];
-    const double t245 = t125*beta[42] + qd[15]*beta[44];
-    const double t246 = t140*beta[41] - t137*beta[42] + qdd[15]*beta[43];
-    const double t247 = t121*t244 + qd[15]*t245 - t246 - t242*beta[47];
-    const double t248 = c15*t237 + s15*t239;
-    const double t249 = q[16]*t127 + t248 + qd[15]*qd[16]*2.0;
-    const double t250 = t125*beta[41] - t121*beta[42] + qd[15]*beta[43];
-    const double t251 = qd[15]*t250 - t125*t244 + (t140*beta[42] + qdd[15]*beta[44]);
-    const double t252 = s15*(beta[48]*t243 + beta[49]*t249 + (t251 - t242*beta[46]));
-    const double t253 = c15*(beta[49]*t241 + beta[50]*t243 + q[16]*t142 - t247) - t252;
-    tau[14] = t239*beta[40] - t242*beta[39] + qdd[14]*beta[38] + t253;
-    const double t254 = t125*t245 + t121*t250 + (t140*beta[43] - t137*beta[44] + qdd[15]*beta[45]);
-    const double t255 = beta[48]*t241 - beta[50]*t249 + q[16]*t128;
-    tau[15] = t254 - (beta[46]*t240 + beta[47]*t248) - t255;
-    tau[16] = -t133;
-    const double t256 = k7*qdd[7] - k8*qdd[6];
-    const double t257 = k7*qdd[6] + k8*qdd[7];
-    const double t258 = s17*t257;
-    const double t259 = s18*t256 - c18*t258;
-    const double t260 = t259 - q[19]*t105 + qdd[19];
-    const double t261 = c17*t257;
-    const double t262 = qd[19]*t100*2.0 - (t261 + q[19]*t116);
-    const double t263 = t100*beta[56] - t96*beta[57] + qd[18]*beta[58];
-    const double t264 = t100*beta[55] + qd[18]*beta[57];
-    const double t265 = t115*beta[54] - t112*beta[55] + qdd[18]*beta[56];
-    const double t266 = t96*t263 + qd[18]*t264 - t265 - t261*beta[60];
-    const double t267 = c18*t256 + s18*t258;
-    const double t268 = q[19]*t102 + t267 + qd[18]*qd[19]*2.0;
-    const double t269 = t100*beta[54] - t96*beta[55] + qd[18]*beta[56];
-    const double t270 = qd[18]*t269 - t100*t263 + (t115*beta[55] + qdd[18]*beta[57]);
-    const double t271 = s18*(beta[61]*t262 + beta[62]*t268 + (t270 - t261*beta[59]));
-    const double t272 = c18*(beta[62]*t260 + beta[63]*t262 + q[19]*t117 - t266) - t271;
-    tau[17] = t258*beta[53] - t261*beta[52] + qdd[17]*beta[51] + t272;
-    const double t273 = t100*t264 + t96*t269 + (t115*beta[56] - t112*beta[57] + qdd[18]*beta[58]);
-    const double t274 = beta[61]*t260 - beta[63]*t268 + q[19]*t103;
-    tau[18] = t273 - (beta[59]*t259 + beta[60]*t267) - t274;
-    tau[19] = -t108;
-    const double t275 = k9*qdd[7] - k10*qdd[6];
-    const double t276 = k9*qdd[6] + k10*qdd[7];
-    const double t277 = s20*t276;
-    const double t278 = s21*t275 - c21*t277;
-    const double t279 = t278 - q[22]*t80 + qdd[22];
-    const double t280 = c20*t276;
-    const double t281 = qd[22]*t75*2.0 - (t280 + q[22]*t91);
-    const double t282 = t75*beta[69] - t71*beta[70] + qd[21]*beta[71];
-    const double t283 = t75*beta[68] + qd[21]*beta[70];
-    const double t284 = t71*t282 + qd[21]*t283 - (t90*beta[67] - t87*beta[68] + qdd[21]*beta[69]);
-    const double t285 = c21*t275 + s21*t277;
-    const double t286 = q[22]*t77 + t285 + qd[21]*qd[22]*2.0;
-    const double t287 = t75*beta[67] - t71*beta[68] + qd[21]*beta[69];
-    const double t288 = qd[21]*t287 - t75*t282 + (t90*beta[68] + qdd[21]*beta[70]) - t280*beta[72];
-    const double t289 = c21*(beta[75]*t279 + beta[76]*t281 + q[22]*t92 + (t280*beta[73] - t284));
-    const double t290 = t289 - s21*(beta[74]*t281 + beta[75]*t286 + t288);
-    tau[20] = t277*beta[66] - t280*beta[65] + qdd[20]*beta[64] + t290;
-    const double t291 = t75*t283 + t71*t287 + (t90*beta[69] - t87*beta[70] + qdd[21]*beta[71]);
-    const double t292 = beta[74]*t279 - beta[76]*t286 + q[22]*t78;
-    tau[21] = t291 - (beta[72]*t278 + beta[73]*t285) - t292;
-    tau[22] = -t83;
-    const double t293 = k11*qdd[7] - k12*qdd[6];
-    const double t294 = k11*qdd[6] + k12*qdd[7];
-    const double t295 = s23*t294;
-    const double t296 = s24*t293 - c24*t295;
-    const double t297 = t296 - q[25]*t55 + qdd[25];
-    const double t298 = c23*t294;
-    const double t299 = qd[25]*t50*2.0 - (t298 + q[25]*t66);
-    const double t300 = t50*beta[82] - t46*beta[83] + qd[24]*beta[84];
-    const double t301 = t50*beta[81] + qd[24]*beta[83];
-    const double t302 = t46*t300 + qd[24]*t301 - (t65*beta[80] - t62*beta[81] + qdd[24]*beta[82]);
-    const double t303 = c24*t293 + s24*t295;
-    const double t304 = q[25]*t52 + t303 + qd[24]*qd[25]*2.0;
-    const double t305 = t50*beta[80] - t46*beta[81] + qd[24]*beta[82];
-    const double t306 = qd[24]*t305 - t50*t300 + (t65*beta[81] + qdd[24]*beta[83]) - t298*beta[85];
-    const double t307 = c24*(beta[88]*t297 + beta[89]*t299 + q[25]*t67 + (t298*beta[86] - t302));
-    const double t308 = t307 - s24*(beta[87]*t299 + beta[88]*t304 + t306);
-    tau[23] = t295*beta[79] - t298*beta[78] + qdd[23]*beta[77] + t308;
-    const double t309 = t50*t301 + t46*t305 + (t65*beta[82] - t62*beta[83] + qdd[24]*beta[84]);
-    const double t310 = beta[87]*t297 - beta[89]*t304 + q[25]*t53;
-    tau[24] = t309 - (beta[85]*t296 + beta[86]*t303) - t310;
-    tau[25] = -t58;
+    const double vd_Pa_x = t19 + s3*vd_Pz_z;
+    const double ww_P_zz = w_P_z*w_P_z;
+    const double wd_P_z = s4*qdd[3] + qd[4]*w_Pb_y + qdd[5];
+    const double ww_P_xy = w_P_x*w_P_y;
+    const double t24 = (w_P_y*w_P_y + ww_P_zz)*beta[6] + (wd_P_z - ww_P_xy)*beta[7] - (wd_P_y +
+        ww_P_xz)*beta[8];
+    const double f_P_x = (c5*vd_Pb_y + s5*vd_Pa_x)*beta[9] - t24;
+    const double t26 = (w_P_x*w_P_x + ww_P_zz)*beta[7] - (wd_P_z + ww_P_xy)*beta[6] + (wd_P_x -
+        ww_P_yz)*beta[8];
+    const double f_P_y = (c5*vd_Pa_x - s5*vd_Pb_y)*beta[9] - t26;
+    /* link Pb: force on the link and all that it carries, fc_Pb = f_Pb + sum of R fc of what hangs
+        on it */
+    const double fc_Pb_y = c5*f_P_x - s5*f_P_y;
+    tau[0] = s4*f_P_z + c4*fc_Pb_y;
+    tau[1] = c3*(s5*f_P_x + c5*f_P_y) - s3*(c4*f_P_z - s4*fc_Pb_y);
+    const double minus_vd_Pa_y = t2 - c3*qdd[2];
+    const double vd_Pb_y_2 = t17 + s4*minus_vd_Pa_y;
+    const double vd_Pa_x_2 = t19 + s3*qdd[2];
+    /* link P: acceleration of the origin less gravity, vd_P = R_P' (vd_Pb + U_Pb p_P) */
+    const double vd_P_x = c5*vd_Pb_y_2 + s5*vd_Pa_x_2;
+    const double minus_f_P_x = t24 - beta[9]*vd_P_x;
+    const double vd_P_y = c5*vd_Pa_x_2 - s5*vd_Pb_y_2;
+    const double minus_f_P_y = t26 - beta[9]*vd_P_y;
+    const double vd_Pb_x = t4 - c4*minus_vd_Pa_y;
+    tau[2] = -(s3*(s5*minus_f_P_x + c5*minus_f_P_y) + c3*(c4*(t15 - beta[9]*vd_Pb_x) -
+        s4*(c5*minus_f_P_x - s5*minus_f_P_y)));
+    const double h_P_y = w_P_x*beta[1] + w_P_y*beta[3] + w_P_z*beta[4];
+    const double h_P_x = w_P_x*beta[0] + w_P_y*beta[1] + w_P_z*beta[2];
+    const double t39 = w_P_x*h_P_y - w_P_y*h_P_x + (wd_P_x*beta[2] + wd_P_y*beta[4] +
+        wd_P_z*beta[5]);
+    /* link P: moment on the link at its origin, n_P = J_P wd_P + w_P x J_P w_P + MS_P x vd_P */
+    const double n_P_z = beta[6]*vd_P_y - beta[7]*vd_P_x + t39;
+    const double h_P_z = w_P_x*beta[2] + w_P_y*beta[4] + w_P_z*beta[5];
+    const double t42 = w_P_y*h_P_z - w_P_z*h_P_y + (wd_P_x*beta[0] + wd_P_y*beta[1] +
+        wd_P_z*beta[2]);
+    const double n_P_x = beta[7]*vd_Pb_x - beta[8]*vd_P_y + t42;
+    const double t44 = w_P_z*h_P_x - w_P_x*h_P_z + (wd_P_x*beta[1] + wd_P_y*beta[3] +
+        wd_P_z*beta[4]);
+    const double n_P_y = beta[8]*vd_P_x - beta[6]*vd_Pb_x + t44;
+    tau[3] = s4*n_P_z + c4*(c5*n_P_x - s5*n_P_y);
+    tau[4] = s5*n_P_x + c5*n_P_y;
+    tau[5] = n_P_z;
+    /* link 26: angular velocity, w26 = R26' w16 + qd26 z */
+    const double minus_w26_y = s24*qd[23];
+    const double ww26_zz = qd[24]*qd[24];
+    /* link 26: acceleration of points of the link, U26 = [wd26 x] + [w26 x][w26 x] */
+    const double minus_U26_xx = minus_w26_y*minus_w26_y + ww26_zz;
+    const double minus_U26_xz = s24*qdd[23];
+    const double w26_x = c24*qd[23];
+    const double minus_ww26_xy = w26_x*minus_w26_y;
+    const double minus_U26_xy = qdd[24] + minus_ww26_xy;
+    /* link 36: force on the link, f36 = M36 vd36 + U36 MS36 */
+    const double minus_f36_x = minus_U26_xx*beta[87] + minus_U26_xz*beta[88] -
+        minus_U26_xy*beta[89];
+    /* link 26: force on the link and all that it carries, fc26 = f26 + sum of R fc of what hangs on
+        it */
+    const double minus_fc26_x = minus_U26_xx*beta[85] + minus_U26_xy*beta[86] + minus_f36_x;
+    const double minus_U26_yy = w26_x*w26_x + ww26_zz;
+    const double U26_yx = qdd[24] - minus_ww26_xy;
+    const double minus_U26_yz = c24*qdd[23];
+    const double minus_f36_z = U26_yx*beta[87] - minus_U26_yz*beta[88] + minus_U26_yy*beta[89];
+    const double fc26_y = U26_yx*beta[85] - minus_U26_yy*beta[86] + minus_f36_z;
+    const double ww16_zz = qd[23]*qd[23];
+    const double ww26_xz = qd[24]*w26_x;
+    /* link 26: angular acceleration, wd26 = R26' wd16 + (R26' w16) x qd26 z + qdd26 z */
+    const double minus_wd26_y = minus_U26_xz + ww26_xz;
+    const double U26_zx = ww26_xz + minus_wd26_y;
+    const double minus_ww26_yz = qd[24]*minus_w26_y;
+    const double wd26_x = minus_U26_yz - minus_ww26_yz;
+    const double minus_U26_zy = minus_ww26_yz - wd26_x;
+    const double minus_f36_y = ww16_zz*beta[88] - U26_zx*beta[87] - minus_U26_zy*beta[89];
+    /* link 16: force on the link and all that it carries, fc16 = f16 + sum of R fc of what hangs on
+        it */
+    const double fc16_y = minus_U26_zy*beta[86] - U26_zx*beta[85] + minus_f36_y + (qdd[23]*beta[78]
+        - ww16_zz*beta[79]);
+    /* link B6: force on the link and all that it carries, fc_B6 = f_B6 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B6_x = s23*(s24*minus_fc26_x - c24*fc26_y - (ww16_zz*beta[78] +
+        qdd[23]*beta[79])) + c23*fc16_y;
+    const double minus_fc16_z = c24*minus_fc26_x + s24*fc26_y;
+    /* link 25: angular velocity, w25 = R25' w15 + qd25 z */
+    const double minus_w25_y = s21*qd[20];
+    const double ww25_zz = qd[21]*qd[21];
+    /* link 25: acceleration of points of the link, U25 = [wd25 x] + [w25 x][w25 x] */
+    const double minus_U25_xx = minus_w25_y*minus_w25_y + ww25_zz;
+    const double minus_U25_xz = s21*qdd[20];
+    const double w25_x = c21*qd[20];
+    const double minus_ww25_xy = w25_x*minus_w25_y;
+    const double minus_U25_xy = qdd[21] + minus_ww25_xy;
+    /* link 35: force on the link, f35 = M35 vd35 + U35 MS35 */
+    const double minus_f35_x = minus_U25_xx*beta[74] + minus_U25_xz*beta[75] -
+        minus_U25_xy*beta[76];
+    /* link 25: force on the link and all that it carries, fc25 = f25 + sum of R fc of what hangs on
+        it */
+    const double minus_fc25_x = minus_U25_xx*beta[72] + minus_U25_xy*beta[73] + minus_f35_x;
+    const double minus_U25_yy = w25_x*w25_x + ww25_zz;
+    const double U25_yx = qdd[21] - minus_ww25_xy;
+    const double minus_U25_yz = c21*qdd[20];
+    const double minus_f35_z = U25_yx*beta[74] - minus_U25_yz*beta[75] + minus_U25_yy*beta[76];
+    const double fc25_y = U25_yx*beta[72] - minus_U25_yy*beta[73] + minus_f35_z;
+    const double ww15_zz = qd[20]*qd[20];
+    const double ww25_xz = qd[21]*w25_x;
+    /* link 25: angular acceleration, wd25 = R25' wd15 + (R25' w15) x qd25 z + qdd25 z */
+    const double minus_wd25_y = minus_U25_xz + ww25_xz;
+    const double U25_zx = ww25_xz + minus_wd25_y;
+    const double minus_ww25_yz = qd[21]*minus_w25_y;
+    const double wd25_x = minus_U25_yz - minus_ww25_yz;
+    const double minus_U25_zy = minus_ww25_yz - wd25_x;
+    const double minus_f35_y = ww15_zz*beta[75] - U25_zx*beta[74] - minus_U25_zy*beta[76];
+    /* link 15: force on the link and all that it carries, fc15 = f15 + sum of R fc of what hangs on
+        it */
+    const double fc15_y = minus_U25_zy*beta[73] - U25_zx*beta[72] + minus_f35_y + (qdd[20]*beta[65]
+        - ww15_zz*beta[66]);
+    /* link B5: force on the link and all that it carries, fc_B5 = f_B5 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B5_x = s20*(s21*minus_fc25_x - c21*fc25_y - (ww15_zz*beta[65] +
+        qdd[20]*beta[66])) + c20*fc15_y;
+    const double minus_fc15_z = c21*minus_fc25_x + s21*fc25_y;
+    /* link 24: angular velocity, w24 = R24' w14 + qd24 z */
+    const double minus_w24_y = s18*qd[17];
+    const double ww24_zz = qd[18]*qd[18];
+    /* link 24: acceleration of points of the link, U24 = [wd24 x] + [w24 x][w24 x] */
+    const double minus_U24_xx = minus_w24_y*minus_w24_y + ww24_zz;
+    const double minus_U24_xz = s18*qdd[17];
+    const double w24_x = c18*qd[17];
+    const double minus_ww24_xy = w24_x*minus_w24_y;
+    const double minus_U24_xy = qdd[18] + minus_ww24_xy;
+    /* link 34: force on the link, f34 = M34 vd34 + U34 MS34 */
+    const double minus_f34_x = minus_U24_xx*beta[61] + minus_U24_xz*beta[62] -
+        minus_U24_xy*beta[63];
+    /* link 24: force on the link and all that it carries, fc24 = f24 + sum of R fc of what hangs on
+        it */
+    const double minus_fc24_x = minus_U24_xx*beta[59] + minus_U24_xy*beta[60] + minus_f34_x;
+    const double minus_U24_yy = w24_x*w24_x + ww24_zz;
+    const double U24_yx = qdd[18] - minus_ww24_xy;
+    const double minus_U24_yz = c18*qdd[17];
+    const double minus_f34_z = U24_yx*beta[61] - minus_U24_yz*beta[62] + minus_U24_yy*beta[63];
+    const double fc24_y = U24_yx*beta[59] - minus_U24_yy*beta[60] + minus_f34_z;
+    const double ww14_zz = qd[17]*qd[17];
+    const double ww24_xz = qd[18]*w24_x;
+    /* link 24: angular acceleration, wd24 = R24' wd14 + (R24' w14) x qd24 z + qdd24 z */
+    const double minus_wd24_y = minus_U24_xz + ww24_xz;
+    const double U24_zx = ww24_xz + minus_wd24_y;
+    const double minus_ww24_yz = qd[18]*minus_w24_y;
+    const double wd24_x = minus_U24_yz - minus_ww24_yz;
+    const double minus_U24_zy = minus_ww24_yz - wd24_x;
+    const double minus_f34_y = ww14_zz*beta[62] - U24_zx*beta[61] - minus_U24_zy*beta[63];
+    /* link 14: force on the link and all that it carries, fc14 = f14 + sum of R fc of what hangs on
+        it */
+    const double fc14_y = minus_U24_zy*beta[60] - U24_zx*beta[59] + minus_f34_y + (qdd[17]*beta[52]
+        - ww14_zz*beta[53]);
+    /* link B4: force on the link and all that it carries, fc_B4 = f_B4 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B4_x = s17*(s18*minus_fc24_x - c18*fc24_y - (ww14_zz*beta[52] +
+        qdd[17]*beta[53])) + c17*fc14_y;
+    const double minus_fc14_z = c18*minus_fc24_x + s18*fc24_y;
+    /* link 23: angular velocity, w23 = R23' w13 + qd23 z */
+    const double minus_w23_y = s15*qd[14];
+    const double ww23_zz = qd[15]*qd[15];
+    /* link 23: acceleration of points of the link, U23 = [wd23 x] + [w23 x][w23 x] */
+    const double minus_U23_xx = minus_w23_y*minus_w23_y + ww23_zz;
+    const double minus_U23_xz = s15*qdd[14];
+    const double w23_x = c15*qd[14];
+    const double minus_ww23_xy = w23_x*minus_w23_y;
+    const double minus_U23_xy = qdd[15] + minus_ww23_xy;
+    /* link 33: force on the link, f33 = M33 vd33 + U33 MS33 */
+    const double minus_f33_x = minus_U23_xx*beta[48] + minus_U23_xz*beta[49] -
+        minus_U23_xy*beta[50];
+    /* link 23: force on the link and all that it carries, fc23 = f23 + sum of R fc of what hangs on
+        it */
+    const double minus_fc23_x = minus_U23_xx*beta[46] + minus_U23_xy*beta[47] + minus_f33_x;
+    const double minus_U23_yy = w23_x*w23_x + ww23_zz;
+    const double U23_yx = qdd[15] - minus_ww23_xy;
+    const double minus_U23_yz = c15*qdd[14];
+    const double minus_f33_z = U23_yx*beta[48] - minus_U23_yz*beta[49] + minus_U23_yy*beta[50];
+    const double fc23_y = U23_yx*beta[46] - minus_U23_yy*beta[47] + minus_f33_z;
+    const double ww13_zz = qd[14]*qd[14];
+    const double ww23_xz = qd[15]*w23_x;
+    /* link 23: angular acceleration, wd23 = R23' wd13 + (R23' w13) x qd23 z + qdd23 z */
+    const double minus_wd23_y = minus_U23_xz + ww23_xz;
+    const double U23_zx = ww23_xz + minus_wd23_y;
+    const double minus_ww23_yz = qd[15]*minus_w23_y;
+    const double wd23_x = minus_U23_yz - minus_ww23_yz;
+    const double minus_U23_zy = minus_ww23_yz - wd23_x;
+    const double minus_f33_y = ww13_zz*beta[49] - U23_zx*beta[48] - minus_U23_zy*beta[50];
+    /* link 13: force on the link and all that it carries, fc13 = f13 + sum of R fc of what hangs on
+        it */
+    const double fc13_y = minus_U23_zy*beta[47] - U23_zx*beta[46] + minus_f33_y + (qdd[14]*beta[39]
+        - ww13_zz*beta[40]);
+    /* link B3: force on the link and all that it carries, fc_B3 = f_B3 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B3_x = s14*(s15*minus_fc23_x - c15*fc23_y - (ww13_zz*beta[39] +
+        qdd[14]*beta[40])) + c14*fc13_y;
+    const double minus_fc13_z = c15*minus_fc23_x + s15*fc23_y;
+    const double t146 = x_B6_x*minus_fc_B6_x - x_B6_y*minus_fc16_z + (x_B5_x*minus_fc_B5_x -
+        x_B5_y*minus_fc15_z) + (x_B4_x*minus_fc_B4_x - x_B4_y*minus_fc14_z);
+    /* link 22: angular velocity, w22 = R22' w12 + qd22 z */
+    const double minus_w22_y = s12*qd[11];
+    const double ww22_zz = qd[12]*qd[12];
+    /* link 22: acceleration of points of the link, U22 = [wd22 x] + [w22 x][w22 x] */
+    const double minus_U22_xx = minus_w22_y*minus_w22_y + ww22_zz;
+    const double minus_U22_xz = s12*qdd[11];
+    const double w22_x = c12*qd[11];
+    const double minus_ww22_xy = w22_x*minus_w22_y;
+    const double minus_U22_xy = qdd[12] + minus_ww22_xy;
+    /* link 32: force on the link, f32 = M32 vd32 + U32 MS32 */
+    const double minus_f32_x = minus_U22_xx*beta[35] + minus_U22_xz*beta[36] -
+        minus_U22_xy*beta[37];
+    /* link 22: force on the link and all that it carries, fc22 = f22 + sum of R fc of what hangs on
+        it */
+    const double minus_fc22_x = minus_U22_xx*beta[33] + minus_U22_xy*beta[34] + minus_f32_x;
+    const double minus_U22_yy = w22_x*w22_x + ww22_zz;
+    const double U22_yx = qdd[12] - minus_ww22_xy;
+    const double minus_U22_yz = c12*qdd[11];
+    const double minus_f32_z = U22_yx*beta[35] - minus_U22_yz*beta[36] + minus_U22_yy*beta[37];
+    const double fc22_y = U22_yx*beta[33] - minus_U22_yy*beta[34] + minus_f32_z;
+    const double ww12_zz = qd[11]*qd[11];
+    const double ww22_xz = qd[12]*w22_x;
+    /* link 22: angular acceleration, wd22 = R22' wd12 + (R22' w12) x qd22 z + qdd22 z */
+    const double minus_wd22_y = minus_U22_xz + ww22_xz;
+    const double U22_zx = ww22_xz + minus_wd22_y;
+    const double minus_ww22_yz = qd[12]*minus_w22_y;
+    const double wd22_x = minus_U22_yz - minus_ww22_yz;
+    const double minus_U22_zy = minus_ww22_yz - wd22_x;
+    const double minus_f32_y = ww12_zz*beta[36] - U22_zx*beta[35] - minus_U22_zy*beta[37];
+    /* link 12: force on the link and all that it carries, fc12 = f12 + sum of R fc of what hangs on
+        it */
+    const double fc12_y = minus_U22_zy*beta[34] - U22_zx*beta[33] + minus_f32_y + (qdd[11]*beta[26]
+        - ww12_zz*beta[27]);
+    /* link B2: force on the link and all that it carries, fc_B2 = f_B2 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B2_x = s11*(s12*minus_fc22_x - c12*fc22_y - (ww12_zz*beta[26] +
+        qdd[11]*beta[27])) + c11*fc12_y;
+    const double minus_fc12_z = c12*minus_fc22_x + s12*fc22_y;
+    /* link 21: angular velocity, w21 = R21' w11 + qd21 z */
+    const double minus_w21_y = s9*qd[8];
+    const double ww21_zz = qd[9]*qd[9];
+    /* link 21: acceleration of points of the link, U21 = [wd21 x] + [w21 x][w21 x] */
+    const double minus_U21_xx = minus_w21_y*minus_w21_y + ww21_zz;
+    const double minus_U21_xz = s9*qdd[8];
+    const double w21_x = c9*qd[8];
+    const double minus_ww21_xy = w21_x*minus_w21_y;
+    const double minus_U21_xy = qdd[9] + minus_ww21_xy;
+    /* link 31: force on the link, f31 = M31 vd31 + U31 MS31 */
+    const double minus_f31_x = minus_U21_xx*beta[22] + minus_U21_xz*beta[23] -
+        minus_U21_xy*beta[24];
+    /* link 21: force on the link and all that it carries, fc21 = f21 + sum of R fc of what hangs on
+        it */
+    const double minus_fc21_x = minus_U21_xx*beta[20] + minus_U21_xy*beta[21] + minus_f31_x;
+    const double minus_U21_yy = w21_x*w21_x + ww21_zz;
+    const double U21_yx = qdd[9] - minus_ww21_xy;
+    const double minus_U21_yz = c9*qdd[8];
+    const double minus_f31_z = U21_yx*beta[22] - minus_U21_yz*beta[23] + minus_U21_yy*beta[24];
+    const double fc21_y = U21_yx*beta[20] - minus_U21_yy*beta[21] + minus_f31_z;
+    const double ww11_zz = qd[8]*qd[8];
+    const double ww21_xz = qd[9]*w21_x;
+    /* link 21: angular acceleration, wd21 = R21' wd11 + (R21' w11) x qd21 z + qdd21 z */
+    const double minus_wd21_y = minus_U21_xz + ww21_xz;
+    const double U21_zx = ww21_xz + minus_wd21_y;
+    const double minus_ww21_yz = qd[9]*minus_w21_y;
+    const double wd21_x = minus_U21_yz - minus_ww21_yz;
+    const double minus_U21_zy = minus_ww21_yz - wd21_x;
+    const double minus_f31_y = ww11_zz*beta[23] - U21_zx*beta[22] - minus_U21_zy*beta[24];
+    /* link 11: force on the link and all that it carries, fc11 = f11 + sum of R fc of what hangs on
+        it */
+    const double fc11_y = minus_U21_zy*beta[21] - U21_zx*beta[20] + minus_f31_y + (qdd[8]*beta[13] -
+        ww11_zz*beta[14]);
+    /* link B1: force on the link and all that it carries, fc_B1 = f_B1 + sum of R fc of what hangs
+        on it */
+    const double minus_fc_B1_x = s8*(s9*minus_fc21_x - c9*fc21_y - (ww11_zz*beta[13] +
+        qdd[8]*beta[14])) + c8*fc11_y;
+    const double minus_fc11_z = c9*minus_fc21_x + s9*fc21_y;
+    /* link B: force on the link and all that it carries, fc_B = f_B + sum of R fc of what hangs on
+        it */
+    const double minus_fc_B_x = x_B3_x*minus_fc_B3_x - x_B3_y*minus_fc13_z + t146 +
+        (x_B2_x*minus_fc_B2_x - x_B2_y*minus_fc12_z) + (x_B1_x*minus_fc_B1_x - x_B1_y*minus_fc11_z);
+    tau[6] = qdd[6]*beta[10] - (minus_fc_B_x - qdd[6]*beta[11]);
+    const double t198 = x_B6_y*minus_fc_B6_x + x_B6_x*minus_fc16_z + (x_B5_y*minus_fc_B5_x +
+        x_B5_x*minus_fc15_z) + (x_B4_y*minus_fc_B4_x + x_B4_x*minus_fc14_z);
+    const double minus_fc_B_y = x_B3_y*minus_fc_B3_x + x_B3_x*minus_fc13_z + t198 +
+        (x_B2_y*minus_fc_B2_x + x_B2_x*minus_fc12_z) + (x_B1_y*minus_fc_B1_x + x_B1_x*minus_fc11_z);
+    tau[7] = qdd[7]*beta[11] - minus_fc_B_y;
+    /* link B1: acceleration of the origin less gravity, vd_B1 = R_B1' (vd_B + U_B p_B1) */
+    const double vd_B1_y = x_B1_x*qdd[7] - x_B1_y*qdd[6];
+    const double vd_B1_x = x_B1_x*qdd[6] + x_B1_y*qdd[7];
+    /* link 11: acceleration of the origin less gravity, vd11 = R11' (vd_B1 + U_B1 p11) */
+    const double minus_vd11_x = s8*vd_B1_x;
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double minus_vd21_y = s9*vd_B1_y - c9*minus_vd11_x;
+    /* link 31: acceleration of the origin less gravity, vd31 = R31' (vd21 + U21 p31) + 2 w31 x qd31
+        z + qdd31 z */
+    const double vd31_z = minus_vd21_y - q[10]*minus_U21_yy + qdd[10];
+    const double minus_vd11_y = c8*vd_B1_x;
+    const double minus_vd31_y = qd[10]*w21_x*2.0 - (minus_vd11_y + q[10]*minus_U21_zy);
+    const double h21_z = w21_x*beta[17] - minus_w21_y*beta[18] + qd[9]*beta[19];
+    const double h21_y = w21_x*beta[16] + qd[9]*beta[18];
+    const double t209 = minus_w21_y*h21_z + qd[9]*h21_y - (wd21_x*beta[15] - minus_wd21_y*beta[16] +
+        qdd[9]*beta[17]);
+    const double vd21_x = c9*vd_B1_y + s9*minus_vd11_x;
+    const double vd31_x = q[10]*minus_U21_xy + vd21_x + qd[9]*qd[10]*2.0;
+    const double h21_x = w21_x*beta[15] - minus_w21_y*beta[16] + qd[9]*beta[17];
+    /* link 21: moment on the link at its origin, n21 = J21 wd21 + w21 x J21 w21 + MS21 x vd21 */
+    const double n21_y = qd[9]*h21_x - w21_x*h21_z + (wd21_x*beta[16] + qdd[9]*beta[18]) -
+        minus_vd11_y*beta[20];
+    const double t214 = c9*(beta[23]*vd31_z + beta[24]*minus_vd31_y + q[10]*minus_f31_y +
+        (minus_vd11_y*beta[21] - t209));
+    /* link 21: moment on the link and all that it carries, nc21 = n21 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc21a_z = t214 - s9*(beta[22]*minus_vd31_y + beta[23]*vd31_x + n21_y);
+    tau[8] = minus_vd11_x*beta[14] - minus_vd11_y*beta[13] + qdd[8]*beta[12] + nc21a_z;
+    const double t216 = w21_x*h21_y + minus_w21_y*h21_x + (wd21_x*beta[17] - minus_wd21_y*beta[18] +
+        qdd[9]*beta[19]);
+    /* link 31: moment on the link and all that it carries, nc31 = n31 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc31a_z = beta[22]*vd31_z - beta[24]*vd31_x + q[10]*minus_f31_x;
+    tau[9] = t216 - (beta[20]*minus_vd21_y + beta[21]*vd21_x) - minus_nc31a_z;
+    tau[10] = -minus_f31_z;
+    /* link B2: acceleration of the origin less gravity, vd_B2 = R_B2' (vd_B + U_B p_B2) */
+    const double vd_B2_y = x_B2_x*qdd[7] - x_B2_y*qdd[6];
+    const double vd_B2_x = x_B2_x*qdd[6] + x_B2_y*qdd[7];
+    /* link 12: acceleration of the origin less gravity, vd12 = R12' (vd_B2 + U_B2 p12) */
+    const double minus_vd12_x = s11*vd_B2_x;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double minus_vd22_y = s12*vd_B2_y - c12*minus_vd12_x;
+    /* link 32: acceleration of the origin less gravity, vd32 = R32' (vd22 + U22 p32) + 2 w32 x qd32
+        z + qdd32 z */
+    const double vd32_z = minus_vd22_y - q[13]*minus_U22_yy + qdd[13];
+    const double minus_vd12_y = c11*vd_B2_x;
+    const double minus_vd32_y = qd[13]*w22_x*2.0 - (minus_vd12_y + q[13]*minus_U22_zy);
+    const double h22_z = w22_x*beta[30] - minus_w22_y*beta[31] + qd[12]*beta[32];
+    const double h22_y = w22_x*beta[29] + qd[12]*beta[31];
+    const double t227 = wd22_x*beta[28] - minus_wd22_y*beta[29] + qdd[12]*beta[30];
+    /* link 22: moment on the link at its origin, n22 = J22 wd22 + w22 x J22 w22 + MS22 x vd22 */
+    const double minus_n22_x = minus_w22_y*h22_z + qd[12]*h22_y - t227 - minus_vd12_y*beta[34];
+    const double vd22_x = c12*vd_B2_y + s12*minus_vd12_x;
+    const double vd32_x = q[13]*minus_U22_xy + vd22_x + qd[12]*qd[13]*2.0;
+    const double h22_x = w22_x*beta[28] - minus_w22_y*beta[29] + qd[12]*beta[30];
+    const double t232 = qd[12]*h22_x - w22_x*h22_z + (wd22_x*beta[29] + qdd[12]*beta[31]);
+    const double t233 = s12*(beta[35]*minus_vd32_y + beta[36]*vd32_x + (t232 -
+        minus_vd12_y*beta[33]));
+    /* link 22: moment on the link and all that it carries, nc22 = n22 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc22a_z = c12*(beta[36]*vd32_z + beta[37]*minus_vd32_y + q[13]*minus_f32_y -
+        minus_n22_x) - t233;
+    tau[11] = minus_vd12_x*beta[27] - minus_vd12_y*beta[26] + qdd[11]*beta[25] + nc22a_z;
+    const double t235 = w22_x*h22_y + minus_w22_y*h22_x + (wd22_x*beta[30] - minus_wd22_y*beta[31] +
+        qdd[12]*beta[32]);
+    /* link 32: moment on the link and all that it carries, nc32 = n32 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc32a_z = beta[35]*vd32_z - beta[37]*vd32_x + q[13]*minus_f32_x;
+    tau[12] = t235 - (beta[33]*minus_vd22_y + beta[34]*vd22_x) - minus_nc32a_z;
+    tau[13] = -minus_f32_z;
+    /* link B3: acceleration of the origin less gravity, vd_B3 = R_B3' (vd_B + U_B p_B3) */
+    const double vd_B3_y = x_B3_x*qdd[7] - x_B3_y*qdd[6];
+    const double vd_B3_x = x_B3_x*qdd[6] + x_B3_y*qdd[7];
+    /* link 13: acceleration of the origin less gravity, vd13 = R13' (vd_B3 + U_B3 p13) */
+    const double minus_vd13_x = s14*vd_B3_x;
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double minus_vd23_y = s15*vd_B3_y - c15*minus_vd13_x;
+    /* link 33: acceleration of the origin less gravity, vd33 = R33' (vd23 + U23 p33) + 2 w33 x qd33
+        z + qdd33 z */
+    const double vd33_z = minus_vd23_y - q[16]*minus_U23_yy + qdd[16];
+    const double minus_vd13_y = c14*vd_B3_x;
+    const double minus_vd33_y = qd[16]*w23_x*2.0 - (minus_vd13_y + q[16]*minus_U23_zy);
+    const double h23_z = w23_x*beta[43] - minus_w23_y*beta[44] + qd[15]*beta[45];
+    const double h23_y = w23_x*beta[42] + qd[15]*beta[44];
+    const double t246 = wd23_x*beta[41] - minus_wd23_y*beta[42] + qdd[15]*beta[43];
+    /* link 23: moment on the link at its origin, n23 = J23 wd23 + w23 x J23 w23 + MS23 x vd23 */
+    const double minus_n23_x = minus_w23_y*h23_z + qd[15]*h23_y - t246 - minus_vd13_y*beta[47];
+    const double vd23_x = c15*vd_B3_y + s15*minus_vd13_x;
+    const double vd33_x = q[16]*minus_U23_xy + vd23_x + qd[15]*qd[16]*2.0;
+    const double h23_x = w23_x*beta[41] - minus_w23_y*beta[42] + qd[15]*beta[43];
+    const double t251 = qd[15]*h23_x - w23_x*h23_z + (wd23_x*beta[42] + qdd[15]*beta[44]);
+    const double t252 = s15*(beta[48]*minus_vd33_y + beta[49]*vd33_x + (t251 -
+        minus_vd13_y*beta[46]));
+    /* link 23: moment on the link and all that it carries, nc23 = n23 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc23a_z = c15*(beta[49]*vd33_z + beta[50]*minus_vd33_y + q[16]*minus_f33_y -
+        minus_n23_x) - t252;
+    tau[14] = minus_vd13_x*beta[40] - minus_vd13_y*beta[39] + qdd[14]*beta[38] + nc23a_z;
+    const double t254 = w23_x*h23_y + minus_w23_y*h23_x + (wd23_x*beta[43] - minus_wd23_y*beta[44] +
+        qdd[15]*beta[45]);
+    /* link 33: moment on the link and all that it carries, nc33 = n33 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc33a_z = beta[48]*vd33_z - beta[50]*vd33_x + q[16]*minus_f33_x;
+    tau[15] = t254 - (beta[46]*minus_vd23_y + beta[47]*vd23_x) - minus_nc33a_z;
+    tau[16] = -minus_f33_z;
+    /* link B4: acceleration of the origin less gravity, vd_B4 = R_B4' (vd_B + U_B p_B4) */
+    const double vd_B4_y = x_B4_x*qdd[7] - x_B4_y*qdd[6];
+    const double vd_B4_x = x_B4_x*qdd[6] + x_B4_y*qdd[7];
+    /* link 14: acceleration of the origin less gravity, vd14 = R14' (vd_B4 + U_B4 p14) */
+    const double minus_vd14_x = s17*vd_B4_x;
+    /* link 24: acceleration of the origin less gravity, vd24 = R24' (vd14 + U14 p24) */
+    const double minus_vd24_y = s18*vd_B4_y - c18*minus_vd14_x;
+    /* link 34: acceleration of the origin less gravity, vd34 = R34' (vd24 + U24 p34) + 2 w34 x qd34
+        z + qdd34 z */
+    const double vd34_z = minus_vd24_y - q[19]*minus_U24_yy + qdd[19];
+    const double minus_vd14_y = c17*vd_B4_x;
+    const double minus_vd34_y = qd[19]*w24_x*2.0 - (minus_vd14_y + q[19]*minus_U24_zy);
+    const double h24_z = w24_x*beta[56] - minus_w24_y*beta[57] + qd[18]*beta[58];
+    const double h24_y = w24_x*beta[55] + qd[18]*beta[57];
+    const double t265 = wd24_x*beta[54] - minus_wd24_y*beta[55] + qdd[18]*beta[56];
+    /* link 24: moment on the link at its origin, n24 = J24 wd24 + w24 x J24 w24 + MS24 x vd24 */
+    const double minus_n24_x = minus_w24_y*h24_z + qd[18]*h24_y - t265 - minus_vd14_y*beta[60];
+    const double vd24_x = c18*vd_B4_y + s18*minus_vd14_x;
+    const double vd34_x = q[19]*minus_U24_xy + vd24_x + qd[18]*qd[19]*2.0;
+    const double h24_x = w24_x*beta[54] - minus_w24_y*beta[55] + qd[18]*beta[56];
+    const double t270 = qd[18]*h24_x - w24_x*h24_z + (wd24_x*beta[55] + qdd[18]*beta[57]);
+    const double t271 = s18*(beta[61]*minus_vd34_y + beta[62]*vd34_x + (t270 -
+        minus_vd14_y*beta[59]));
+    /* link 24: moment on the link and all that it carries, nc24 = n24 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc24a_z = c18*(beta[62]*vd34_z + beta[63]*minus_vd34_y + q[19]*minus_f34_y -
+        minus_n24_x) - t271;
+    tau[17] = minus_vd14_x*beta[53] - minus_vd14_y*beta[52] + qdd[17]*beta[51] + nc24a_z;
+    const double t273 = w24_x*h24_y + minus_w24_y*h24_x + (wd24_x*beta[56] - minus_wd24_y*beta[57] +
+        qdd[18]*beta[58]);
+    /* link 34: moment on the link and all that it carries, nc34 = n34 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc34a_z = beta[61]*vd34_z - beta[63]*vd34_x + q[19]*minus_f34_x;
+    tau[18] = t273 - (beta[59]*minus_vd24_y + beta[60]*vd24_x) - minus_nc34a_z;
+    tau[19] = -minus_f34_z;
+    /* link B5: acceleration of the origin less gravity, vd_B5 = R_B5' (vd_B + U_B p_B5) */
+    const double vd_B5_y = x_B5_x*qdd[7] - x_B5_y*qdd[6];
+    const double vd_B5_x = x_B5_x*qdd[6] + x_B5_y*qdd[7];
+    /* link 15: acceleration of the origin less gravity, vd15 = R15' (vd_B5 + U_B5 p15) */
+    const double minus_vd15_x = s20*vd_B5_x;
+    /* link 25: acceleration of the origin less gravity, vd25 = R25' (vd15 + U15 p25) */
+    const double minus_vd25_y = s21*vd_B5_y - c21*minus_vd15_x;
+    /* link 35: acceleration of the origin less gravity, vd35 = R35' (vd25 + U25 p35) + 2 w35 x qd35
+        z + qdd35 z */
+    const double vd35_z = minus_vd25_y - q[22]*minus_U25_yy + qdd[22];
+    const double minus_vd15_y = c20*vd_B5_x;
+    const double minus_vd35_y = qd[22]*w25_x*2.0 - (minus_vd15_y + q[22]*minus_U25_zy);
+    const double h25_z = w25_x*beta[69] - minus_w25_y*beta[70] + qd[21]*beta[71];
+    const double h25_y = w25_x*beta[68] + qd[21]*beta[70];
+    const double t284 = minus_w25_y*h25_z + qd[21]*h25_y - (wd25_x*beta[67] - minus_wd25_y*beta[68]
+        + qdd[21]*beta[69]);
+    const double vd25_x = c21*vd_B5_y + s21*minus_vd15_x;
+    const double vd35_x = q[22]*minus_U25_xy + vd25_x + qd[21]*qd[22]*2.0;
+    const double h25_x = w25_x*beta[67] - minus_w25_y*beta[68] + qd[21]*beta[69];
+    /* link 25: moment on the link at its origin, n25 = J25 wd25 + w25 x J25 w25 + MS25 x vd25 */
+    const double n25_y = qd[21]*h25_x - w25_x*h25_z + (wd25_x*beta[68] + qdd[21]*beta[70]) -
+        minus_vd15_y*beta[72];
+    const double t289 = c21*(beta[75]*vd35_z + beta[76]*minus_vd35_y + q[22]*minus_f35_y +
+        (minus_vd15_y*beta[73] - t284));
+    /* link 25: moment on the link and all that it carries, nc25 = n25 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc25a_z = t289 - s21*(beta[74]*minus_vd35_y + beta[75]*vd35_x + n25_y);
+    tau[20] = minus_vd15_x*beta[66] - minus_vd15_y*beta[65] + qdd[20]*beta[64] + nc25a_z;
+    const double t291 = w25_x*h25_y + minus_w25_y*h25_x + (wd25_x*beta[69] - minus_wd25_y*beta[70] +
+        qdd[21]*beta[71]);
+    /* link 35: moment on the link and all that it carries, nc35 = n35 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc35a_z = beta[74]*vd35_z - beta[76]*vd35_x + q[22]*minus_f35_x;
+    tau[21] = t291 - (beta[72]*minus_vd25_y + beta[73]*vd25_x) - minus_nc35a_z;
+    tau[22] = -minus_f35_z;
+    /* link B6: acceleration of the origin less gravity, vd_B6 = R_B6' (vd_B + U_B p_B6) */
+    const double vd_B6_y = x_B6_x*qdd[7] - x_B6_y*qdd[6];
+    const double vd_B6_x = x_B6_x*qdd[6] + x_B6_y*qdd[7];
+    /* link 16: acceleration of the origin less gravity, vd16 = R16' (vd_B6 + U_B6 p16) */
+    const double minus_vd16_x = s23*vd_B6_x;
+    /* link 26: acceleration of the origin less gravity, vd26 = R26' (vd16 + U16 p26) */
+    const double minus_vd26_y = s24*vd_B6_y - c24*minus_vd16_x;
+    /* link 36: acceleration of the origin less gravity, vd36 = R36' (vd26 + U26 p36) + 2 w36 x qd36
+        z + qdd36 z */
+    const double vd36_z = minus_vd26_y - q[25]*minus_U26_yy + qdd[25];
+    const double minus_vd16_y = c23*vd_B6_x;
+    const double minus_vd36_y = qd[25]*w26_x*2.0 - (minus_vd16_y + q[25]*minus_U26_zy);
+    const double h26_z = w26_x*beta[82] - minus_w26_y*beta[83] + qd[24]*beta[84];
+    const double h26_y = w26_x*beta[81] + qd[24]*beta[83];
+    const double t302 = minus_w26_y*h26_z + qd[24]*h26_y - (wd26_x*beta[80] - minus_wd26_y*beta[81]
+        + qdd[24]*beta[82]);
+    const double vd26_x = c24*vd_B6_y + s24*minus_vd16_x;
+    const double vd36_x = q[25]*minus_U26_xy + vd26_x + qd[24]*qd[25]*2.0;
+    const double h26_x = w26_x*beta[80] - minus_w26_y*beta[81] + qd[24]*beta[82];
+    /* link 26: moment on the link at its origin, n26 = J26 wd26 + w26 x J26 w26 + MS26 x vd26 */
+    const double n26_y = qd[24]*h26_x - w26_x*h26_z + (wd26_x*beta[81] + qdd[24]*beta[83]) -
+        minus_vd16_y*beta[85];
+    const double t307 = c24*(beta[88]*vd36_z + beta[89]*minus_vd36_y + q[25]*minus_f36_y +
+        (minus_vd16_y*beta[86] - t302));
+    /* link 26: moment on the link and all that it carries, nc26 = n26 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc26a_z = t307 - s24*(beta[87]*minus_vd36_y + beta[88]*vd36_x + n26_y);
+    tau[23] = minus_vd16_x*beta[79] - minus_vd16_y*beta[78] + qdd[23]*beta[77] + nc26a_z;
+    const double t309 = w26_x*h26_y + minus_w26_y*h26_x + (wd26_x*beta[82] - minus_wd26_y*beta[83] +
+        qdd[24]*beta[84]);
+    /* link 36: moment on the link and all that it carries, nc36 = n36 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc36a_z = beta[87]*vd36_z - beta[89]*vd36_x + q[25]*minus_f36_x;
+    tau[24] = t309 - (beta[85]*minus_vd26_y + beta[86]*vd26_x) - minus_nc36a_z;
+    tau[25] = -minus_f36_z;
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets.
@@ -1343,30 +1813,30 @@ void evra_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 {
     MODELER_ALL_ZEROS(T, 312);
 
-    const double k1 = cos(evra_geo_beta1);
-    const double k2 = sin(evra_geo_beta1);
-    const double k3 = k1*evra_geo_RB;
-    const double k4 = k2*evra_geo_RB;
-    const double k5 = cos(evra_geo_beta2);
-    const double k6 = sin(evra_geo_beta2);
-    const double k7 = evra_geo_RB*k5;
-    const double k8 = evra_geo_RB*k6;
-    const double k9 = cos(evra_geo_beta3);
-    const double k10 = sin(evra_geo_beta3);
-    const double k11 = evra_geo_RB*k9;
-    const double k12 = evra_geo_RB*k10;
-    const double k13 = cos(evra_geo_beta4);
-    const double k14 = sin(evra_geo_beta4);
-    const double k15 = evra_geo_RB*k13;
-    const double k16 = evra_geo_RB*k14;
-    const double k17 = cos(evra_geo_beta5);
-    const double k18 = sin(evra_geo_beta5);
-    const double k19 = evra_geo_RB*k17;
-    const double k20 = evra_geo_RB*k18;
-    const double k21 = cos(evra_geo_beta6);
-    const double k22 = sin(evra_geo_beta6);
-    const double k23 = evra_geo_RB*k21;
-    const double k24 = evra_geo_RB*k22;
+    const double x_B1_x = cos(evra_geo_beta1);
+    const double x_B1_y = sin(evra_geo_beta1);
+    const double p_B1_x = x_B1_x*evra_geo_RB;
+    const double p_B1_y = x_B1_y*evra_geo_RB;
+    const double x_B2_x = cos(evra_geo_beta2);
+    const double x_B2_y = sin(evra_geo_beta2);
+    const double p_B2_x = evra_geo_RB*x_B2_x;
+    const double p_B2_y = evra_geo_RB*x_B2_y;
+    const double x_B3_x = cos(evra_geo_beta3);
+    const double x_B3_y = sin(evra_geo_beta3);
+    const double p_B3_x = evra_geo_RB*x_B3_x;
+    const double p_B3_y = evra_geo_RB*x_B3_y;
+    const double x_B4_x = cos(evra_geo_beta4);
+    const double x_B4_y = sin(evra_geo_beta4);
+    const double p_B4_x = evra_geo_RB*x_B4_x;
+    const double p_B4_y = evra_geo_RB*x_B4_y;
+    const double x_B5_x = cos(evra_geo_beta5);
+    const double x_B5_y = sin(evra_geo_beta5);
+    const double p_B5_x = evra_geo_RB*x_B5_x;
+    const double p_B5_y = evra_geo_RB*x_B5_y;
+    const double x_B6_x = cos(evra_geo_beta6);
+    const double x_B6_y = sin(evra_geo_beta6);
+    const double p_B6_x = evra_geo_RB*x_B6_x;
+    const double p_B6_y = evra_geo_RB*x_B6_y;
 
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
@@ -1427,17 +1897,17 @@ void evra_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
     T[48] = s4;
     T[49] = c4;
     T[51] = q[0];
-    const double t1 = s3*c4;
-    T[52] = -t1;
-    const double t2 = s3*s4;
-    T[53] = t2;
+    const double minus_x_Pb_y = s3*c4;
+    T[52] = -minus_x_Pb_y;
+    const double y_Pb_y = s3*s4;
+    T[53] = y_Pb_y;
     T[54] = c3;
     MODELER_ZEROS(T + 10, 3);
     T[55] = q[1];
-    const double t3 = c3*c4;
-    T[56] = t3;
-    const double t4 = c3*s4;
-    T[57] = -t4;
+    const double x_Pb_z = c3*c4;
+    T[56] = x_Pb_z;
+    const double minus_y_Pb_z = c3*s4;
+    T[57] = -minus_y_Pb_z;
     T[58] = s3;
     T[59] = q[2];
     T[60] = c4*c5;
@@ -1445,13 +1915,13 @@ void evra_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
     T[62] = s4;
     T[63] = q[0];
     MODELER_ZEROS(T + 14, 1);
-    T[64] = c5*t2 + c3*s5;
-    T[65] = c3*c5 - s5*t2;
-    T[66] = -t1;
+    T[64] = c5*y_Pb_y + c3*s5;
+    T[65] = c3*c5 - s5*y_Pb_y;
+    T[66] = -minus_x_Pb_y;
     T[67] = q[1];
-    T[68] = s3*s5 - c5*t4;
-    T[69] = s3*c5 + s5*t4;
-    T[70] = t3;
+    T[68] = s3*s5 - c5*minus_y_Pb_z;
+    T[69] = s3*c5 + s5*minus_y_Pb_z;
+    T[70] = x_Pb_z;
     T[71] = q[2];
     T[74] = 1.0;
     T[75] = q[6];
@@ -1463,302 +1933,308 @@ void evra_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
     T[90] = 1.0;
     T[91] = q[7];
     T[92] = 1.0;
-    const double t5 = k1*s8;
-    T[96] = -t5;
-    const double t6 = k1*c8;
+    const double minus_x11_x = x_B1_x*s8;
+    T[96] = -minus_x11_x;
+    const double minus_y11_x = x_B1_x*c8;
     MODELER_ZEROS(T + 21, 3);
-    T[97] = -t6;
-    T[98] = -k2;
-    const double t7 = q[6] + k3;
-    T[99] = t7;
-    const double t8 = k2*s8;
-    T[100] = -t8;
-    const double t9 = k2*c8;
-    T[101] = -t9;
-    T[102] = k1;
-    const double t10 = q[7] + k4;
+    T[97] = -minus_y11_x;
+    T[98] = -x_B1_y;
+    /* link B1: origin of the frame in frame 0, o_B1 = o_B + [x_B y_B z_B] p_B1 */
+    const double o_B1_x = q[6] + p_B1_x;
+    T[99] = o_B1_x;
+    const double minus_x11_y = x_B1_y*s8;
+    T[100] = -minus_x11_y;
+    const double minus_y11_y = x_B1_y*c8;
+    T[101] = -minus_y11_y;
+    T[102] = x_B1_x;
+    const double o_B1_y = q[7] + p_B1_y;
     MODELER_ZEROS(T + 25, 2);
-    T[103] = t10;
+    T[103] = o_B1_y;
     T[104] = -c8;
     T[105] = s8;
-    const double t11 = s9*t5 - k2*c9;
-    T[108] = t11;
-    const double t12 = k2*s9 + c9*t5;
-    T[109] = t12;
-    T[110] = t6;
-    T[111] = t7;
-    const double t13 = s9*t8 + k1*c9;
-    T[112] = t13;
+    const double x21_x = s9*minus_x11_x - x_B1_y*c9;
+    T[108] = x21_x;
+    const double y21_x = x_B1_y*s9 + c9*minus_x11_x;
+    T[109] = y21_x;
+    T[110] = minus_y11_x;
+    T[111] = o_B1_x;
+    const double x21_y = s9*minus_x11_y + x_B1_x*c9;
+    T[112] = x21_y;
     MODELER_ZEROS(T + 28, 1);
-    const double t14 = k1*s9 - c9*t8;
-    T[113] = -t14;
-    T[114] = t9;
-    T[115] = t10;
-    const double t15 = c8*s9;
-    T[116] = t15;
-    const double t16 = c8*c9;
-    T[117] = t16;
+    const double minus_y21_y = x_B1_x*s9 - c9*minus_x11_y;
+    T[113] = -minus_y21_y;
+    T[114] = minus_y11_y;
+    T[115] = o_B1_y;
+    const double x21_z = c8*s9;
+    T[116] = x21_z;
+    const double y21_z = c8*c9;
+    T[117] = y21_z;
     T[118] = -s8;
-    T[120] = t11;
+    T[120] = x21_x;
     MODELER_ZEROS(T + 30, 1);
-    T[121] = t6;
-    T[122] = -t12;
-    T[123] = t7 - q[10]*t12;
-    T[124] = t13;
-    T[125] = t9;
-    T[126] = t14;
-    T[127] = t10 + q[10]*t14;
-    T[128] = t15;
+    T[121] = minus_y11_x;
+    T[122] = -y21_x;
+    T[123] = o_B1_x - q[10]*y21_x;
+    T[124] = x21_y;
+    T[125] = minus_y11_y;
+    T[126] = minus_y21_y;
+    T[127] = o_B1_y + q[10]*minus_y21_y;
+    T[128] = x21_z;
     T[129] = -s8;
-    T[130] = -t16;
+    T[130] = -y21_z;
     MODELER_ZEROS(T + 32, 2);
-    T[131] = -q[10]*t16;
-    const double t17 = k5*s11;
-    T[132] = -t17;
-    const double t18 = k5*c11;
-    T[133] = -t18;
-    T[134] = -k6;
-    const double t19 = q[6] + k7;
-    T[135] = t19;
-    const double t20 = k6*s11;
-    T[136] = -t20;
-    const double t21 = k6*c11;
+    T[131] = -q[10]*y21_z;
+    const double minus_x12_x = x_B2_x*s11;
+    T[132] = -minus_x12_x;
+    const double minus_y12_x = x_B2_x*c11;
+    T[133] = -minus_y12_x;
+    T[134] = -x_B2_y;
+    /* link B2: origin of the frame in frame 0, o_B2 = o_B + [x_B y_B z_B] p_B2 */
+    const double o_B2_x = q[6] + p_B2_x;
+    T[135] = o_B2_x;
+    const double minus_x12_y = x_B2_y*s11;
+    T[136] = -minus_x12_y;
+    const double minus_y12_y = x_B2_y*c11;
     MODELER_ZEROS(T + 36, 2);
-    T[137] = -t21;
-    T[138] = k5;
-    const double t22 = q[7] + k8;
-    T[139] = t22;
+    T[137] = -minus_y12_y;
+    T[138] = x_B2_x;
+    const double o_B2_y = q[7] + p_B2_y;
+    T[139] = o_B2_y;
     T[140] = -c11;
     T[141] = s11;
-    const double t23 = s12*t17 - k6*c12;
-    T[144] = t23;
-    const double t24 = k6*s12 + c12*t17;
-    T[145] = t24;
+    const double x22_x = s12*minus_x12_x - x_B2_y*c12;
+    T[144] = x22_x;
+    const double y22_x = x_B2_y*s12 + c12*minus_x12_x;
+    T[145] = y22_x;
     MODELER_ZEROS(T + 42, 1);
-    T[146] = t18;
-    T[147] = t19;
-    const double t25 = s12*t20 + k5*c12;
-    T[148] = t25;
-    const double t26 = k5*s12 - c12*t20;
-    T[149] = -t26;
-    T[150] = t21;
-    T[151] = t22;
-    const double t27 = c11*s12;
-    T[152] = t27;
+    T[146] = minus_y12_x;
+    T[147] = o_B2_x;
+    const double x22_y = s12*minus_x12_y + x_B2_x*c12;
+    T[148] = x22_y;
+    const double minus_y22_y = x_B2_x*s12 - c12*minus_x12_y;
+    T[149] = -minus_y22_y;
+    T[150] = minus_y12_y;
+    T[151] = o_B2_y;
+    const double x22_z = c11*s12;
+    T[152] = x22_z;
     MODELER_ZEROS(T + 46, 1);
-    const double t28 = c11*c12;
-    T[153] = t28;
+    const double y22_z = c11*c12;
+    T[153] = y22_z;
     T[154] = -s11;
-    T[156] = t23;
-    T[157] = t18;
-    T[158] = -t24;
-    T[159] = t19 - q[13]*t24;
-    T[160] = t25;
-    T[161] = t21;
-    T[162] = t26;
+    T[156] = x22_x;
+    T[157] = minus_y12_x;
+    T[158] = -y22_x;
+    T[159] = o_B2_x - q[13]*y22_x;
+    T[160] = x22_y;
+    T[161] = minus_y12_y;
+    T[162] = minus_y22_y;
     MODELER_ZEROS(T + 50, 1);
-    T[163] = t22 + q[13]*t26;
-    T[164] = t27;
+    T[163] = o_B2_y + q[13]*minus_y22_y;
+    T[164] = x22_z;
     T[165] = -s11;
-    T[166] = -t28;
-    T[167] = -q[13]*t28;
-    const double t29 = k9*s14;
-    T[168] = -t29;
-    const double t30 = k9*c14;
-    T[169] = -t30;
-    T[170] = -k10;
-    const double t31 = q[6] + k11;
+    T[166] = -y22_z;
+    T[167] = -q[13]*y22_z;
+    const double minus_x13_x = x_B3_x*s14;
+    T[168] = -minus_x13_x;
+    const double minus_y13_x = x_B3_x*c14;
+    T[169] = -minus_y13_x;
+    T[170] = -x_B3_y;
+    /* link B3: origin of the frame in frame 0, o_B3 = o_B + [x_B y_B z_B] p_B3 */
+    const double o_B3_x = q[6] + p_B3_x;
     MODELER_ZEROS(T + 72, 2);
-    T[171] = t31;
-    const double t32 = k10*s14;
-    T[172] = -t32;
-    const double t33 = k10*c14;
-    T[173] = -t33;
-    T[174] = k9;
-    const double t34 = q[7] + k12;
-    T[175] = t34;
+    T[171] = o_B3_x;
+    const double minus_x13_y = x_B3_y*s14;
+    T[172] = -minus_x13_y;
+    const double minus_y13_y = x_B3_y*c14;
+    T[173] = -minus_y13_y;
+    T[174] = x_B3_x;
+    const double o_B3_y = q[7] + p_B3_y;
+    T[175] = o_B3_y;
     T[176] = -c14;
     T[177] = s14;
     MODELER_ZEROS(T + 77, 4);
-    const double t35 = s15*t29 - k10*c15;
-    T[180] = t35;
-    const double t36 = k10*s15 + c15*t29;
-    T[181] = t36;
-    T[182] = t30;
-    T[183] = t31;
-    const double t37 = s15*t32 + k9*c15;
-    T[184] = t37;
-    const double t38 = k9*s15 - c15*t32;
-    T[185] = -t38;
+    const double x23_x = s15*minus_x13_x - x_B3_y*c15;
+    T[180] = x23_x;
+    const double y23_x = x_B3_y*s15 + c15*minus_x13_x;
+    T[181] = y23_x;
+    T[182] = minus_y13_x;
+    T[183] = o_B3_x;
+    const double x23_y = s15*minus_x13_y + x_B3_x*c15;
+    T[184] = x23_y;
+    const double minus_y23_y = x_B3_x*s15 - c15*minus_x13_y;
+    T[185] = -minus_y23_y;
     MODELER_ZEROS(T + 82, 3);
-    T[186] = t33;
-    T[187] = t34;
-    const double t39 = c14*s15;
-    T[188] = t39;
-    const double t40 = c14*c15;
-    T[189] = t40;
+    T[186] = minus_y13_y;
+    T[187] = o_B3_y;
+    const double x23_z = c14*s15;
+    T[188] = x23_z;
+    const double y23_z = c14*c15;
+    T[189] = y23_z;
     T[190] = -s14;
-    T[192] = t35;
-    T[193] = t30;
-    T[194] = -t36;
-    T[195] = t31 - q[16]*t36;
+    T[192] = x23_x;
+    T[193] = minus_y13_x;
+    T[194] = -y23_x;
+    T[195] = o_B3_x - q[16]*y23_x;
     MODELER_ZEROS(T + 86, 1);
-    T[196] = t37;
-    T[197] = t33;
-    T[198] = t38;
-    T[199] = t34 + q[16]*t38;
-    T[200] = t39;
+    T[196] = x23_y;
+    T[197] = minus_y13_y;
+    T[198] = minus_y23_y;
+    T[199] = o_B3_y + q[16]*minus_y23_y;
+    T[200] = x23_z;
     T[201] = -s14;
-    T[202] = -t40;
-    T[203] = -q[16]*t40;
-    const double t41 = k13*s17;
-    T[204] = -t41;
+    T[202] = -y23_z;
+    T[203] = -q[16]*y23_z;
+    const double minus_x14_x = x_B4_x*s17;
+    T[204] = -minus_x14_x;
     MODELER_ZEROS(T + 88, 2);
-    const double t42 = k13*c17;
-    T[205] = -t42;
-    T[206] = -k14;
-    const double t43 = q[6] + k15;
-    T[207] = t43;
-    const double t44 = k14*s17;
-    T[208] = -t44;
-    const double t45 = k14*c17;
-    T[209] = -t45;
-    T[210] = k13;
+    const double minus_y14_x = x_B4_x*c17;
+    T[205] = -minus_y14_x;
+    T[206] = -x_B4_y;
+    /* link B4: origin of the frame in frame 0, o_B4 = o_B + [x_B y_B z_B] p_B4 */
+    const double o_B4_x = q[6] + p_B4_x;
+    T[207] = o_B4_x;
+    const double minus_x14_y = x_B4_y*s17;
+    T[208] = -minus_x14_y;
+    const double minus_y14_y = x_B4_y*c17;
+    T[209] = -minus_y14_y;
+    T[210] = x_B4_x;
     MODELER_ZEROS(T + 93, 3);
-    const double t46 = q[7] + k16;
-    T[211] = t46;
+    const double o_B4_y = q[7] + p_B4_y;
+    T[211] = o_B4_y;
     T[212] = -c17;
     T[213] = s17;
-    const double t47 = s18*t41 - k14*c18;
-    T[216] = t47;
-    const double t48 = k14*s18 + c18*t41;
-    T[217] = t48;
-    T[218] = t42;
-    T[219] = t43;
+    const double x24_x = s18*minus_x14_x - x_B4_y*c18;
+    T[216] = x24_x;
+    const double y24_x = x_B4_y*s18 + c18*minus_x14_x;
+    T[217] = y24_x;
+    T[218] = minus_y14_x;
+    T[219] = o_B4_x;
     MODELER_ZEROS(T + 106, 2);
-    const double t49 = s18*t44 + k13*c18;
-    T[220] = t49;
-    const double t50 = k13*s18 - c18*t44;
-    T[221] = -t50;
-    T[222] = t45;
-    T[223] = t46;
-    const double t51 = c17*s18;
-    T[224] = t51;
-    const double t52 = c17*c18;
-    T[225] = t52;
+    const double x24_y = s18*minus_x14_y + x_B4_x*c18;
+    T[220] = x24_y;
+    const double minus_y24_y = x_B4_x*s18 - c18*minus_x14_y;
+    T[221] = -minus_y24_y;
+    T[222] = minus_y14_y;
+    T[223] = o_B4_y;
+    const double x24_z = c17*s18;
+    T[224] = x24_z;
+    const double y24_z = c17*c18;
+    T[225] = y24_z;
     T[226] = -s17;
     MODELER_ZEROS(T + 119, 1);
-    T[228] = t47;
-    T[229] = t42;
-    T[230] = -t48;
-    T[231] = t43 - q[19]*t48;
-    T[232] = t49;
-    T[233] = t45;
-    T[234] = t50;
-    T[235] = t46 + q[19]*t50;
-    T[236] = t51;
+    T[228] = x24_x;
+    T[229] = minus_y14_x;
+    T[230] = -y24_x;
+    T[231] = o_B4_x - q[19]*y24_x;
+    T[232] = x24_y;
+    T[233] = minus_y14_y;
+    T[234] = minus_y24_y;
+    T[235] = o_B4_y + q[19]*minus_y24_y;
+    T[236] = x24_z;
     T[237] = -s17;
     MODELER_ZEROS(T + 142, 2);
-    T[238] = -t52;
-    T[239] = -q[19]*t52;
-    const double t53 = k17*s20;
-    T[240] = -t53;
-    const double t54 = k17*c20;
-    T[241] = -t54;
-    T[242] = -k18;
-    const double t55 = q[6] + k19;
-    T[243] = t55;
-    const double t56 = k18*s20;
+    T[238] = -y24_z;
+    T[239] = -q[19]*y24_z;
+    const double minus_x15_x = x_B5_x*s20;
+    T[240] = -minus_x15_x;
+    const double minus_y15_x = x_B5_x*c20;
+    T[241] = -minus_y15_x;
+    T[242] = -x_B5_y;
+    /* link B5: origin of the frame in frame 0, o_B5 = o_B + [x_B y_B z_B] p_B5 */
+    const double o_B5_x = q[6] + p_B5_x;
+    T[243] = o_B5_x;
+    const double minus_x15_y = x_B5_y*s20;
     MODELER_ZEROS(T + 155, 1);
-    T[244] = -t56;
-    const double t57 = k18*c20;
-    T[245] = -t57;
-    T[246] = k17;
-    const double t58 = q[7] + k20;
-    T[247] = t58;
+    T[244] = -minus_x15_y;
+    const double minus_y15_y = x_B5_y*c20;
+    T[245] = -minus_y15_y;
+    T[246] = x_B5_x;
+    const double o_B5_y = q[7] + p_B5_y;
+    T[247] = o_B5_y;
     T[248] = -c20;
     T[249] = s20;
-    const double t59 = s21*t53 - k18*c21;
-    T[252] = t59;
-    const double t60 = k18*s21 + c21*t53;
+    const double x25_x = s21*minus_x15_x - x_B5_y*c21;
+    T[252] = x25_x;
+    const double y25_x = x_B5_y*s21 + c21*minus_x15_x;
     MODELER_ZEROS(T + 178, 2);
-    T[253] = t60;
-    T[254] = t54;
-    T[255] = t55;
-    const double t61 = s21*t56 + k17*c21;
-    T[256] = t61;
-    const double t62 = k17*s21 - c21*t56;
-    T[257] = -t62;
-    T[258] = t57;
-    T[259] = t58;
-    const double t63 = c20*s21;
+    T[253] = y25_x;
+    T[254] = minus_y15_x;
+    T[255] = o_B5_x;
+    const double x25_y = s21*minus_x15_y + x_B5_x*c21;
+    T[256] = x25_y;
+    const double minus_y25_y = x_B5_x*s21 - c21*minus_x15_y;
+    T[257] = -minus_y25_y;
+    T[258] = minus_y15_y;
+    T[259] = o_B5_y;
+    const double x25_z = c20*s21;
     MODELER_ZEROS(T + 191, 1);
-    T[260] = t63;
-    const double t64 = c20*c21;
-    T[261] = t64;
+    T[260] = x25_z;
+    const double y25_z = c20*c21;
+    T[261] = y25_z;
     T[262] = -s20;
-    T[264] = t59;
-    T[265] = t54;
-    T[266] = -t60;
-    T[267] = t55 - q[22]*t60;
-    T[268] = t61;
-    T[269] = t57;
+    T[264] = x25_x;
+    T[265] = minus_y15_x;
+    T[266] = -y25_x;
+    T[267] = o_B5_x - q[22]*y25_x;
+    T[268] = x25_y;
+    T[269] = minus_y15_y;
     MODELER_ZEROS(T + 214, 2);
-    T[270] = t62;
-    T[271] = t58 + q[22]*t62;
-    T[272] = t63;
+    T[270] = minus_y25_y;
+    T[271] = o_B5_y + q[22]*minus_y25_y;
+    T[272] = x25_z;
     T[273] = -s20;
-    T[274] = -t64;
-    T[275] = -q[22]*t64;
-    const double t65 = k21*s23;
-    T[276] = -t65;
-    const double t66 = k21*c23;
-    T[277] = -t66;
+    T[274] = -y25_z;
+    T[275] = -q[22]*y25_z;
+    const double minus_x16_x = x_B6_x*s23;
+    T[276] = -minus_x16_x;
+    const double minus_y16_x = x_B6_x*c23;
+    T[277] = -minus_y16_x;
     MODELER_ZEROS(T + 227, 1);
-    T[278] = -k22;
-    const double t67 = q[6] + k23;
-    T[279] = t67;
-    const double t68 = k22*s23;
-    T[280] = -t68;
-    const double t69 = k22*c23;
-    T[281] = -t69;
-    T[282] = k21;
-    const double t70 = q[7] + k24;
-    T[283] = t70;
+    T[278] = -x_B6_y;
+    /* link B6: origin of the frame in frame 0, o_B6 = o_B + [x_B y_B z_B] p_B6 */
+    const double o_B6_x = q[6] + p_B6_x;
+    T[279] = o_B6_x;
+    const double minus_x16_y = x_B6_y*s23;
+    T[280] = -minus_x16_y;
+    const double minus_y16_y = x_B6_y*c23;
+    T[281] = -minus_y16_y;
+    T[282] = x_B6_x;
+    const double o_B6_y = q[7] + p_B6_y;
+    T[283] = o_B6_y;
     T[284] = -c23;
     MODELER_ZEROS(T + 250, 2);
     T[285] = s23;
-    const double t71 = s24*t65 - k22*c24;
-    T[288] = t71;
-    const double t72 = k22*s24 + c24*t65;
-    T[289] = t72;
-    T[290] = t66;
-    T[291] = t67;
-    const double t73 = s24*t68 + k21*c24;
-    T[292] = t73;
-    const double t74 = k21*s24 - c24*t68;
+    const double x26_x = s24*minus_x16_x - x_B6_y*c24;
+    T[288] = x26_x;
+    const double y26_x = x_B6_y*s24 + c24*minus_x16_x;
+    T[289] = y26_x;
+    T[290] = minus_y16_x;
+    T[291] = o_B6_x;
+    const double x26_y = s24*minus_x16_y + x_B6_x*c24;
+    T[292] = x26_y;
+    const double minus_y26_y = x_B6_x*s24 - c24*minus_x16_y;
     MODELER_ZEROS(T + 263, 1);
-    T[293] = -t74;
-    T[294] = t69;
-    T[295] = t70;
-    const double t75 = c23*s24;
-    T[296] = t75;
-    const double t76 = c23*c24;
-    T[297] = t76;
+    T[293] = -minus_y26_y;
+    T[294] = minus_y16_y;
+    T[295] = o_B6_y;
+    const double x26_z = c23*s24;
+    T[296] = x26_z;
+    const double y26_z = c23*c24;
+    T[297] = y26_z;
     T[298] = -s23;
-    T[300] = t71;
-    T[301] = t66;
+    T[300] = x26_x;
+    T[301] = minus_y16_x;
     MODELER_ZEROS(T + 286, 2);
-    T[302] = -t72;
-    T[303] = t67 - q[25]*t72;
-    T[304] = t73;
-    T[305] = t69;
-    T[306] = t74;
-    T[307] = t70 + q[25]*t74;
-    T[308] = t75;
+    T[302] = -y26_x;
+    T[303] = o_B6_x - q[25]*y26_x;
+    T[304] = x26_y;
+    T[305] = minus_y16_y;
+    T[306] = minus_y26_y;
+    T[307] = o_B6_y + q[25]*minus_y26_y;
+    T[308] = x26_z;
     T[309] = -s23;
-    T[310] = -t76;
-    T[311] = -q[25]*t76;
+    T[310] = -y26_z;
+    T[311] = -q[25]*y26_z;
     MODELER_ZEROS(T + 299, 1);
 }
 
@@ -1766,30 +2242,30 @@ void evra_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
  * 282 additions, 572 multiplications. */
 void evra_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
 {
-    const double k1 = cos(evra_geo_beta1);
-    const double k2 = sin(evra_geo_beta1);
-    const double k3 = cos(evra_geo_phi1)*evra_geo_RP;
-    const double k4 = sin(evra_geo_phi1)*evra_geo_RP;
-    const double k5 = cos(evra_geo_beta2);
-    const double k6 = sin(evra_geo_beta2);
-    const double k7 = evra_geo_RP*cos(evra_geo_phi2);
-    const double k8 = evra_geo_RP*sin(evra_geo_phi2);
-    const double k9 = cos(evra_geo_beta3);
-    const double k10 = sin(evra_geo_beta3);
-    const double k11 = evra_geo_RP*cos(evra_geo_phi3);
-    const double k12 = evra_geo_RP*sin(evra_geo_phi3);
-    const double k13 = cos(evra_geo_beta4);
-    const double k14 = sin(evra_geo_beta4);
-    const double k15 = evra_geo_RP*cos(evra_geo_phi4);
-    const double k16 = evra_geo_RP*sin(evra_geo_phi4);
-    const double k17 = cos(evra_geo_beta5);
-    const double k18 = sin(evra_geo_beta5);
-    const double k19 = evra_geo_RP*cos(evra_geo_phi5);
-    const double k20 = evra_geo_RP*sin(evra_geo_phi5);
-    const double k21 = cos(evra_geo_beta6);
-    const double k22 = sin(evra_geo_beta6);
-    const double k23 = evra_geo_RP*cos(evra_geo_phi6);
-    const double k24 = evra_geo_RP*sin(evra_geo_phi6);
+    const double x_B1_x = cos(evra_geo_beta1);
+    const double x_B1_y = sin(evra_geo_beta1);
+    const double p41_x = cos(evra_geo_phi1)*evra_geo_RP;
+    const double p41_y = sin(evra_geo_phi1)*evra_geo_RP;
+    const double x_B2_x = cos(evra_geo_beta2);
+    const double x_B2_y = sin(evra_geo_beta2);
+    const double p42_x = evra_geo_RP*cos(evra_geo_phi2);
+    const double p42_y = evra_geo_RP*sin(evra_geo_phi2);
+    const double x_B3_x = cos(evra_geo_beta3);
+    const double x_B3_y = sin(evra_geo_beta3);
+    const double p43_x = evra_geo_RP*cos(evra_geo_phi3);
+    const double p43_y = evra_geo_RP*sin(evra_geo_phi3);
+    const double x_B4_x = cos(evra_geo_beta4);
+    const double x_B4_y = sin(evra_geo_beta4);
+    const double p44_x = evra_geo_RP*cos(evra_geo_phi4);
+    const double p44_y = evra_geo_RP*sin(evra_geo_phi4);
+    const double x_B5_x = cos(evra_geo_beta5);
+    const double x_B5_y = sin(evra_geo_beta5);
+    const double p45_x = evra_geo_RP*cos(evra_geo_phi5);
+    const double p45_y = evra_geo_RP*sin(evra_geo_phi5);
+    const double x_B6_x = cos(evra_geo_beta6);
+    const double x_B6_y = sin(evra_geo_beta6);
+    const double p46_x = evra_geo_RP*cos(evra_geo_phi6);
+    const double p46_y = evra_geo_RP*sin(evra_geo_phi6);
 
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
@@ -1822,215 +2298,261 @@ void evra_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT
     double s24, c24;
     modeler_sincos(q[24], &s24, &c24);
 
-    const double t1 = c4*qd[4];
+    const double x_Pbd_tx = c4*qd[4];
     const double t2 = s5*qd[5];
-    const double t3 = c5*t1 - s4*t2;
+    const double minus_x_Pdd_q4tx = c5*x_Pbd_tx - s4*t2;
     const double t4 = c5*qd[5];
-    const double t5 = s5*t1 + s4*t4;
-    const double t6 = s4*qd[4];
-    const double t7 = s5*t6 - c4*t4;
-    const double t8 = c5*t6 + c4*t2;
-    const double t9 = k1*c8;
+    const double y_Pdd_q4tx = s5*x_Pbd_tx + s4*t4;
+    const double minus_y_Pbd_tx = s4*qd[4];
+    const double y_Pd_tx = s5*minus_y_Pbd_tx - c4*t4;
+    const double minus_x_Pd_tx = c5*minus_y_Pbd_tx + c4*t2;
+    const double minus_y11_x = x_B1_x*c8;
     const double t10 = s9*qd[9];
-    const double t11 = s8*qd[8];
-    const double t12 = qd[8]*(c9*t9*qd[10] - q[10]*(t9*t10 + k1*t11*c9));
-    const double t13 = k1*s8;
+    const double x11d_tz = s8*qd[8];
+    const double t12 = qd[8]*(c9*minus_y11_x*qd[10] - q[10]*(minus_y11_x*t10 + x_B1_x*x11d_tz*c9));
+    const double minus_x11_x = x_B1_x*s8;
     const double t14 = c9*qd[9];
-    const double t15 = c8*qd[8];
-    const double t16 = k1*t15;
-    const double t17 = qd[9]*((s9*t13 - k2*c9)*qd[10] + q[10]*(t13*t14 + s9*t16 + k2*t10));
-    const double t18 = qd[4]*(k3*t3 - k4*t5) - qd[5]*(k3*t7 + k4*t8) - t12 + t17;
-    values[0] = t18 - qd[10]*(c9*t16 - t13*t10 + k2*t14);
-    const double t19 = c3*s4;
-    const double t20 = s3*qd[3];
-    const double t21 = s4*t20 - c3*t1;
-    const double t22 = c3*qd[3];
-    const double t23 = t19*t2 + c5*t21 + (s5*t22 + s3*t4);
-    const double t24 = c5*t22 - s3*t2 + (t19*t4 - s5*t21);
-    const double t25 = s3*c4;
-    const double t26 = c4*t22 - s3*t6;
-    const double t27 = t25*t2 - c5*t26;
-    const double t28 = t25*t4 + s5*t26;
-    const double t29 = s3*s4;
-    const double t30 = s4*t22 + s3*t1;
-    const double t31 = c5*t20 + c3*t2 + (t29*t4 + s5*t30);
-    const double t32 = t29*t2 - c5*t30 + (s5*t20 - c3*t4);
-    const double t33 = qd[3]*(k3*t23 + k4*t24) + qd[4]*(k3*t27 + k4*t28);
-    const double t34 = k2*c8;
-    const double t35 = qd[8]*(c9*t34*qd[10] - q[10]*(t34*t10 + k2*t11*c9));
-    const double t36 = k2*s8;
-    const double t37 = k2*t15;
-    const double t38 = qd[9]*((s9*t36 + k1*c9)*qd[10] + q[10]*(t36*t14 + s9*t37 - k1*t10));
-    const double t39 = t33 + qd[5]*(k3*t31 - k4*t32) - t35 + t38;
-    values[1] = t39 + qd[10]*(t36*t10 - c9*t37 + k1*t14);
-    const double t40 = c3*c4;
-    const double t41 = c4*t20 + c3*t6;
-    const double t42 = t40*t2 + c5*t41;
-    const double t43 = t40*t4 - s5*t41;
-    const double t44 = qd[3]*(k3*t32 + k4*t31) - qd[4]*(k3*t42 + k4*t43);
-    const double t45 = qd[8]*(s8*c9*qd[10] + q[10]*(c9*t15 - s8*t10));
-    const double t46 = qd[9]*(c8*s9*qd[10] - q[10]*(s9*t11 - c8*t14));
-    values[2] = t44 - qd[5]*(k3*t24 - k4*t23) + t45 + t46 + qd[10]*(c9*t11 + c8*t10);
-    const double t47 = k5*c11;
+    const double y11d_tz = c8*qd[8];
+    const double minus_x11d_tx = x_B1_x*y11d_tz;
+    const double t17 = qd[9]*((s9*minus_x11_x - x_B1_y*c9)*qd[10] + q[10]*(minus_x11_x*t14 +
+        s9*minus_x11d_tx + x_B1_y*t10));
+    const double t18 = qd[4]*(p41_x*minus_x_Pdd_q4tx - p41_y*y_Pdd_q4tx) - qd[5]*(p41_x*y_Pd_tx +
+        p41_y*minus_x_Pd_tx) - t12 + t17;
+    values[0] = t18 - qd[10]*(c9*minus_x11d_tx - minus_x11_x*t10 + x_B1_y*t14);
+    const double minus_y_Pb_z = c3*s4;
+    const double minus_x_Pad_ty = s3*qd[3];
+    const double y_Pbd_tz = s4*minus_x_Pad_ty - c3*x_Pbd_tx;
+    const double x_Pad_tz = c3*qd[3];
+    const double x_Pd_tz = minus_y_Pb_z*t2 + c5*y_Pbd_tz + (s5*x_Pad_tz + s3*t4);
+    const double y_Pd_tz = c5*x_Pad_tz - s3*t2 + (minus_y_Pb_z*t4 - s5*y_Pbd_tz);
+    const double minus_x_Pb_y = s3*c4;
+    const double minus_x_Pbd_ty = c4*x_Pad_tz - s3*minus_y_Pbd_tx;
+    const double minus_x_Pdd_q4ty = minus_x_Pb_y*t2 - c5*minus_x_Pbd_ty;
+    const double minus_y_Pdd_q4ty = minus_x_Pb_y*t4 + s5*minus_x_Pbd_ty;
+    const double y_Pb_y = s3*s4;
+    const double y_Pbd_ty = s4*x_Pad_tz + s3*x_Pbd_tx;
+    const double minus_y_Pd_ty = c5*minus_x_Pad_ty + c3*t2 + (y_Pb_y*t4 + s5*y_Pbd_ty);
+    const double minus_x_Pd_ty = y_Pb_y*t2 - c5*y_Pbd_ty + (s5*minus_x_Pad_ty - c3*t4);
+    const double t33 = qd[3]*(p41_x*x_Pd_tz + p41_y*y_Pd_tz) + qd[4]*(p41_x*minus_x_Pdd_q4ty +
+        p41_y*minus_y_Pdd_q4ty);
+    const double minus_y11_y = x_B1_y*c8;
+    const double t35 = qd[8]*(c9*minus_y11_y*qd[10] - q[10]*(minus_y11_y*t10 + x_B1_y*x11d_tz*c9));
+    const double minus_x11_y = x_B1_y*s8;
+    const double minus_x11d_ty = x_B1_y*y11d_tz;
+    const double t38 = qd[9]*((s9*minus_x11_y + x_B1_x*c9)*qd[10] + q[10]*(minus_x11_y*t14 +
+        s9*minus_x11d_ty - x_B1_x*t10));
+    const double t39 = t33 + qd[5]*(p41_x*minus_y_Pd_ty - p41_y*minus_x_Pd_ty) - t35 + t38;
+    values[1] = t39 + qd[10]*(minus_x11_y*t10 - c9*minus_x11d_ty + x_B1_x*t14);
+    const double x_Pb_z = c3*c4;
+    const double minus_x_Pbd_tz = c4*minus_x_Pad_ty + c3*minus_y_Pbd_tx;
+    const double x_Pdd_q4tz = x_Pb_z*t2 + c5*minus_x_Pbd_tz;
+    const double y_Pdd_q4tz = x_Pb_z*t4 - s5*minus_x_Pbd_tz;
+    const double t44 = qd[3]*(p41_x*minus_x_Pd_ty + p41_y*minus_y_Pd_ty) - qd[4]*(p41_x*x_Pdd_q4tz +
+        p41_y*y_Pdd_q4tz);
+    const double t45 = qd[8]*(s8*c9*qd[10] + q[10]*(c9*y11d_tz - s8*t10));
+    const double t46 = qd[9]*(c8*s9*qd[10] - q[10]*(s9*x11d_tz - c8*t14));
+    values[2] = t44 - qd[5]*(p41_x*y_Pd_tz - p41_y*x_Pd_tz) + t45 + t46 + qd[10]*(c9*x11d_tz +
+        c8*t10);
+    const double minus_y12_x = x_B2_x*c11;
     const double t48 = s12*qd[12];
-    const double t49 = s11*qd[11];
-    const double t50 = qd[11]*(c12*t47*qd[13] - q[13]*(t47*t48 + k5*t49*c12));
-    const double t51 = k5*s11;
+    const double x12d_tz = s11*qd[11];
+    const double t50 = qd[11]*(c12*minus_y12_x*qd[13] - q[13]*(minus_y12_x*t48 +
+        x_B2_x*x12d_tz*c12));
+    const double minus_x12_x = x_B2_x*s11;
     const double t52 = c12*qd[12];
-    const double t53 = c11*qd[11];
-    const double t54 = k5*t53;
-    const double t55 = qd[12]*((s12*t51 - k6*c12)*qd[13] + q[13]*(t51*t52 + s12*t54 + k6*t48));
-    const double t56 = qd[4]*(k7*t3 - k8*t5) - qd[5]*(k7*t7 + k8*t8) - t50 + t55;
-    values[3] = t56 - qd[13]*(c12*t54 - t51*t48 + k6*t52);
-    const double t57 = qd[3]*(k7*t23 + k8*t24) + qd[4]*(k7*t27 + k8*t28);
-    const double t58 = k6*c11;
-    const double t59 = qd[11]*(c12*t58*qd[13] - q[13]*(t58*t48 + k6*t49*c12));
-    const double t60 = k6*s11;
-    const double t61 = k6*t53;
-    const double t62 = qd[12]*((s12*t60 + k5*c12)*qd[13] + q[13]*(t60*t52 + s12*t61 - k5*t48));
-    const double t63 = t57 + qd[5]*(k7*t31 - k8*t32) - t59 + t62;
-    values[4] = t63 + qd[13]*(t60*t48 - c12*t61 + k5*t52);
-    const double t64 = qd[3]*(k7*t32 + k8*t31) - qd[4]*(k7*t42 + k8*t43);
-    const double t65 = qd[11]*(s11*c12*qd[13] + q[13]*(c12*t53 - s11*t48));
-    const double t66 = qd[12]*(c11*s12*qd[13] - q[13]*(s12*t49 - c11*t52));
-    values[5] = t64 - qd[5]*(k7*t24 - k8*t23) + t65 + t66 + qd[13]*(c12*t49 + c11*t48);
-    const double t67 = k9*c14;
+    const double y12d_tz = c11*qd[11];
+    const double minus_x12d_tx = x_B2_x*y12d_tz;
+    const double t55 = qd[12]*((s12*minus_x12_x - x_B2_y*c12)*qd[13] + q[13]*(minus_x12_x*t52 +
+        s12*minus_x12d_tx + x_B2_y*t48));
+    const double t56 = qd[4]*(p42_x*minus_x_Pdd_q4tx - p42_y*y_Pdd_q4tx) - qd[5]*(p42_x*y_Pd_tx +
+        p42_y*minus_x_Pd_tx) - t50 + t55;
+    values[3] = t56 - qd[13]*(c12*minus_x12d_tx - minus_x12_x*t48 + x_B2_y*t52);
+    const double t57 = qd[3]*(p42_x*x_Pd_tz + p42_y*y_Pd_tz) + qd[4]*(p42_x*minus_x_Pdd_q4ty +
+        p42_y*minus_y_Pdd_q4ty);
+    const double minus_y12_y = x_B2_y*c11;
+    const double t59 = qd[11]*(c12*minus_y12_y*qd[13] - q[13]*(minus_y12_y*t48 +
+        x_B2_y*x12d_tz*c12));
+    const double minus_x12_y = x_B2_y*s11;
+    const double minus_x12d_ty = x_B2_y*y12d_tz;
+    const double t62 = qd[12]*((s12*minus_x12_y + x_B2_x*c12)*qd[13] + q[13]*(minus_x12_y*t52 +
+        s12*minus_x12d_ty - x_B2_x*t48));
+    const double t63 = t57 + qd[5]*(p42_x*minus_y_Pd_ty - p42_y*minus_x_Pd_ty) - t59 + t62;
+    values[4] = t63 + qd[13]*(minus_x12_y*t48 - c12*minus_x12d_ty + x_B2_x*t52);
+    const double t64 = qd[3]*(p42_x*minus_x_Pd_ty + p42_y*minus_y_Pd_ty) - qd[4]*(p42_x*x_Pdd_q4tz +
+        p42_y*y_Pdd_q4tz);
+    const double t65 = qd[11]*(s11*c12*qd[13] + q[13]*(c12*y12d_tz - s11*t48));
+    const double t66 = qd[12]*(c11*s12*qd[13] - q[13]*(s12*x12d_tz - c11*t52));
+    values[5] = t64 - qd[5]*(p42_x*y_Pd_tz - p42_y*x_Pd_tz) + t65 + t66 + qd[13]*(c12*x12d_tz +
+        c11*t48);
+    const double minus_y13_x = x_B3_x*c14;
     const double t68 = s15*qd[15];
-    const double t69 = s14*qd[14];
-    const double t70 = qd[14]*(c15*t67*qd[16] - q[16]*(t67*t68 + k9*t69*c15));
-    const double t71 = k9*s14;
+    const double x13d_tz = s14*qd[14];
+    const double t70 = qd[14]*(c15*minus_y13_x*qd[16] - q[16]*(minus_y13_x*t68 +
+        x_B3_x*x13d_tz*c15));
+    const double minus_x13_x = x_B3_x*s14;
     const double t72 = c15*qd[15];
-    const double t73 = c14*qd[14];
-    const double t74 = k9*t73;
-    const double t75 = qd[15]*((s15*t71 - k10*c15)*qd[16] + q[16]*(t71*t72 + s15*t74 + k10*t68));
-    const double t76 = qd[4]*(k11*t3 - k12*t5) - qd[5]*(k11*t7 + k12*t8) - t70 + t75;
-    values[6] = t76 - qd[16]*(c15*t74 - t71*t68 + k10*t72);
-    const double t77 = qd[3]*(k11*t23 + k12*t24) + qd[4]*(k11*t27 + k12*t28);
-    const double t78 = k10*c14;
-    const double t79 = qd[14]*(c15*t78*qd[16] - q[16]*(t78*t68 + k10*t69*c15));
-    const double t80 = k10*s14;
-    const double t81 = k10*t73;
-    const double t82 = qd[15]*((s15*t80 + k9*c15)*qd[16] + q[16]*(t80*t72 + s15*t81 - k9*t68));
-    const double t83 = t77 + qd[5]*(k11*t31 - k12*t32) - t79 + t82;
-    values[7] = t83 + qd[16]*(t80*t68 - c15*t81 + k9*t72);
-    const double t84 = qd[3]*(k11*t32 + k12*t31) - qd[4]*(k11*t42 + k12*t43);
-    const double t85 = qd[14]*(s14*c15*qd[16] + q[16]*(c15*t73 - s14*t68));
-    const double t86 = qd[15]*(c14*s15*qd[16] - q[16]*(s15*t69 - c14*t72));
-    values[8] = t84 - qd[5]*(k11*t24 - k12*t23) + t85 + t86 + qd[16]*(c15*t69 + c14*t68);
-    const double t87 = k13*c17;
+    const double y13d_tz = c14*qd[14];
+    const double minus_x13d_tx = x_B3_x*y13d_tz;
+    const double t75 = qd[15]*((s15*minus_x13_x - x_B3_y*c15)*qd[16] + q[16]*(minus_x13_x*t72 +
+        s15*minus_x13d_tx + x_B3_y*t68));
+    const double t76 = qd[4]*(p43_x*minus_x_Pdd_q4tx - p43_y*y_Pdd_q4tx) - qd[5]*(p43_x*y_Pd_tx +
+        p43_y*minus_x_Pd_tx) - t70 + t75;
+    values[6] = t76 - qd[16]*(c15*minus_x13d_tx - minus_x13_x*t68 + x_B3_y*t72);
+    const double t77 = qd[3]*(p43_x*x_Pd_tz + p43_y*y_Pd_tz) + qd[4]*(p43_x*minus_x_Pdd_q4ty +
+        p43_y*minus_y_Pdd_q4ty);
+    const double minus_y13_y = x_B3_y*c14;
+    const double t79 = qd[14]*(c15*minus_y13_y*qd[16] - q[16]*(minus_y13_y*t68 +
+        x_B3_y*x13d_tz*c15));
+    const double minus_x13_y = x_B3_y*s14;
+    const double minus_x13d_ty = x_B3_y*y13d_tz;
+    const double t82 = qd[15]*((s15*minus_x13_y + x_B3_x*c15)*qd[16] + q[16]*(minus_x13_y*t72 +
+        s15*minus_x13d_ty - x_B3_x*t68));
+    const double t83 = t77 + qd[5]*(p43_x*minus_y_Pd_ty - p43_y*minus_x_Pd_ty) - t79 + t82;
+    values[7] = t83 + qd[16]*(minus_x13_y*t68 - c15*minus_x13d_ty + x_B3_x*t72);
+    const double t84 = qd[3]*(p43_x*minus_x_Pd_ty + p43_y*minus_y_Pd_ty) - qd[4]*(p43_x*x_Pdd_q4tz +
+        p43_y*y_Pdd_q4tz);
+    const double t85 = qd[14]*(s14*c15*qd[16] + q[16]*(c15*y13d_tz - s14*t68));
+    const double t86 = qd[15]*(c14*s15*qd[16] - q[16]*(s15*x13d_tz - c14*t72));
+    values[8] = t84 - qd[5]*(p43_x*y_Pd_tz - p43_y*x_Pd_tz) + t85 + t86 + qd[16]*(c15*x13d_tz +
+        c14*t68);
+    const double minus_y14_x = x_B4_x*c17;
     const double t88 = s18*qd[18];
-    const double t89 = s17*qd[17];
-    const double t90 = qd[17]*(c18*t87*qd[19] - q[19]*(t87*t88 + k13*t89*c18));
-    const double t91 = k13*s17;
+    const double x14d_tz = s17*qd[17];
+    const double t90 = qd[17]*(c18*minus_y14_x*qd[19] - q[19]*(minus_y14_x*t88 +
+        x_B4_x*x14d_tz*c18));
+    const double minus_x14_x = x_B4_x*s17;
     const double t92 = c18*qd[18];
-    const double t93 = c17*qd[17];
-    const double t94 = k13*t93;
-    const double t95 = qd[18]*((s18*t91 - k14*c18)*qd[19] + q[19]*(t91*t92 + s18*t94 + k14*t88));
-    const double t96 = qd[4]*(k15*t3 - k16*t5) - qd[5]*(k15*t7 + k16*t8) - t90 + t95;
-    values[9] = t96 - qd[19]*(c18*t94 - t91*t88 + k14*t92);
-    const double t97 = qd[3]*(k15*t23 + k16*t24) + qd[4]*(k15*t27 + k16*t28);
-    const double t98 = k14*c17;
-    const double t99 = qd[17]*(c18*t98*qd[19] - q[19]*(t98*t88 + k14*t89*c18));
-    const double t100 = k14*s17;
-    const double t101 = k14*t93;
-    const double t102 = (s18*t100 + k13*c18)*qd[19] + q[19]*(t100*t92 + s18*t101 - k13*t88);
-    const double t103 = t97 + qd[5]*(k15*t31 - k16*t32) - t99 + qd[18]*t102;
-    values[10] = t103 + qd[19]*(t100*t88 - c18*t101 + k13*t92);
-    const double t104 = qd[3]*(k15*t32 + k16*t31) - qd[4]*(k15*t42 + k16*t43);
-    const double t105 = qd[17]*(s17*c18*qd[19] + q[19]*(c18*t93 - s17*t88));
-    const double t106 = qd[18]*(c17*s18*qd[19] - q[19]*(s18*t89 - c17*t92));
-    const double t107 = t104 - qd[5]*(k15*t24 - k16*t23) + t105 + t106;
-    values[11] = t107 + qd[19]*(c18*t89 + c17*t88);
-    const double t108 = k17*c20;
+    const double y14d_tz = c17*qd[17];
+    const double minus_x14d_tx = x_B4_x*y14d_tz;
+    const double t95 = qd[18]*((s18*minus_x14_x - x_B4_y*c18)*qd[19] + q[19]*(minus_x14_x*t92 +
+        s18*minus_x14d_tx + x_B4_y*t88));
+    const double t96 = qd[4]*(p44_x*minus_x_Pdd_q4tx - p44_y*y_Pdd_q4tx) - qd[5]*(p44_x*y_Pd_tx +
+        p44_y*minus_x_Pd_tx) - t90 + t95;
+    values[9] = t96 - qd[19]*(c18*minus_x14d_tx - minus_x14_x*t88 + x_B4_y*t92);
+    const double t97 = qd[3]*(p44_x*x_Pd_tz + p44_y*y_Pd_tz) + qd[4]*(p44_x*minus_x_Pdd_q4ty +
+        p44_y*minus_y_Pdd_q4ty);
+    const double minus_y14_y = x_B4_y*c17;
+    const double t99 = qd[17]*(c18*minus_y14_y*qd[19] - q[19]*(minus_y14_y*t88 +
+        x_B4_y*x14d_tz*c18));
+    const double minus_x14_y = x_B4_y*s17;
+    const double minus_x14d_ty = x_B4_y*y14d_tz;
+    const double o34dd_q18ty = (s18*minus_x14_y + x_B4_x*c18)*qd[19] + q[19]*(minus_x14_y*t92 +
+        s18*minus_x14d_ty - x_B4_x*t88);
+    const double t103 = t97 + qd[5]*(p44_x*minus_y_Pd_ty - p44_y*minus_x_Pd_ty) - t99 +
+        qd[18]*o34dd_q18ty;
+    values[10] = t103 + qd[19]*(minus_x14_y*t88 - c18*minus_x14d_ty + x_B4_x*t92);
+    const double t104 = qd[3]*(p44_x*minus_x_Pd_ty + p44_y*minus_y_Pd_ty) - qd[4]*(p44_x*x_Pdd_q4tz
+        + p44_y*y_Pdd_q4tz);
+    const double t105 = qd[17]*(s17*c18*qd[19] + q[19]*(c18*y14d_tz - s17*t88));
+    const double t106 = qd[18]*(c17*s18*qd[19] - q[19]*(s18*x14d_tz - c17*t92));
+    const double t107 = t104 - qd[5]*(p44_x*y_Pd_tz - p44_y*x_Pd_tz) + t105 + t106;
+    values[11] = t107 + qd[19]*(c18*x14d_tz + c17*t88);
+    const double minus_y15_x = x_B5_x*c20;
     const double t109 = s21*qd[21];
-    const double t110 = s20*qd[20];
-    const double t111 = qd[20]*(c21*t108*qd[22] - q[22]*(t108*t109 + k17*t110*c21));
-    const double t112 = k17*s20;
+    const double x15d_tz = s20*qd[20];
+    const double t111 = qd[20]*(c21*minus_y15_x*qd[22] - q[22]*(minus_y15_x*t109 +
+        x_B5_x*x15d_tz*c21));
+    const double minus_x15_x = x_B5_x*s20;
     const double t113 = c21*qd[21];
-    const double t114 = c20*qd[20];
-    const double t115 = k17*t114;
-    const double t116 = (s21*t112 - k18*c21)*qd[22] + q[22]*(t112*t113 + s21*t115 + k18*t109);
-    const double t117 = qd[4]*(k19*t3 - k20*t5) - qd[5]*(k19*t7 + k20*t8) - t111 + qd[21]*t116;
-    values[12] = t117 - qd[22]*(c21*t115 - t112*t109 + k18*t113);
-    const double t118 = qd[3]*(k19*t23 + k20*t24) + qd[4]*(k19*t27 + k20*t28);
-    const double t119 = k18*c20;
-    const double t120 = qd[20]*(c21*t119*qd[22] - q[22]*(t119*t109 + k18*t110*c21));
-    const double t121 = k18*s20;
-    const double t122 = k18*t114;
-    const double t123 = (s21*t121 + k17*c21)*qd[22] + q[22]*(t121*t113 + s21*t122 - k17*t109);
-    const double t124 = t118 + qd[5]*(k19*t31 - k20*t32) - t120 + qd[21]*t123;
-    values[13] = t124 + qd[22]*(t121*t109 - c21*t122 + k17*t113);
-    const double t125 = qd[3]*(k19*t32 + k20*t31) - qd[4]*(k19*t42 + k20*t43);
-    const double t126 = qd[20]*(s20*c21*qd[22] + q[22]*(c21*t114 - s20*t109));
-    const double t127 = qd[21]*(c20*s21*qd[22] - q[22]*(s21*t110 - c20*t113));
-    const double t128 = t125 - qd[5]*(k19*t24 - k20*t23) + t126 + t127;
-    values[14] = t128 + qd[22]*(c21*t110 + c20*t109);
-    const double t129 = k21*c23;
+    const double y15d_tz = c20*qd[20];
+    const double minus_x15d_tx = x_B5_x*y15d_tz;
+    const double o35dd_q21tx = (s21*minus_x15_x - x_B5_y*c21)*qd[22] + q[22]*(minus_x15_x*t113 +
+        s21*minus_x15d_tx + x_B5_y*t109);
+    const double t117 = qd[4]*(p45_x*minus_x_Pdd_q4tx - p45_y*y_Pdd_q4tx) - qd[5]*(p45_x*y_Pd_tx +
+        p45_y*minus_x_Pd_tx) - t111 + qd[21]*o35dd_q21tx;
+    values[12] = t117 - qd[22]*(c21*minus_x15d_tx - minus_x15_x*t109 + x_B5_y*t113);
+    const double t118 = qd[3]*(p45_x*x_Pd_tz + p45_y*y_Pd_tz) + qd[4]*(p45_x*minus_x_Pdd_q4ty +
+        p45_y*minus_y_Pdd_q4ty);
+    const double minus_y15_y = x_B5_y*c20;
+    const double t120 = qd[20]*(c21*minus_y15_y*qd[22] - q[22]*(minus_y15_y*t109 +
+        x_B5_y*x15d_tz*c21));
+    const double minus_x15_y = x_B5_y*s20;
+    const double minus_x15d_ty = x_B5_y*y15d_tz;
+    const double o35dd_q21ty = (s21*minus_x15_y + x_B5_x*c21)*qd[22] + q[22]*(minus_x15_y*t113 +
+        s21*minus_x15d_ty - x_B5_x*t109);
+    const double t124 = t118 + qd[5]*(p45_x*minus_y_Pd_ty - p45_y*minus_x_Pd_ty) - t120 +
+        qd[21]*o35dd_q21ty;
+    values[13] = t124 + qd[22]*(minus_x15_y*t109 - c21*minus_x15d_ty + x_B5_x*t113);
+    const double t125 = qd[3]*(p45_x*minus_x_Pd_ty + p45_y*minus_y_Pd_ty) - qd[4]*(p45_x*x_Pdd_q4tz
+        + p45_y*y_Pdd_q4tz);
+    const double t126 = qd[20]*(s20*c21*qd[22] + q[22]*(c21*y15d_tz - s20*t109));
+    const double t127 = qd[21]*(c20*s21*qd[22] - q[22]*(s21*x15d_tz - c20*t113));
+    const double t128 = t125 - qd[5]*(p45_x*y_Pd_tz - p45_y*x_Pd_tz) + t126 + t127;
+    values[14] = t128 + qd[22]*(c21*x15d_tz + c20*t109);
+    const double minus_y16_x = x_B6_x*c23;
     const double t130 = s24*qd[24];
-    const double t131 = s23*qd[23];
-    const double t132 = qd[23]*(c24*t129*qd[25] - q[25]*(t129*t130 + k21*t131*c24));
-    const double t133 = k21*s23;
+    const double x16d_tz = s23*qd[23];
+    const double t132 = qd[23]*(c24*minus_y16_x*qd[25] - q[25]*(minus_y16_x*t130 +
+        x_B6_x*x16d_tz*c24));
+    const double minus_x16_x = x_B6_x*s23;
     const double t134 = c24*qd[24];
-    const double t135 = c23*qd[23];
-    const double t136 = k21*t135;
-    const double t137 = (s24*t133 - k22*c24)*qd[25] + q[25]*(t133*t134 + s24*t136 + k22*t130);
-    const double t138 = qd[4]*(k23*t3 - k24*t5) - qd[5]*(k23*t7 + k24*t8) - t132 + qd[24]*t137;
-    values[15] = t138 - qd[25]*(c24*t136 - t133*t130 + k22*t134);
-    const double t139 = qd[3]*(k23*t23 + k24*t24) + qd[4]*(k23*t27 + k24*t28);
-    const double t140 = k22*c23;
-    const double t141 = qd[23]*(c24*t140*qd[25] - q[25]*(t140*t130 + k22*t131*c24));
-    const double t142 = k22*s23;
-    const double t143 = k22*t135;
-    const double t144 = (s24*t142 + k21*c24)*qd[25] + q[25]*(t142*t134 + s24*t143 - k21*t130);
-    const double t145 = t139 + qd[5]*(k23*t31 - k24*t32) - t141 + qd[24]*t144;
-    values[16] = t145 + qd[25]*(t142*t130 - c24*t143 + k21*t134);
-    const double t146 = qd[3]*(k23*t32 + k24*t31) - qd[4]*(k23*t42 + k24*t43);
-    const double t147 = qd[23]*(s23*c24*qd[25] + q[25]*(c24*t135 - s23*t130));
-    const double t148 = qd[24]*(c23*s24*qd[25] - q[25]*(s24*t131 - c23*t134));
-    const double t149 = t146 - qd[5]*(k23*t24 - k24*t23) + t147 + t148;
-    values[17] = t149 + qd[25]*(c24*t131 + c23*t130);
+    const double y16d_tz = c23*qd[23];
+    const double minus_x16d_tx = x_B6_x*y16d_tz;
+    const double o36dd_q24tx = (s24*minus_x16_x - x_B6_y*c24)*qd[25] + q[25]*(minus_x16_x*t134 +
+        s24*minus_x16d_tx + x_B6_y*t130);
+    const double t138 = qd[4]*(p46_x*minus_x_Pdd_q4tx - p46_y*y_Pdd_q4tx) - qd[5]*(p46_x*y_Pd_tx +
+        p46_y*minus_x_Pd_tx) - t132 + qd[24]*o36dd_q24tx;
+    values[15] = t138 - qd[25]*(c24*minus_x16d_tx - minus_x16_x*t130 + x_B6_y*t134);
+    const double t139 = qd[3]*(p46_x*x_Pd_tz + p46_y*y_Pd_tz) + qd[4]*(p46_x*minus_x_Pdd_q4ty +
+        p46_y*minus_y_Pdd_q4ty);
+    const double minus_y16_y = x_B6_y*c23;
+    const double t141 = qd[23]*(c24*minus_y16_y*qd[25] - q[25]*(minus_y16_y*t130 +
+        x_B6_y*x16d_tz*c24));
+    const double minus_x16_y = x_B6_y*s23;
+    const double minus_x16d_ty = x_B6_y*y16d_tz;
+    const double o36dd_q24ty = (s24*minus_x16_y + x_B6_x*c24)*qd[25] + q[25]*(minus_x16_y*t134 +
+        s24*minus_x16d_ty - x_B6_x*t130);
+    const double t145 = t139 + qd[5]*(p46_x*minus_y_Pd_ty - p46_y*minus_x_Pd_ty) - t141 +
+        qd[24]*o36dd_q24ty;
+    values[16] = t145 + qd[25]*(minus_x16_y*t130 - c24*minus_x16d_ty + x_B6_x*t134);
+    const double t146 = qd[3]*(p46_x*minus_x_Pd_ty + p46_y*minus_y_Pd_ty) - qd[4]*(p46_x*x_Pdd_q4tz
+        + p46_y*y_Pdd_q4tz);
+    const double t147 = qd[23]*(s23*c24*qd[25] + q[25]*(c24*y16d_tz - s23*t130));
+    const double t148 = qd[24]*(c23*s24*qd[25] - q[25]*(s24*x16d_tz - c23*t134));
+    const double t149 = t146 - qd[5]*(p46_x*y_Pd_tz - p46_y*x_Pd_tz) + t147 + t148;
+    values[17] = t149 + qd[25]*(c24*x16d_tz + c23*t130);
 }
 
 /* All equations of all loops, cosines, nonzeros of df/du, turns.
  * 154 additions, 284 multiplications. */
 void evra_tree_closure(const double *q, double *MODELER_RESTRICT values)
 {
-    const double k1 = cos(evra_geo_beta1);
-    const double k2 = sin(evra_geo_beta1);
-    const double k3 = k1*evra_geo_RB;
-    const double k4 = k2*evra_geo_RB;
-    const double k5 = cos(evra_geo_phi1)*evra_geo_RP;
-    const double k6 = sin(evra_geo_phi1)*evra_geo_RP;
-    const double k7 = cos(evra_geo_beta2);
-    const double k8 = sin(evra_geo_beta2);
-    const double k9 = evra_geo_RB*k7;
-    const double k10 = evra_geo_RB*k8;
-    const double k11 = evra_geo_RP*cos(evra_geo_phi2);
-    const double k12 = evra_geo_RP*sin(evra_geo_phi2);
-    const double k13 = cos(evra_geo_beta3);
-    const double k14 = sin(evra_geo_beta3);
-    const double k15 = evra_geo_RB*k13;
-    const double k16 = evra_geo_RB*k14;
-    const double k17 = evra_geo_RP*cos(evra_geo_phi3);
-    const double k18 = evra_geo_RP*sin(evra_geo_phi3);
-    const double k19 = cos(evra_geo_beta4);
-    const double k20 = sin(evra_geo_beta4);
-    const double k21 = evra_geo_RB*k19;
-    const double k22 = evra_geo_RB*k20;
-    const double k23 = evra_geo_RP*cos(evra_geo_phi4);
-    const double k24 = evra_geo_RP*sin(evra_geo_phi4);
-    const double k25 = cos(evra_geo_beta5);
-    const double k26 = sin(evra_geo_beta5);
-    const double k27 = evra_geo_RB*k25;
-    const double k28 = evra_geo_RB*k26;
-    const double k29 = evra_geo_RP*cos(evra_geo_phi5);
-    const double k30 = evra_geo_RP*sin(evra_geo_phi5);
-    const double k31 = cos(evra_geo_beta6);
-    const double k32 = sin(evra_geo_beta6);
-    const double k33 = evra_geo_RB*k31;
-    const double k34 = evra_geo_RB*k32;
-    const double k35 = evra_geo_RP*cos(evra_geo_phi6);
-    const double k36 = evra_geo_RP*sin(evra_geo_phi6);
+    const double x_B1_x = cos(evra_geo_beta1);
+    const double x_B1_y = sin(evra_geo_beta1);
+    const double p_B1_x = x_B1_x*evra_geo_RB;
+    const double p_B1_y = x_B1_y*evra_geo_RB;
+    const double p41_x = cos(evra_geo_phi1)*evra_geo_RP;
+    const double p41_y = sin(evra_geo_phi1)*evra_geo_RP;
+    const double x_B2_x = cos(evra_geo_beta2);
+    const double x_B2_y = sin(evra_geo_beta2);
+    const double p_B2_x = evra_geo_RB*x_B2_x;
+    const double p_B2_y = evra_geo_RB*x_B2_y;
+    const double p42_x = evra_geo_RP*cos(evra_geo_phi2);
+    const double p42_y = evra_geo_RP*sin(evra_geo_phi2);
+    const double x_B3_x = cos(evra_geo_beta3);
+    const double x_B3_y = sin(evra_geo_beta3);
+    const double p_B3_x = evra_geo_RB*x_B3_x;
+    const double p_B3_y = evra_geo_RB*x_B3_y;
+    const double p43_x = evra_geo_RP*cos(evra_geo_phi3);
+    const double p43_y = evra_geo_RP*sin(evra_geo_phi3);
+    const double x_B4_x = cos(evra_geo_beta4);
+    const double x_B4_y = sin(evra_geo_beta4);
+    const double p_B4_x = evra_geo_RB*x_B4_x;
+    const double p_B4_y = evra_geo_RB*x_B4_y;
+    const double p44_x = evra_geo_RP*cos(evra_geo_phi4);
+    const double p44_y = evra_geo_RP*sin(evra_geo_phi4);
+    const double x_B5_x = cos(evra_geo_beta5);
+    const double x_B5_y = sin(evra_geo_beta5);
+    const double p_B5_x = evra_geo_RB*x_B5_x;
+    const double p_B5_y = evra_geo_RB*x_B5_y;
+    const double p45_x = evra_geo_RP*cos(evra_geo_phi5);
+    const double p45_y = evra_geo_RP*sin(evra_geo_phi5);
+    const double x_B6_x = cos(evra_geo_beta6);
+    const double x_B6_y = sin(evra_geo_beta6);
+    const double p_B6_x = evra_geo_RB*x_B6_x;
+    const double p_B6_y = evra_geo_RB*x_B6_y;
+    const double p46_x = evra_geo_RP*cos(evra_geo_phi6);
+    const double p46_y = evra_geo_RP*sin(evra_geo_phi6);
 
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
@@ -2063,226 +2585,226 @@ void evra_tree_closure(const double *q, double *MODELER_RESTRICT values)
     double s24, c24;
     modeler_sincos(q[24], &s24, &c24);
 
-    const double t1 = k1*s8;
-    const double t2 = k2*s9 + c9*t1;
-    const double t3 = c4*c5;
-    const double t4 = c4*s5;
-    values[0] = q[6] + k3 - q[10]*t2 + (k6*t4 - (q[0] + k5*t3));
-    const double t5 = k2*s8;
-    const double t6 = k1*s9 - c9*t5;
-    const double t7 = s3*s4;
-    const double t8 = c5*t7 + c3*s5;
-    const double t9 = k5*t8;
-    const double t10 = c3*c5 - s5*t7;
-    const double t11 = k6*t10;
-    values[1] = q[7] + k4 + q[10]*t6 - (q[1] + t9 + t11);
-    const double t12 = c8*c9;
-    const double t13 = c3*s4;
-    const double t14 = c5*t13 - s3*s5;
-    const double t15 = k5*t14;
-    const double t16 = s3*c5 + s5*t13;
-    const double t17 = k6*t16;
-    values[2] = -(q[2] - t15 + t17 + q[10]*t12);
-    const double t18 = k7*s11;
-    const double t19 = k8*s12 + c12*t18;
-    values[3] = q[6] + k9 - q[13]*t19 + (k12*t4 - (q[0] + k11*t3));
-    const double t20 = k8*s11;
-    const double t21 = k7*s12 - c12*t20;
-    const double t22 = k11*t8;
-    const double t23 = k12*t10;
-    values[4] = q[7] + k10 + q[13]*t21 - (q[1] + t22 + t23);
-    const double t24 = c11*c12;
-    const double t25 = k11*t14;
-    const double t26 = k12*t16;
-    values[5] = -(q[2] - t25 + t26 + q[13]*t24);
-    const double t27 = k13*s14;
-    const double t28 = k14*s15 + c15*t27;
-    values[6] = q[6] + k15 - q[16]*t28 + (k18*t4 - (q[0] + k17*t3));
-    const double t29 = k14*s14;
-    const double t30 = k13*s15 - c15*t29;
-    const double t31 = k17*t8;
-    const double t32 = k18*t10;
-    values[7] = q[7] + k16 + q[16]*t30 - (q[1] + t31 + t32);
-    const double t33 = c14*c15;
-    const double t34 = k17*t14;
-    const double t35 = k18*t16;
-    values[8] = -(q[2] - t34 + t35 + q[16]*t33);
-    const double t36 = k19*s17;
-    const double t37 = k20*s18 + c18*t36;
-    values[9] = q[6] + k21 - q[19]*t37 + (k24*t4 - (q[0] + k23*t3));
-    const double t38 = k20*s17;
-    const double t39 = k19*s18 - c18*t38;
-    const double t40 = k23*t8;
-    const double t41 = k24*t10;
-    values[10] = q[7] + k22 + q[19]*t39 - (q[1] + t40 + t41);
-    const double t42 = c17*c18;
-    const double t43 = k23*t14;
-    const double t44 = k24*t16;
-    values[11] = -(q[2] - t43 + t44 + q[19]*t42);
-    const double t45 = k25*s20;
-    const double t46 = k26*s21 + c21*t45;
-    values[12] = q[6] + k27 - q[22]*t46 + (k30*t4 - (q[0] + k29*t3));
-    const double t47 = k26*s20;
-    const double t48 = k25*s21 - c21*t47;
-    const double t49 = k29*t8;
-    const double t50 = k30*t10;
-    values[13] = q[7] + k28 + q[22]*t48 - (q[1] + t49 + t50);
-    const double t51 = c20*c21;
-    const double t52 = k29*t14;
-    const double t53 = k30*t16;
-    values[14] = -(q[2] - t52 + t53 + q[22]*t51);
-    const double t54 = k31*s23;
-    const double t55 = k32*s24 + c24*t54;
-    values[15] = q[6] + k33 - q[25]*t55 + (k36*t4 - (q[0] + k35*t3));
-    const double t56 = k32*s23;
-    const double t57 = k31*s24 - c24*t56;
-    const double t58 = k35*t8;
-    const double t59 = k36*t10;
-    values[16] = q[7] + k34 + q[25]*t57 - (q[1] + t58 + t59);
-    const double t60 = c23*c24;
-    const double t61 = k35*t14;
-    const double t62 = k36*t16;
-    values[17] = -(q[2] - t61 + t62 + q[25]*t60);
+    const double minus_x11_x = x_B1_x*s8;
+    const double y21_x = x_B1_y*s9 + c9*minus_x11_x;
+    const double x_P_x = c4*c5;
+    const double minus_y_P_x = c4*s5;
+    values[0] = q[6] + p_B1_x - q[10]*y21_x + (p41_y*minus_y_P_x - (q[0] + p41_x*x_P_x));
+    const double minus_x11_y = x_B1_y*s8;
+    const double minus_y21_y = x_B1_x*s9 - c9*minus_x11_y;
+    const double y_Pb_y = s3*s4;
+    const double x_P_y = c5*y_Pb_y + c3*s5;
+    const double t9 = p41_x*x_P_y;
+    const double y_P_y = c3*c5 - s5*y_Pb_y;
+    const double t11 = p41_y*y_P_y;
+    values[1] = q[7] + p_B1_y + q[10]*minus_y21_y - (q[1] + t9 + t11);
+    const double y21_z = c8*c9;
+    const double minus_y_Pb_z = c3*s4;
+    const double minus_x_P_z = c5*minus_y_Pb_z - s3*s5;
+    const double t15 = p41_x*minus_x_P_z;
+    const double y_P_z = s3*c5 + s5*minus_y_Pb_z;
+    const double t17 = p41_y*y_P_z;
+    values[2] = -(q[2] - t15 + t17 + q[10]*y21_z);
+    const double minus_x12_x = x_B2_x*s11;
+    const double y22_x = x_B2_y*s12 + c12*minus_x12_x;
+    values[3] = q[6] + p_B2_x - q[13]*y22_x + (p42_y*minus_y_P_x - (q[0] + p42_x*x_P_x));
+    const double minus_x12_y = x_B2_y*s11;
+    const double minus_y22_y = x_B2_x*s12 - c12*minus_x12_y;
+    const double t22 = p42_x*x_P_y;
+    const double t23 = p42_y*y_P_y;
+    values[4] = q[7] + p_B2_y + q[13]*minus_y22_y - (q[1] + t22 + t23);
+    const double y22_z = c11*c12;
+    const double t25 = p42_x*minus_x_P_z;
+    const double t26 = p42_y*y_P_z;
+    values[5] = -(q[2] - t25 + t26 + q[13]*y22_z);
+    const double minus_x13_x = x_B3_x*s14;
+    const double y23_x = x_B3_y*s15 + c15*minus_x13_x;
+    values[6] = q[6] + p_B3_x - q[16]*y23_x + (p43_y*minus_y_P_x - (q[0] + p43_x*x_P_x));
+    const double minus_x13_y = x_B3_y*s14;
+    const double minus_y23_y = x_B3_x*s15 - c15*minus_x13_y;
+    const double t31 = p43_x*x_P_y;
+    const double t32 = p43_y*y_P_y;
+    values[7] = q[7] + p_B3_y + q[16]*minus_y23_y - (q[1] + t31 + t32);
+    const double y23_z = c14*c15;
+    const double t34 = p43_x*minus_x_P_z;
+    const double t35 = p43_y*y_P_z;
+    values[8] = -(q[2] - t34 + t35 + q[16]*y23_z);
+    const double minus_x14_x = x_B4_x*s17;
+    const double y24_x = x_B4_y*s18 + c18*minus_x14_x;
+    values[9] = q[6] + p_B4_x - q[19]*y24_x + (p44_y*minus_y_P_x - (q[0] + p44_x*x_P_x));
+    const double minus_x14_y = x_B4_y*s17;
+    const double minus_y24_y = x_B4_x*s18 - c18*minus_x14_y;
+    const double t40 = p44_x*x_P_y;
+    const double t41 = p44_y*y_P_y;
+    values[10] = q[7] + p_B4_y + q[19]*minus_y24_y - (q[1] + t40 + t41);
+    const double y24_z = c17*c18;
+    const double t43 = p44_x*minus_x_P_z;
+    const double t44 = p44_y*y_P_z;
+    values[11] = -(q[2] - t43 + t44 + q[19]*y24_z);
+    const double minus_x15_x = x_B5_x*s20;
+    const double y25_x = x_B5_y*s21 + c21*minus_x15_x;
+    values[12] = q[6] + p_B5_x - q[22]*y25_x + (p45_y*minus_y_P_x - (q[0] + p45_x*x_P_x));
+    const double minus_x15_y = x_B5_y*s20;
+    const double minus_y25_y = x_B5_x*s21 - c21*minus_x15_y;
+    const double t49 = p45_x*x_P_y;
+    const double t50 = p45_y*y_P_y;
+    values[13] = q[7] + p_B5_y + q[22]*minus_y25_y - (q[1] + t49 + t50);
+    const double y25_z = c20*c21;
+    const double t52 = p45_x*minus_x_P_z;
+    const double t53 = p45_y*y_P_z;
+    values[14] = -(q[2] - t52 + t53 + q[22]*y25_z);
+    const double minus_x16_x = x_B6_x*s23;
+    const double y26_x = x_B6_y*s24 + c24*minus_x16_x;
+    values[15] = q[6] + p_B6_x - q[25]*y26_x + (p46_y*minus_y_P_x - (q[0] + p46_x*x_P_x));
+    const double minus_x16_y = x_B6_y*s23;
+    const double minus_y26_y = x_B6_x*s24 - c24*minus_x16_y;
+    const double t58 = p46_x*x_P_y;
+    const double t59 = p46_y*y_P_y;
+    values[16] = q[7] + p_B6_y + q[25]*minus_y26_y - (q[1] + t58 + t59);
+    const double y26_z = c23*c24;
+    const double t61 = p46_x*minus_x_P_z;
+    const double t62 = p46_y*y_P_z;
+    values[17] = -(q[2] - t61 + t62 + q[25]*y26_z);
     values[18] = -1.0;
-    const double t63 = s4*c5;
-    const double t64 = s4*s5;
-    values[19] = k5*t63 - k6*t64;
-    values[20] = k5*t4 + k6*t3;
+    const double minus_x_Pd_q4x = s4*c5;
+    const double y_Pd_q4x = s4*s5;
+    values[19] = p41_x*minus_x_Pd_q4x - p41_y*y_Pd_q4x;
+    values[20] = p41_x*minus_y_P_x + p41_y*x_P_x;
     values[21] = 1.0;
-    values[22] = -k1*c8*c9*q[10];
-    values[23] = q[10]*(s9*t1 - k2*c9);
-    values[24] = -t2;
+    values[22] = -x_B1_x*c8*c9*q[10];
+    values[23] = q[10]*(s9*minus_x11_x - x_B1_y*c9);
+    values[24] = -y21_x;
     values[25] = -1.0;
     values[26] = t17 - t15;
-    const double t65 = s3*c4;
-    const double t66 = c5*t65;
-    const double t67 = s5*t65;
-    values[27] = k6*t67 - k5*t66;
-    values[28] = k6*t8 - k5*t10;
+    const double minus_x_Pb_y = s3*c4;
+    const double x_Pd_q4y = c5*minus_x_Pb_y;
+    const double minus_y_Pd_q4y = s5*minus_x_Pb_y;
+    values[27] = p41_y*minus_y_Pd_q4y - p41_x*x_Pd_q4y;
+    values[28] = p41_y*x_P_y - p41_x*y_P_y;
     values[29] = 1.0;
-    values[30] = -k2*c8*c9*q[10];
-    values[31] = q[10]*(s9*t5 + k1*c9);
-    values[32] = t6;
+    values[30] = -x_B1_y*c8*c9*q[10];
+    values[31] = q[10]*(s9*minus_x11_y + x_B1_x*c9);
+    values[32] = minus_y21_y;
     values[33] = -1.0;
     values[34] = -(t9 + t11);
-    const double t68 = c3*c4;
-    const double t69 = c5*t68;
-    const double t70 = s5*t68;
-    values[35] = k5*t69 - k6*t70;
-    values[36] = -(k5*t16 + k6*t14);
+    const double x_Pb_z = c3*c4;
+    const double minus_x_Pd_q4z = c5*x_Pb_z;
+    const double y_Pd_q4z = s5*x_Pb_z;
+    values[35] = p41_x*minus_x_Pd_q4z - p41_y*y_Pd_q4z;
+    values[36] = -(p41_x*y_P_z + p41_y*minus_x_P_z);
     values[37] = s8*c9*q[10];
     values[38] = c8*s9*q[10];
-    values[39] = -t12;
+    values[39] = -y21_z;
     values[40] = -1.0;
-    values[41] = k11*t63 - k12*t64;
-    values[42] = k11*t4 + k12*t3;
+    values[41] = p42_x*minus_x_Pd_q4x - p42_y*y_Pd_q4x;
+    values[42] = p42_x*minus_y_P_x + p42_y*x_P_x;
     values[43] = 1.0;
-    values[44] = -k7*c11*c12*q[13];
-    values[45] = q[13]*(s12*t18 - k8*c12);
-    values[46] = -t19;
+    values[44] = -x_B2_x*c11*c12*q[13];
+    values[45] = q[13]*(s12*minus_x12_x - x_B2_y*c12);
+    values[46] = -y22_x;
     values[47] = -1.0;
     values[48] = t26 - t25;
-    values[49] = k12*t67 - k11*t66;
-    values[50] = k12*t8 - k11*t10;
+    values[49] = p42_y*minus_y_Pd_q4y - p42_x*x_Pd_q4y;
+    values[50] = p42_y*x_P_y - p42_x*y_P_y;
     values[51] = 1.0;
-    values[52] = -k8*c11*c12*q[13];
-    values[53] = q[13]*(s12*t20 + k7*c12);
-    values[54] = t21;
+    values[52] = -x_B2_y*c11*c12*q[13];
+    values[53] = q[13]*(s12*minus_x12_y + x_B2_x*c12);
+    values[54] = minus_y22_y;
     values[55] = -1.0;
     values[56] = -(t22 + t23);
-    values[57] = k11*t69 - k12*t70;
-    values[58] = -(k11*t16 + k12*t14);
+    values[57] = p42_x*minus_x_Pd_q4z - p42_y*y_Pd_q4z;
+    values[58] = -(p42_x*y_P_z + p42_y*minus_x_P_z);
     values[59] = s11*c12*q[13];
     values[60] = c11*s12*q[13];
-    values[61] = -t24;
+    values[61] = -y22_z;
     values[62] = -1.0;
-    values[63] = k17*t63 - k18*t64;
-    values[64] = k17*t4 + k18*t3;
+    values[63] = p43_x*minus_x_Pd_q4x - p43_y*y_Pd_q4x;
+    values[64] = p43_x*minus_y_P_x + p43_y*x_P_x;
     values[65] = 1.0;
-    values[66] = -k13*c14*c15*q[16];
-    values[67] = q[16]*(s15*t27 - k14*c15);
-    values[68] = -t28;
+    values[66] = -x_B3_x*c14*c15*q[16];
+    values[67] = q[16]*(s15*minus_x13_x - x_B3_y*c15);
+    values[68] = -y23_x;
     values[69] = -1.0;
     values[70] = t35 - t34;
-    values[71] = k18*t67 - k17*t66;
-    values[72] = k18*t8 - k17*t10;
+    values[71] = p43_y*minus_y_Pd_q4y - p43_x*x_Pd_q4y;
+    values[72] = p43_y*x_P_y - p43_x*y_P_y;
     values[73] = 1.0;
-    values[74] = -k14*c14*c15*q[16];
-    values[75] = q[16]*(s15*t29 + k13*c15);
-    values[76] = t30;
+    values[74] = -x_B3_y*c14*c15*q[16];
+    values[75] = q[16]*(s15*minus_x13_y + x_B3_x*c15);
+    values[76] = minus_y23_y;
     values[77] = -1.0;
     values[78] = -(t31 + t32);
-    values[79] = k17*t69 - k18*t70;
-    values[80] = -(k17*t16 + k18*t14);
+    values[79] = p43_x*minus_x_Pd_q4z - p43_y*y_Pd_q4z;
+    values[80] = -(p43_x*y_P_z + p43_y*minus_x_P_z);
     values[81] = s14*c15*q[16];
     values[82] = c14*s15*q[16];
-    values[83] = -t33;
+    values[83] = -y23_z;
     values[84] = -1.0;
-    values[85] = k23*t63 - k24*t64;
-    values[86] = k23*t4 + k24*t3;
+    values[85] = p44_x*minus_x_Pd_q4x - p44_y*y_Pd_q4x;
+    values[86] = p44_x*minus_y_P_x + p44_y*x_P_x;
     values[87] = 1.0;
-    values[88] = -k19*c17*c18*q[19];
-    values[89] = q[19]*(s18*t36 - k20*c18);
-    values[90] = -t37;
+    values[88] = -x_B4_x*c17*c18*q[19];
+    values[89] = q[19]*(s18*minus_x14_x - x_B4_y*c18);
+    values[90] = -y24_x;
     values[91] = -1.0;
     values[92] = t44 - t43;
-    values[93] = k24*t67 - k23*t66;
-    values[94] = k24*t8 - k23*t10;
+    values[93] = p44_y*minus_y_Pd_q4y - p44_x*x_Pd_q4y;
+    values[94] = p44_y*x_P_y - p44_x*y_P_y;
     values[95] = 1.0;
-    values[96] = -k20*c17*c18*q[19];
-    values[97] = q[19]*(s18*t38 + k19*c18);
-    values[98] = t39;
+    values[96] = -x_B4_y*c17*c18*q[19];
+    values[97] = q[19]*(s18*minus_x14_y + x_B4_x*c18);
+    values[98] = minus_y24_y;
     values[99] = -1.0;
     values[100] = -(t40 + t41);
-    values[101] = k23*t69 - k24*t70;
-    values[102] = -(k23*t16 + k24*t14);
+    values[101] = p44_x*minus_x_Pd_q4z - p44_y*y_Pd_q4z;
+    values[102] = -(p44_x*y_P_z + p44_y*minus_x_P_z);
     values[103] = s17*c18*q[19];
     values[104] = c17*s18*q[19];
-    values[105] = -t42;
+    values[105] = -y24_z;
     values[106] = -1.0;
-    values[107] = k29*t63 - k30*t64;
-    values[108] = k29*t4 + k30*t3;
+    values[107] = p45_x*minus_x_Pd_q4x - p45_y*y_Pd_q4x;
+    values[108] = p45_x*minus_y_P_x + p45_y*x_P_x;
     values[109] = 1.0;
-    values[110] = -k25*c20*c21*q[22];
-    values[111] = q[22]*(s21*t45 - k26*c21);
-    values[112] = -t46;
+    values[110] = -x_B5_x*c20*c21*q[22];
+    values[111] = q[22]*(s21*minus_x15_x - x_B5_y*c21);
+    values[112] = -y25_x;
     values[113] = -1.0;
     values[114] = t53 - t52;
-    values[115] = k30*t67 - k29*t66;
-    values[116] = k30*t8 - k29*t10;
+    values[115] = p45_y*minus_y_Pd_q4y - p45_x*x_Pd_q4y;
+    values[116] = p45_y*x_P_y - p45_x*y_P_y;
     values[117] = 1.0;
-    values[118] = -k26*c20*c21*q[22];
-    values[119] = q[22]*(s21*t47 + k25*c21);
-    values[120] = t48;
+    values[118] = -x_B5_y*c20*c21*q[22];
+    values[119] = q[22]*(s21*minus_x15_y + x_B5_x*c21);
+    values[120] = minus_y25_y;
     values[121] = -1.0;
     values[122] = -(t49 + t50);
-    values[123] = k29*t69 - k30*t70;
-    values[124] = -(k29*t16 + k30*t14);
+    values[123] = p45_x*minus_x_Pd_q4z - p45_y*y_Pd_q4z;
+    values[124] = -(p45_x*y_P_z + p45_y*minus_x_P_z);
     values[125] = s20*c21*q[22];
     values[126] = c20*s21*q[22];
-    values[127] = -t51;
+    values[127] = -y25_z;
     values[128] = -1.0;
-    values[129] = k35*t63 - k36*t64;
-    values[130] = k35*t4 + k36*t3;
+    values[129] = p46_x*minus_x_Pd_q4x - p46_y*y_Pd_q4x;
+    values[130] = p46_x*minus_y_P_x + p46_y*x_P_x;
     values[131] = 1.0;
-    values[132] = -k31*c23*c24*q[25];
-    values[133] = q[25]*(s24*t54 - k32*c24);
-    values[134] = -t55;
+    values[132] = -x_B6_x*c23*c24*q[25];
+    values[133] = q[25]*(s24*minus_x16_x - x_B6_y*c24);
+    values[134] = -y26_x;
     values[135] = -1.0;
     values[136] = t62 - t61;
-    values[137] = k36*t67 - k35*t66;
-    values[138] = k36*t8 - k35*t10;
+    values[137] = p46_y*minus_y_Pd_q4y - p46_x*x_Pd_q4y;
+    values[138] = p46_y*x_P_y - p46_x*y_P_y;
     values[139] = 1.0;
-    values[140] = -k32*c23*c24*q[25];
-    values[141] = q[25]*(s24*t56 + k31*c24);
-    values[142] = t57;
+    values[140] = -x_B6_y*c23*c24*q[25];
+    values[141] = q[25]*(s24*minus_x16_y + x_B6_x*c24);
+    values[142] = minus_y26_y;
     values[143] = -1.0;
     values[144] = -(t58 + t59);
-    values[145] = k35*t69 - k36*t70;
-    values[146] = -(k35*t16 + k36*t14);
+    values[145] = p46_x*minus_x_Pd_q4z - p46_y*y_Pd_q4z;
+    values[146] = -(p46_x*y_P_z + p46_y*minus_x_P_z);
     values[147] = s23*c24*q[25];
     values[148] = c23*s24*q[25];
-    values[149] = -t60;
+    values[149] = -y26_z;
     values[150] = c3;
     values[151] = s3;
     values[152] = c4;
@@ -2319,42 +2841,42 @@ void evra_tree_closure(const double *q, double *MODELER_RESTRICT values)
  * 94 additions, 108 multiplications. */
 void evra_tree_residual(const double *q, double *MODELER_RESTRICT f)
 {
-    const double k1 = cos(evra_geo_beta1);
-    const double k2 = sin(evra_geo_beta1);
-    const double k3 = k1*evra_geo_RB;
-    const double k4 = k2*evra_geo_RB;
-    const double k5 = cos(evra_geo_phi1)*evra_geo_RP;
-    const double k6 = sin(evra_geo_phi1)*evra_geo_RP;
-    const double k7 = cos(evra_geo_beta2);
-    const double k8 = sin(evra_geo_beta2);
-    const double k9 = evra_geo_RB*k7;
-    const double k10 = evra_geo_RB*k8;
-    const double k11 = evra_geo_RP*cos(evra_geo_phi2);
-    const double k12 = evra_geo_RP*sin(evra_geo_phi2);
-    const double k13 = cos(evra_geo_beta3);
-    const double k14 = sin(evra_geo_beta3);
-    const double k15 = evra_geo_RB*k13;
-    const double k16 = evra_geo_RB*k14;
-    const double k17 = evra_geo_RP*cos(evra_geo_phi3);
-    const double k18 = evra_geo_RP*sin(evra_geo_phi3);
-    const double k19 = cos(evra_geo_beta4);
-    const double k20 = sin(evra_geo_beta4);
-    const double k21 = evra_geo_RB*k19;
-    const double k22 = evra_geo_RB*k20;
-    const double k23 = evra_geo_RP*cos(evra_geo_phi4);
-    const double k24 = evra_geo_RP*sin(evra_geo_phi4);
-    const double k25 = cos(evra_geo_beta5);
-    const double k26 = sin(evra_geo_beta5);
-    const double k27 = evra_geo_RB*k25;
-    const double k28 = evra_geo_RB*k26;
-    const double k29 = evra_geo_RP*cos(evra_geo_phi5);
-    const double k30 = evra_geo_RP*sin(evra_geo_phi5);
-    const double k31 = cos(evra_geo_beta6);
-    const double k32 = sin(evra_geo_beta6);
-    const double k33 = evra_geo_RB*k31;
-    const double k34 = evra_geo_RB*k32;
-    const double k35 = evra_geo_RP*cos(evra_geo_phi6);
-    const double k36 = evra_geo_RP*sin(evra_geo_phi6);
+    const double x_B1_x = cos(evra_geo_beta1);
+    const double x_B1_y = sin(evra_geo_beta1);
+    const double p_B1_x = x_B1_x*evra_geo_RB;
+    const double p_B1_y = x_B1_y*evra_geo_RB;
+    const double p41_x = cos(evra_geo_phi1)*evra_geo_RP;
+    const double p41_y = sin(evra_geo_phi1)*evra_geo_RP;
+    const double x_B2_x = cos(evra_geo_beta2);
+    const double x_B2_y = sin(evra_geo_beta2);
+    const double p_B2_x = evra_geo_RB*x_B2_x;
+    const double p_B2_y = evra_geo_RB*x_B2_y;
+    const double p42_x = evra_geo_RP*cos(evra_geo_phi2);
+    const double p42_y = evra_geo_RP*sin(evra_geo_phi2);
+    const double x_B3_x = cos(evra_geo_beta3);
+    const double x_B3_y = sin(evra_geo_beta3);
+    const double p_B3_x = evra_geo_RB*x_B3_x;
+    const double p_B3_y = evra_geo_RB*x_B3_y;
+    const double p43_x = evra_geo_RP*cos(evra_geo_phi3);
+    const double p43_y = evra_geo_RP*sin(evra_geo_phi3);
+    const double x_B4_x = cos(evra_geo_beta4);
+    const double x_B4_y = sin(evra_geo_beta4);
+    const double p_B4_x = evra_geo_RB*x_B4_x;
+    const double p_B4_y = evra_geo_RB*x_B4_y;
+    const double p44_x = evra_geo_RP*cos(evra_geo_phi4);
+    const double p44_y = evra_geo_RP*sin(evra_geo_phi4);
+    const double x_B5_x = cos(evra_geo_beta5);
+    const double x_B5_y = sin(evra_geo_beta5);
+    const double p_B5_x = evra_geo_RB*x_B5_x;
+    const double p_B5_y = evra_geo_RB*x_B5_y;
+    const double p45_x = evra_geo_RP*cos(evra_geo_phi5);
+    const double p45_y = evra_geo_RP*sin(evra_geo_phi5);
+    const double x_B6_x = cos(evra_geo_beta6);
+    const double x_B6_y = sin(evra_geo_beta6);
+    const double p_B6_x = evra_geo_RB*x_B6_x;
+    const double p_B6_y = evra_geo_RB*x_B6_y;
+    const double p46_x = evra_geo_RP*cos(evra_geo_phi6);
+    const double p46_y = evra_geo_RP*sin(evra_geo_phi6);
 
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
@@ -2387,32 +2909,41 @@ void evra_tree_residual(const double *q, double *MODELER_RESTRICT f)
     double s24, c24;
     modeler_sincos(q[24], &s24, &c24);
 
-    const double t1 = c4*c5;
-    const double t2 = c4*s5;
-    f[0] = q[6] + k3 - q[10]*(k2*s9 + k1*s8*c9) + (k6*t2 - (q[0] + k5*t1));
-    const double t3 = s3*s4;
-    const double t4 = c5*t3 + c3*s5;
-    const double t5 = c3*c5 - s5*t3;
-    f[1] = q[7] + k4 + q[10]*(k1*s9 - k2*s8*c9) - (q[1] + k5*t4 + k6*t5);
-    const double t6 = c3*s4;
-    const double t7 = c5*t6 - s3*s5;
-    const double t8 = s3*c5 + s5*t6;
-    f[2] = -(q[2] - k5*t7 + k6*t8 + c8*c9*q[10]);
-    f[3] = q[6] + k9 - q[13]*(k8*s12 + k7*s11*c12) + (k12*t2 - (q[0] + k11*t1));
-    f[4] = q[7] + k10 + q[13]*(k7*s12 - k8*s11*c12) - (q[1] + k11*t4 + k12*t5);
-    f[5] = -(q[2] - k11*t7 + k12*t8 + c11*c12*q[13]);
-    f[6] = q[6] + k15 - q[16]*(k14*s15 + k13*s14*c15) + (k18*t2 - (q[0] + k17*t1));
-    f[7] = q[7] + k16 + q[16]*(k13*s15 - k14*s14*c15) - (q[1] + k17*t4 + k18*t5);
-    f[8] = -(q[2] - k17*t7 + k18*t8 + c14*c15*q[16]);
-    f[9] = q[6] + k21 - q[19]*(k20*s18 + k19*s17*c18) + (k24*t2 - (q[0] + k23*t1));
-    f[10] = q[7] + k22 + q[19]*(k19*s18 - k20*s17*c18) - (q[1] + k23*t4 + k24*t5);
-    f[11] = -(q[2] - k23*t7 + k24*t8 + c17*c18*q[19]);
-    f[12] = q[6] + k27 - q[22]*(k26*s21 + k25*s20*c21) + (k30*t2 - (q[0] + k29*t1));
-    f[13] = q[7] + k28 + q[22]*(k25*s21 - k26*s20*c21) - (q[1] + k29*t4 + k30*t5);
-    f[14] = -(q[2] - k29*t7 + k30*t8 + c20*c21*q[22]);
-    f[15] = q[6] + k33 - q[25]*(k32*s24 + k31*s23*c24) + (k36*t2 - (q[0] + k35*t1));
-    f[16] = q[7] + k34 + q[25]*(k31*s24 - k32*s23*c24) - (q[1] + k35*t4 + k36*t5);
-    f[17] = -(q[2] - k35*t7 + k36*t8 + c23*c24*q[25]);
+    const double x_P_x = c4*c5;
+    const double minus_y_P_x = c4*s5;
+    f[0] = q[6] + p_B1_x - q[10]*(x_B1_y*s9 + x_B1_x*s8*c9) + (p41_y*minus_y_P_x - (q[0] +
+        p41_x*x_P_x));
+    const double y_Pb_y = s3*s4;
+    const double x_P_y = c5*y_Pb_y + c3*s5;
+    const double y_P_y = c3*c5 - s5*y_Pb_y;
+    f[1] = q[7] + p_B1_y + q[10]*(x_B1_x*s9 - x_B1_y*s8*c9) - (q[1] + p41_x*x_P_y + p41_y*y_P_y);
+    const double minus_y_Pb_z = c3*s4;
+    const double minus_x_P_z = c5*minus_y_Pb_z - s3*s5;
+    const double y_P_z = s3*c5 + s5*minus_y_Pb_z;
+    f[2] = -(q[2] - p41_x*minus_x_P_z + p41_y*y_P_z + c8*c9*q[10]);
+    f[3] = q[6] + p_B2_x - q[13]*(x_B2_y*s12 + x_B2_x*s11*c12) + (p42_y*minus_y_P_x - (q[0] +
+        p42_x*x_P_x));
+    f[4] = q[7] + p_B2_y + q[13]*(x_B2_x*s12 - x_B2_y*s11*c12) - (q[1] + p42_x*x_P_y + p42_y*y_P_y);
+    f[5] = -(q[2] - p42_x*minus_x_P_z + p42_y*y_P_z + c11*c12*q[13]);
+    f[6] = q[6] + p_B3_x - q[16]*(x_B3_y*s15 + x_B3_x*s14*c15) + (p43_y*minus_y_P_x - (q[0] +
+        p43_x*x_P_x));
+    f[7] = q[7] + p_B3_y + q[16]*(x_B3_x*s15 - x_B3_y*s14*c15) - (q[1] + p43_x*x_P_y + p43_y*y_P_y);
+    f[8] = -(q[2] - p43_x*minus_x_P_z + p43_y*y_P_z + c14*c15*q[16]);
+    f[9] = q[6] + p_B4_x - q[19]*(x_B4_y*s18 + x_B4_x*s17*c18) + (p44_y*minus_y_P_x - (q[0] +
+        p44_x*x_P_x));
+    f[10] = q[7] + p_B4_y + q[19]*(x_B4_x*s18 - x_B4_y*s17*c18) - (q[1] + p44_x*x_P_y +
+        p44_y*y_P_y);
+    f[11] = -(q[2] - p44_x*minus_x_P_z + p44_y*y_P_z + c17*c18*q[19]);
+    f[12] = q[6] + p_B5_x - q[22]*(x_B5_y*s21 + x_B5_x*s20*c21) + (p45_y*minus_y_P_x - (q[0] +
+        p45_x*x_P_x));
+    f[13] = q[7] + p_B5_y + q[22]*(x_B5_x*s21 - x_B5_y*s20*c21) - (q[1] + p45_x*x_P_y +
+        p45_y*y_P_y);
+    f[14] = -(q[2] - p45_x*minus_x_P_z + p45_y*y_P_z + c20*c21*q[22]);
+    f[15] = q[6] + p_B6_x - q[25]*(x_B6_y*s24 + x_B6_x*s23*c24) + (p46_y*minus_y_P_x - (q[0] +
+        p46_x*x_P_x));
+    f[16] = q[7] + p_B6_y + q[25]*(x_B6_x*s24 - x_B6_y*s23*c24) - (q[1] + p46_x*x_P_y +
+        p46_y*y_P_y);
+    f[17] = -(q[2] - p46_x*minus_x_P_z + p46_y*y_P_z + c23*c24*q[25]);
 }
 
 /* Factors of the solved columns of J: 1/pivots, then the rest.
@@ -4104,28 +4635,28 @@ void evra_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 {
     const double k1 = cos(evra_geo_phi1);
     const double k2 = sin(evra_geo_phi1);
-    const double k3 = k1*evra_geo_RP;
-    const double k4 = k2*evra_geo_RP;
+    const double p41_x = k1*evra_geo_RP;
+    const double p41_y = k2*evra_geo_RP;
     const double k5 = cos(evra_geo_phi2);
     const double k6 = sin(evra_geo_phi2);
-    const double k7 = evra_geo_RP*k5;
-    const double k8 = evra_geo_RP*k6;
+    const double p42_x = evra_geo_RP*k5;
+    const double p42_y = evra_geo_RP*k6;
     const double k9 = cos(evra_geo_phi3);
     const double k10 = sin(evra_geo_phi3);
-    const double k11 = evra_geo_RP*k9;
-    const double k12 = evra_geo_RP*k10;
+    const double p43_x = evra_geo_RP*k9;
+    const double p43_y = evra_geo_RP*k10;
     const double k13 = cos(evra_geo_phi4);
     const double k14 = sin(evra_geo_phi4);
-    const double k15 = evra_geo_RP*k13;
-    const double k16 = evra_geo_RP*k14;
+    const double p44_x = evra_geo_RP*k13;
+    const double p44_y = evra_geo_RP*k14;
     const double k17 = cos(evra_geo_phi5);
     const double k18 = sin(evra_geo_phi5);
-    const double k19 = evra_geo_RP*k17;
-    const double k20 = evra_geo_RP*k18;
+    const double p45_x = evra_geo_RP*k17;
+    const double p45_y = evra_geo_RP*k18;
     const double k21 = cos(evra_geo_phi6);
     const double k22 = sin(evra_geo_phi6);
-    const double k23 = evra_geo_RP*k21;
-    const double k24 = evra_geo_RP*k22;
+    const double p46_x = evra_geo_RP*k21;
+    const double p46_y = evra_geo_RP*k22;
     const double k25 = evra_geo_RP*evra_geo_RP;
     const double k26 = k2*k2*k25;
     const double k27 = k6*k6*k25;
@@ -4156,10 +4687,10 @@ void evra_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
     beta[4] = chi[4];
     const double t4 = chi[5] + k25*chi[59] + k25*chi[89] + k25*chi[119] + k25*chi[149];
     beta[5] = t4 + k25*chi[179] + k25*chi[209];
-    const double t5 = chi[6] + k3*chi[59] + k7*chi[89] + k11*chi[119] + k15*chi[149];
-    beta[6] = t5 + k19*chi[179] + k23*chi[209];
-    const double t6 = chi[7] + k4*chi[59] + k8*chi[89] + k12*chi[119] + k16*chi[149];
-    beta[7] = t6 + k20*chi[179] + k24*chi[209];
+    const double t5 = chi[6] + p41_x*chi[59] + p42_x*chi[89] + p43_x*chi[119] + p44_x*chi[149];
+    beta[6] = t5 + p45_x*chi[179] + p46_x*chi[209];
+    const double t6 = chi[7] + p41_y*chi[59] + p42_y*chi[89] + p43_y*chi[119] + p44_y*chi[149];
+    beta[7] = t6 + p45_y*chi[179] + p46_y*chi[209];
     beta[8] = chi[8];
     beta[9] = chi[9] + chi[59] + chi[89] + chi[119] + chi[149] + chi[179] + chi[209];
     beta[10] = chi[19];

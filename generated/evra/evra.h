@@ -18,7 +18,9 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "d8bc365465081827"
+#define EVRA_SIGNATURE "cfc2542b09605c49"
+#define EVRA_SIGNATURE_1 0xcfc2542bu
+#define EVRA_SIGNATURE_2 0x09605c49u
 
 #define EVRA_JOINTS 8
 #define EVRA_STANDARD_PARAMETERS 210

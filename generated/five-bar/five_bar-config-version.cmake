@@ -1,6 +1,6 @@
 # find_package(five_bar) takes any, find_package(five_bar 1) any of this C interface,
-# find_package(five_bar 1.40470.39856.16051) only what has the signature 9e169bb03eb3d09f.
-set(PACKAGE_VERSION 1.40470.39856.16051)
+# find_package(five_bar 1.51149.34117.25822) only what has the signature c7cd854564dea4f6.
+set(PACKAGE_VERSION 1.51149.34117.25822)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

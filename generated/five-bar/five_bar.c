@@ -2,6 +2,24 @@
  *
  * Functions of five_bar.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   n      moment on the link at its origin
+ *   fc     force on the link and all that it carries
+ *   nc     moment on the link and all that it carries
+ *   lin_1  momentum of what hangs on a joint, for unit speed of it
+ *   ang_1  angular momentum of what hangs on a joint, for unit speed of it
+ *   x      axis x of the frame in frame 0
+ *   o      origin of the frame in frame 0
+ *   ...a   in axes of the antecedent: ang, fc, lin, nc, vd
+ *   ...d   derivative by a variable, qd2 for qd[2], or by the time, t: o, x
  */
 #include "five_bar.h"
 
@@ -53,26 +71,44 @@ void five_bar_tree_inverse_dynamics(const double *q, const double *qd, const dou
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
 
-    const double t1 = qdd[0] + qdd[1];
-    const double t2 = five_bar_geo_g*c0;
-    const double t3 = t2 + five_bar_geo_L1*qdd[0];
-    const double t4 = five_bar_geo_g*s0;
-    const double t5 = t4 - qd[0]*qd[0]*five_bar_geo_L1;
-    const double t6 = (c1*t3 - s1*t5)*beta[4] - (c1*t5 + s1*t3)*beta[5] + t1*beta[3];
-    const double t7 = qd[0] + qd[1];
-    const double t8 = t7*t7;
-    const double t9 = s1*(t8*beta[4] + t1*beta[5]) + c1*(t8*beta[5] - t1*beta[4]);
-    tau[0] = t6 - five_bar_geo_L1*t9 + (t2*beta[1] - t4*beta[2] + qdd[0]*beta[0]);
-    tau[1] = t6;
-    const double t10 = qdd[2] + qdd[3];
-    const double t11 = five_bar_geo_g*s2;
-    const double t12 = five_bar_geo_g*c2;
-    const double t13 = c3*(t11 - qd[2]*qd[2]*five_bar_geo_L3) + s3*(t12 + five_bar_geo_L3*qdd[2]);
-    const double t14 = t10*beta[9] - t13*beta[10];
-    const double t15 = qd[2] + qd[3];
-    const double t16 = t14 - five_bar_geo_L3*(t15*t15*beta[10]*c3 + t10*beta[10]*s3);
-    tau[2] = t12*beta[7] - t11*beta[8] + qdd[2]*beta[6] + t16;
-    tau[3] = t14;
+    /* link 21: angular acceleration, wd21 = R21' wd11 + (R21' w11) x qd21 z + qdd21 z */
+    const double wd21_z = qdd[0] + qdd[1];
+    /* link 11: acceleration of the origin less gravity, vd11 = R11' (vd0 + U0 p11) */
+    const double vd11_y = five_bar_geo_g*c0;
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double vd21a_y = vd11_y + five_bar_geo_L1*qdd[0];
+    const double vd11_x = five_bar_geo_g*s0;
+    const double vd21a_x = vd11_x - qd[0]*qd[0]*five_bar_geo_L1;
+    /* link 21: moment on the link at its origin, n21 = J21 wd21 + w21 x J21 w21 + MS21 x vd21 */
+    const double n21_z = (c1*vd21a_y - s1*vd21a_x)*beta[4] - (c1*vd21a_x + s1*vd21a_y)*beta[5] +
+        wd21_z*beta[3];
+    /* link 21: angular velocity, w21 = R21' w11 + qd21 z */
+    const double w21_z = qd[0] + qd[1];
+    const double ww21_zz = w21_z*w21_z;
+    /* link 21: force on the link and all that it carries, fc21 = f21 + sum of R fc of what hangs on
+        it */
+    const double minus_fc21a_y = s1*(ww21_zz*beta[4] + wd21_z*beta[5]) + c1*(ww21_zz*beta[5] -
+        wd21_z*beta[4]);
+    tau[0] = n21_z - five_bar_geo_L1*minus_fc21a_y + (vd11_y*beta[1] - vd11_x*beta[2] +
+        qdd[0]*beta[0]);
+    tau[1] = n21_z;
+    /* link 22: angular acceleration, wd22 = R22' wd12 + (R22' w12) x qd22 z + qdd22 z */
+    const double wd22_z = qdd[2] + qdd[3];
+    /* link 12: acceleration of the origin less gravity, vd12 = R12' (vd0 + U0 p12) */
+    const double vd12_x = five_bar_geo_g*s2;
+    const double vd12_y = five_bar_geo_g*c2;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double vd22_x = c3*(vd12_x - qd[2]*qd[2]*five_bar_geo_L3) + s3*(vd12_y +
+        five_bar_geo_L3*qdd[2]);
+    /* link 22: moment on the link at its origin, n22 = J22 wd22 + w22 x J22 w22 + MS22 x vd22 */
+    const double n22_z = wd22_z*beta[9] - vd22_x*beta[10];
+    /* link 22: angular velocity, w22 = R22' w12 + qd22 z */
+    const double w22_z = qd[2] + qd[3];
+    /* link 22: moment on the link and all that it carries, nc22 = n22 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc22a_z = n22_z - five_bar_geo_L3*(w22_z*w22_z*beta[10]*c3 + wd22_z*beta[10]*s3);
+    tau[2] = vd12_y*beta[7] - vd12_x*beta[8] + qdd[2]*beta[6] + nc22a_z;
+    tau[3] = n22_z;
 }
 
 /* Inertia matrix, rotor inertias included; symmetric.
@@ -96,17 +132,17 @@ void five_bar_tree_inertia_matrix(const double *q, const double *beta, double *M
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
 
-    const double t1 = s1*beta[5] - c1*beta[4];
-    M[0] = beta[0] + beta[3] - k2*t1;
-    const double t2 = beta[3] - five_bar_geo_L1*t1;
-    M[1] = t2;
-    M[4] = t2;
+    const double minus_lin21a_21y = s1*beta[5] - c1*beta[4];
+    M[0] = beta[0] + beta[3] - k2*minus_lin21a_21y;
+    const double ang21a_21z = beta[3] - five_bar_geo_L1*minus_lin21a_21y;
+    M[1] = ang21a_21z;
+    M[4] = ang21a_21z;
     M[5] = beta[3];
-    const double t3 = s3*beta[10];
-    M[10] = beta[6] + beta[9] - k1*t3;
-    const double t4 = beta[9] - five_bar_geo_L3*t3;
-    M[11] = t4;
-    M[14] = t4;
+    const double minus_lin22a_22y = s3*beta[10];
+    M[10] = beta[6] + beta[9] - k1*minus_lin22a_22y;
+    const double ang22a_22z = beta[9] - five_bar_geo_L3*minus_lin22a_22y;
+    M[11] = ang22a_22z;
+    M[14] = ang22a_22z;
     M[15] = beta[9];
 }
 
@@ -123,16 +159,20 @@ void five_bar_tree_gravity(const double *q, const double *beta, double *MODELER_
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
 
-    const double t1 = five_bar_geo_g*c0;
-    const double t2 = five_bar_geo_g*s0;
-    const double t3 = beta[4]*(c1*t1 - s1*t2) - beta[5]*(c1*t2 + s1*t1);
-    tau[0] = t1*beta[1] - t2*beta[2] + t3;
-    tau[1] = t3;
-    const double t4 = five_bar_geo_g*s2;
-    const double t5 = five_bar_geo_g*c2;
-    const double t6 = beta[10]*(c3*t4 + s3*t5);
-    tau[2] = t5*beta[7] - t4*beta[8] - t6;
-    tau[3] = -t6;
+    /* link 11: acceleration of the origin less gravity, vd11 = R11' (vd0 + U0 p11) */
+    const double vd11_y = five_bar_geo_g*c0;
+    const double vd11_x = five_bar_geo_g*s0;
+    /* link 21: moment on the link at its origin, n21 = J21 wd21 + w21 x J21 w21 + MS21 x vd21 */
+    const double n21_z = beta[4]*(c1*vd11_y - s1*vd11_x) - beta[5]*(c1*vd11_x + s1*vd11_y);
+    tau[0] = vd11_y*beta[1] - vd11_x*beta[2] + n21_z;
+    tau[1] = n21_z;
+    /* link 12: acceleration of the origin less gravity, vd12 = R12' (vd0 + U0 p12) */
+    const double vd12_x = five_bar_geo_g*s2;
+    const double vd12_y = five_bar_geo_g*c2;
+    /* link 22: moment on the link at its origin, n22 = J22 wd22 + w22 x J22 w22 + MS22 x vd22 */
+    const double minus_n22_z = beta[10]*(c3*vd12_x + s3*vd12_y);
+    tau[2] = vd12_y*beta[7] - vd12_x*beta[8] - minus_n22_z;
+    tau[3] = -minus_n22_z;
 }
 
 /* Torques without gravity and friction.
@@ -145,22 +185,36 @@ void five_bar_tree_coriolis(const double *q, const double *qd, const double *qdd
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
 
-    const double t1 = qd[0] + qd[1];
-    const double t2 = t1*t1;
-    const double t3 = qdd[0] + qdd[1];
-    const double t4 = s1*(t2*beta[4] + t3*beta[5]) + c1*(t2*beta[5] - t3*beta[4]);
-    const double t5 = qd[0]*qd[0]*five_bar_geo_L1;
-    const double t6 = five_bar_geo_L1*qdd[0];
-    const double t7 = beta[4]*(s1*t5 + c1*t6) + beta[5]*(c1*t5 - s1*t6) + t3*beta[3];
-    tau[0] = t7 - five_bar_geo_L1*t4 + qdd[0]*beta[0];
-    tau[1] = t7;
-    const double t8 = qd[2] + qd[3];
-    const double t9 = qdd[2] + qdd[3];
+    /* link 21: angular velocity, w21 = R21' w11 + qd21 z */
+    const double w21_z = qd[0] + qd[1];
+    const double ww21_zz = w21_z*w21_z;
+    /* link 21: angular acceleration, wd21 = R21' wd11 + (R21' w11) x qd21 z + qdd21 z */
+    const double wd21_z = qdd[0] + qdd[1];
+    /* link 21: force on the link and all that it carries, fc21 = f21 + sum of R fc of what hangs on
+        it */
+    const double minus_fc21a_y = s1*(ww21_zz*beta[4] + wd21_z*beta[5]) + c1*(ww21_zz*beta[5] -
+        wd21_z*beta[4]);
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double minus_vd21a_x = qd[0]*qd[0]*five_bar_geo_L1;
+    const double vd21a_y = five_bar_geo_L1*qdd[0];
+    /* link 21: moment on the link at its origin, n21 = J21 wd21 + w21 x J21 w21 + MS21 x vd21 */
+    const double n21_z = beta[4]*(s1*minus_vd21a_x + c1*vd21a_y) + beta[5]*(c1*minus_vd21a_x -
+        s1*vd21a_y) + wd21_z*beta[3];
+    tau[0] = n21_z - five_bar_geo_L1*minus_fc21a_y + qdd[0]*beta[0];
+    tau[1] = n21_z;
+    /* link 22: angular velocity, w22 = R22' w12 + qd22 z */
+    const double w22_z = qd[2] + qd[3];
+    /* link 22: angular acceleration, wd22 = R22' wd12 + (R22' w12) x qd22 z + qdd22 z */
+    const double wd22_z = qdd[2] + qdd[3];
     const double t10 = beta[10]*(qd[2]*qd[2]*five_bar_geo_L3*c3 - five_bar_geo_L3*qdd[2]*s3);
-    const double t11 = t9*beta[9] + t10;
-    const double t12 = five_bar_geo_L3*(t8*t8*beta[10]*c3 + t9*beta[10]*s3) - t11;
-    tau[2] = qdd[2]*beta[6] - t12;
-    tau[3] = t11;
+    /* link 22: moment on the link at its origin, n22 = J22 wd22 + w22 x J22 w22 + MS22 x vd22 */
+    const double n22_z = wd22_z*beta[9] + t10;
+    /* link 22: moment on the link and all that it carries, nc22 = n22 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double minus_nc22a_z = five_bar_geo_L3*(w22_z*w22_z*beta[10]*c3 + wd22_z*beta[10]*s3) -
+        n22_z;
+    tau[2] = qdd[2]*beta[6] - minus_nc22a_z;
+    tau[3] = n22_z;
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets.
@@ -197,16 +251,16 @@ void five_bar_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT 
     T[5] = c0;
     T[10] = 1.0;
     MODELER_ZEROS(T + 6, 4);
-    const double t1 = c0*c1 - s0*s1;
-    T[12] = t1;
+    const double x21_x = c0*c1 - s0*s1;
+    T[12] = x21_x;
     MODELER_ZEROS(T + 11, 1);
-    const double t2 = s0*c1 + c0*s1;
-    T[13] = -t2;
+    const double x21_y = s0*c1 + c0*s1;
+    T[13] = -x21_y;
     MODELER_ZEROS(T + 14, 1);
     T[15] = five_bar_geo_L1*c0;
-    T[16] = t2;
+    T[16] = x21_y;
     MODELER_ZEROS(T + 18, 1);
-    T[17] = t1;
+    T[17] = x21_x;
     T[19] = five_bar_geo_L1*s0;
     MODELER_ZEROS(T + 20, 2);
     T[22] = 1.0;
@@ -219,16 +273,16 @@ void five_bar_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT 
     T[29] = c2;
     MODELER_ZEROS(T + 30, 4);
     T[34] = 1.0;
-    const double t3 = c2*c3 - s2*s3;
+    const double x22_x = c2*c3 - s2*s3;
     MODELER_ZEROS(T + 35, 1);
-    T[36] = t3;
-    const double t4 = s2*c3 + c2*s3;
+    T[36] = x22_x;
+    const double x22_y = s2*c3 + c2*s3;
     MODELER_ZEROS(T + 38, 1);
-    T[37] = -t4;
+    T[37] = -x22_y;
     T[39] = five_bar_geo_L0 + five_bar_geo_L3*c2;
     MODELER_ZEROS(T + 42, 1);
-    T[40] = t4;
-    T[41] = t3;
+    T[40] = x22_y;
+    T[41] = x22_x;
     MODELER_ZEROS(T + 44, 2);
     T[43] = five_bar_geo_L3*s2;
     T[46] = 1.0;
@@ -248,24 +302,30 @@ void five_bar_tree_drift(const double *q, const double *qd, double *MODELER_REST
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
 
-    const double t1 = five_bar_geo_L2*(c0*c1 - s0*s1);
-    const double t2 = c0*qd[0];
+    const double o31d_q1y = five_bar_geo_L2*(c0*c1 - s0*s1);
+    const double x11d_ty = c0*qd[0];
     const double t3 = s1*qd[1];
-    const double t4 = s0*qd[0];
+    const double minus_x11d_tx = s0*qd[0];
     const double t5 = c1*qd[1];
-    const double t6 = five_bar_geo_L2*(c1*t2 - s0*t3 + (c0*t5 - s1*t4))*qd[1];
-    const double t7 = c2*qd[2];
+    const double t6 = five_bar_geo_L2*(c1*x11d_ty - s0*t3 + (c0*t5 - s1*minus_x11d_tx))*qd[1];
+    const double x12d_ty = c2*qd[2];
     const double t8 = s3*qd[3];
-    const double t9 = s2*qd[2];
+    const double minus_x12d_tx = s2*qd[2];
     const double t10 = c3*qd[3];
-    const double t11 = five_bar_geo_L4*(c3*t7 - s2*t8 + (c2*t10 - s3*t9));
-    const double t12 = qd[0]*((five_bar_geo_L1*c0 + t1)*qd[0] + t1*qd[1]) + t6;
-    values[0] = qd[3]*t11 - (t12 - qd[2]*(five_bar_geo_L3*t7 + t11));
-    const double t13 = five_bar_geo_L2*(s0*c1 + c0*s1);
-    const double t14 = five_bar_geo_L2*(c1*t4 + c0*t3 + (s1*t2 + s0*t5))*qd[1];
-    const double t15 = five_bar_geo_L4*(c3*t9 + c2*t8 + (s3*t7 + s2*t10));
-    const double t16 = qd[0]*((five_bar_geo_L1*s0 + t13)*qd[0] + t13*qd[1]) + t14;
-    values[1] = qd[3]*t15 - (t16 - qd[2]*(five_bar_geo_L3*t9 + t15));
+    const double minus_o32dd_q3tx = five_bar_geo_L4*(c3*x12d_ty - s2*t8 + (c2*t10 -
+        s3*minus_x12d_tx));
+    const double minus_o31dd_ttx = qd[0]*((five_bar_geo_L1*c0 + o31d_q1y)*qd[0] + o31d_q1y*qd[1]) +
+        t6;
+    values[0] = qd[3]*minus_o32dd_q3tx - (minus_o31dd_ttx - qd[2]*(five_bar_geo_L3*x12d_ty +
+        minus_o32dd_q3tx));
+    const double minus_o31d_q1x = five_bar_geo_L2*(s0*c1 + c0*s1);
+    const double t14 = five_bar_geo_L2*(c1*minus_x11d_tx + c0*t3 + (s1*x11d_ty + s0*t5))*qd[1];
+    const double minus_o32dd_q3ty = five_bar_geo_L4*(c3*minus_x12d_tx + c2*t8 + (s3*x12d_ty +
+        s2*t10));
+    const double minus_o31dd_tty = qd[0]*((five_bar_geo_L1*s0 + minus_o31d_q1x)*qd[0] +
+        minus_o31d_q1x*qd[1]) + t14;
+    values[1] = qd[3]*minus_o32dd_q3ty - (minus_o31dd_tty - qd[2]*(five_bar_geo_L3*minus_x12d_tx +
+        minus_o32dd_q3ty));
 }
 
 /* All equations of all loops, cosines, nonzeros of df/du, turns.
@@ -281,25 +341,27 @@ void five_bar_tree_closure(const double *q, double *MODELER_RESTRICT values)
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
 
-    const double t1 = five_bar_geo_L2*(c0*c1 - s0*s1);
-    const double t2 = five_bar_geo_L1*c0 + t1;
-    const double t3 = five_bar_geo_L3*c2;
-    const double t4 = five_bar_geo_L4*(c2*c3 - s2*s3);
-    values[0] = t2 - (five_bar_geo_L0 + t3 + t4);
-    const double t5 = five_bar_geo_L2*(s0*c1 + c0*s1);
-    const double t6 = five_bar_geo_L1*s0 + t5;
-    const double t7 = five_bar_geo_L4*(s2*c3 + c2*s3);
-    const double t8 = five_bar_geo_L3*s2 + t7;
-    values[1] = t6 - t8;
+    const double o31d_q1y = five_bar_geo_L2*(c0*c1 - s0*s1);
+    /* link 31: origin of the frame in frame 0, o31 = o21 + [x21 y21 z21] p31 */
+    const double o31_x = five_bar_geo_L1*c0 + o31d_q1y;
+    const double o22d_q2y = five_bar_geo_L3*c2;
+    const double o32d_q3y = five_bar_geo_L4*(c2*c3 - s2*s3);
+    values[0] = o31_x - (five_bar_geo_L0 + o22d_q2y + o32d_q3y);
+    const double minus_o31d_q1x = five_bar_geo_L2*(s0*c1 + c0*s1);
+    const double o31_y = five_bar_geo_L1*s0 + minus_o31d_q1x;
+    const double minus_o32d_q3x = five_bar_geo_L4*(s2*c3 + c2*s3);
+    /* link 32: origin of the frame in frame 0, o32 = o22 + [x22 y22 z22] p32 */
+    const double o32_y = five_bar_geo_L3*s2 + minus_o32d_q3x;
+    values[1] = o31_y - o32_y;
     values[2] = 1.0;
-    values[3] = -t6;
-    values[4] = -t5;
-    values[5] = t8;
-    values[6] = t7;
-    values[7] = t2;
-    values[8] = t1;
-    values[9] = -(t3 + t4);
-    values[10] = -t4;
+    values[3] = -o31_y;
+    values[4] = -minus_o31d_q1x;
+    values[5] = o32_y;
+    values[6] = minus_o32d_q3x;
+    values[7] = o31_x;
+    values[8] = o31d_q1y;
+    values[9] = -(o22d_q2y + o32d_q3y);
+    values[10] = -o32d_q3y;
     values[11] = c0;
     values[12] = s0;
     values[13] = c1;
@@ -323,10 +385,12 @@ void five_bar_tree_residual(const double *q, double *MODELER_RESTRICT f)
     double s3, c3;
     modeler_sincos(q[3], &s3, &c3);
 
-    const double t1 = five_bar_geo_L0 + five_bar_geo_L3*c2 + five_bar_geo_L4*(c2*c3 - s2*s3);
-    f[0] = five_bar_geo_L1*c0 + five_bar_geo_L2*(c0*c1 - s0*s1) - t1;
-    const double t2 = five_bar_geo_L1*s0 + five_bar_geo_L2*(s0*c1 + c0*s1);
-    f[1] = t2 - (five_bar_geo_L3*s2 + five_bar_geo_L4*(s2*c3 + c2*s3));
+    /* link 32: origin of the frame in frame 0, o32 = o22 + [x22 y22 z22] p32 */
+    const double o32_x = five_bar_geo_L0 + five_bar_geo_L3*c2 + five_bar_geo_L4*(c2*c3 - s2*s3);
+    f[0] = five_bar_geo_L1*c0 + five_bar_geo_L2*(c0*c1 - s0*s1) - o32_x;
+    /* link 31: origin of the frame in frame 0, o31 = o21 + [x21 y21 z21] p31 */
+    const double o31_y = five_bar_geo_L1*s0 + five_bar_geo_L2*(s0*c1 + c0*s1);
+    f[1] = o31_y - (five_bar_geo_L3*s2 + five_bar_geo_L4*(s2*c3 + c2*s3));
 }
 
 /* Factors of the solved columns of J: 1/pivots, then the rest.

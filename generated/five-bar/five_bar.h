@@ -18,7 +18,9 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "9e169bb03eb3d09f"
+#define FIVE_BAR_SIGNATURE "c7cd854564dea4f6"
+#define FIVE_BAR_SIGNATURE_1 0xc7cd8545u
+#define FIVE_BAR_SIGNATURE_2 0x64dea4f6u
 
 #define FIVE_BAR_JOINTS 2
 #define FIVE_BAR_STANDARD_PARAMETERS 40

@@ -2,6 +2,17 @@
  *
  * Functions of five_bar.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   m_1    velocity of the origin, for unit speed of each joint below
+ *   ...a   in axes of the antecedent: vd
  */
 #include "five_bar.h"
 
@@ -55,41 +66,52 @@ void five_bar_tree_base_regressor(const double *q, const double *qd, const doubl
     modeler_sincos(q[3], &s3, &c3);
 
     phi[0] = qdd[0];
-    const double t1 = five_bar_geo_g*c0;
-    phi[1] = t1;
-    const double t2 = five_bar_geo_g*s0;
-    phi[2] = -t2;
-    const double t3 = qdd[0] + qdd[1];
-    phi[3] = t3;
+    /* link 11: acceleration of the origin less gravity, vd11 = R11' (vd0 + U0 p11) */
+    const double vd11_y = five_bar_geo_g*c0;
+    phi[1] = vd11_y;
+    const double vd11_x = five_bar_geo_g*s0;
+    phi[2] = -vd11_x;
+    /* link 21: angular acceleration, wd21 = R21' wd11 + (R21' w11) x qd21 z + qdd21 z */
+    const double wd21_z = qdd[0] + qdd[1];
+    phi[3] = wd21_z;
     MODELER_ZEROS(phi + 6, 8);
-    phi[14] = t3;
-    const double t4 = t1 + five_bar_geo_L1*qdd[0];
-    const double t5 = t2 - qd[0]*qd[0]*five_bar_geo_L1;
-    const double t6 = c1*t4 - s1*t5;
-    const double t7 = qd[0] + qd[1];
-    const double t8 = t7*t7;
+    phi[14] = wd21_z;
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double vd21a_y = vd11_y + five_bar_geo_L1*qdd[0];
+    const double vd21a_x = vd11_x - qd[0]*qd[0]*five_bar_geo_L1;
+    const double vd21_y = c1*vd21a_y - s1*vd21a_x;
+    /* link 21: angular velocity, w21 = R21' w11 + qd21 z */
+    const double w21_z = qd[0] + qd[1];
+    const double ww21_zz = w21_z*w21_z;
     MODELER_ZEROS(phi + 17, 8);
-    const double t9 = five_bar_geo_L1*s1;
-    const double t10 = five_bar_geo_L1*c1;
-    phi[4] = t3*t10 - t8*t9 + t6;
-    phi[15] = t6;
-    const double t11 = c1*t5 + s1*t4;
-    phi[5] = -(t3*t9 + t8*t10 + t11);
-    phi[16] = -t11;
+    /* link 21: velocity of the origin, for unit speed of each joint below, m21 = R21' (m11 + e11 x
+        p21) */
+    const double m21_11x = five_bar_geo_L1*s1;
+    const double m21_11y = five_bar_geo_L1*c1;
+    phi[4] = wd21_z*m21_11y - ww21_zz*m21_11x + vd21_y;
+    phi[15] = vd21_y;
+    const double vd21_x = c1*vd21a_x + s1*vd21a_y;
+    phi[5] = -(wd21_z*m21_11x + ww21_zz*m21_11y + vd21_x);
+    phi[16] = -vd21_x;
     MODELER_ZEROS(phi + 25, 3);
     phi[28] = qdd[2];
-    const double t12 = five_bar_geo_g*c2;
-    phi[29] = t12;
-    const double t13 = five_bar_geo_g*s2;
-    phi[30] = -t13;
-    const double t14 = qdd[2] + qdd[3];
+    /* link 12: acceleration of the origin less gravity, vd12 = R12' (vd0 + U0 p12) */
+    const double vd12_y = five_bar_geo_g*c2;
+    phi[29] = vd12_y;
+    const double vd12_x = five_bar_geo_g*s2;
+    phi[30] = -vd12_x;
+    /* link 22: angular acceleration, wd22 = R22' wd12 + (R22' w12) x qd22 z + qdd22 z */
+    const double wd22_z = qdd[2] + qdd[3];
     MODELER_ZEROS(phi + 33, 8);
-    phi[31] = t14;
-    phi[42] = t14;
-    const double t15 = c3*(t13 - qd[2]*qd[2]*five_bar_geo_L3) + s3*(t12 + five_bar_geo_L3*qdd[2]);
-    const double t16 = qd[2] + qd[3];
-    phi[32] = -(five_bar_geo_L3*s3*t14 + t16*t16*(five_bar_geo_L3*c3) + t15);
-    phi[43] = -t15;
+    phi[31] = wd22_z;
+    phi[42] = wd22_z;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double vd22_x = c3*(vd12_x - qd[2]*qd[2]*five_bar_geo_L3) + s3*(vd12_y +
+        five_bar_geo_L3*qdd[2]);
+    /* link 22: angular velocity, w22 = R22' w12 + qd22 z */
+    const double w22_z = qd[2] + qd[3];
+    phi[32] = -(five_bar_geo_L3*s3*wd22_z + w22_z*w22_z*(five_bar_geo_L3*c3) + vd22_x);
+    phi[43] = -vd22_x;
     MODELER_ZEROS(phi + 41, 1);
 }
 

@@ -2,6 +2,17 @@
  *
  * Functions of five_bar.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   m_1    velocity of the origin, for unit speed of each joint below
+ *   ...a   in axes of the antecedent: vd
  */
 #include "five_bar.h"
 
@@ -53,67 +64,79 @@ void five_bar_tree_regressor(const double *q, const double *qd, const double *qd
     modeler_sincos(q[3], &s3, &c3);
 
     phi[5] = qdd[0];
-    const double t1 = five_bar_geo_g*c0;
+    /* link 11: acceleration of the origin less gravity, vd11 = R11' (vd0 + U0 p11) */
+    const double vd11_y = five_bar_geo_g*c0;
     MODELER_ZEROS(phi + 0, 5);
-    phi[6] = t1;
-    const double t2 = five_bar_geo_g*s0;
+    phi[6] = vd11_y;
+    const double vd11_x = five_bar_geo_g*s0;
     MODELER_ZEROS(phi + 8, 7);
-    phi[7] = -t2;
-    const double t3 = qdd[0] + qdd[1];
+    phi[7] = -vd11_x;
+    /* link 21: angular acceleration, wd21 = R21' wd11 + (R21' w11) x qd21 z + qdd21 z */
+    const double wd21_z = qdd[0] + qdd[1];
     MODELER_ZEROS(phi + 18, 1);
-    phi[15] = t3;
-    phi[55] = t3;
+    phi[15] = wd21_z;
+    phi[55] = wd21_z;
     MODELER_ZEROS(phi + 20, 8);
-    const double t4 = t1 + five_bar_geo_L1*qdd[0];
-    const double t5 = t2 - qd[0]*qd[0]*five_bar_geo_L1;
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double vd21a_y = vd11_y + five_bar_geo_L1*qdd[0];
+    const double vd21a_x = vd11_x - qd[0]*qd[0]*five_bar_geo_L1;
     MODELER_ZEROS(phi + 28, 8);
-    const double t6 = c1*t4 - s1*t5;
-    const double t7 = qd[0] + qd[1];
+    const double vd21_y = c1*vd21a_y - s1*vd21a_x;
+    /* link 21: angular velocity, w21 = R21' w11 + qd21 z */
+    const double w21_z = qd[0] + qd[1];
     MODELER_ZEROS(phi + 36, 8);
-    const double t8 = t7*t7;
-    const double t9 = five_bar_geo_L1*s1;
+    const double ww21_zz = w21_z*w21_z;
+    /* link 21: velocity of the origin, for unit speed of each joint below, m21 = R21' (m11 + e11 x
+        p21) */
+    const double m21_11x = five_bar_geo_L1*s1;
     MODELER_ZEROS(phi + 44, 8);
-    const double t10 = five_bar_geo_L1*c1;
-    phi[16] = t3*t10 - t8*t9 + t6;
+    const double m21_11y = five_bar_geo_L1*c1;
+    phi[16] = wd21_z*m21_11y - ww21_zz*m21_11x + vd21_y;
     MODELER_ZEROS(phi + 52, 3);
-    phi[56] = t6;
-    const double t11 = c1*t5 + s1*t4;
+    phi[56] = vd21_y;
+    const double vd21_x = c1*vd21a_x + s1*vd21a_y;
     MODELER_ZEROS(phi + 58, 8);
-    phi[17] = -(t3*t9 + t8*t10 + t11);
-    phi[57] = -t11;
+    phi[17] = -(wd21_z*m21_11x + ww21_zz*m21_11y + vd21_x);
+    phi[57] = -vd21_x;
     MODELER_ZEROS(phi + 66, 8);
-    phi[19] = t11*t9 + t6*t10;
+    phi[19] = vd21_x*m21_11x + vd21_y*m21_11y;
     MODELER_ZEROS(phi + 74, 8);
     phi[105] = qdd[2];
-    const double t12 = five_bar_geo_g*c2;
+    /* link 12: acceleration of the origin less gravity, vd12 = R12' (vd0 + U0 p12) */
+    const double vd12_y = five_bar_geo_g*c2;
     MODELER_ZEROS(phi + 82, 8);
-    phi[106] = t12;
-    const double t13 = five_bar_geo_g*s2;
+    phi[106] = vd12_y;
+    const double vd12_x = five_bar_geo_g*s2;
     MODELER_ZEROS(phi + 90, 8);
-    phi[107] = -t13;
-    const double t14 = qdd[2] + qdd[3];
+    phi[107] = -vd12_x;
+    /* link 22: angular acceleration, wd22 = R22' wd12 + (R22' w12) x qd22 z + qdd22 z */
+    const double wd22_z = qdd[2] + qdd[3];
     MODELER_ZEROS(phi + 98, 7);
-    phi[115] = t14;
-    phi[155] = t14;
+    phi[115] = wd22_z;
+    phi[155] = wd22_z;
     MODELER_ZEROS(phi + 108, 7);
-    const double t15 = t12 + five_bar_geo_L3*qdd[2];
-    const double t16 = t13 - qd[2]*qd[2]*five_bar_geo_L3;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double vd22a_y = vd12_y + five_bar_geo_L3*qdd[2];
+    const double vd22a_x = vd12_x - qd[2]*qd[2]*five_bar_geo_L3;
     MODELER_ZEROS(phi + 118, 1);
-    const double t17 = c3*t15 - s3*t16;
-    const double t18 = qd[2] + qd[3];
+    const double vd22_y = c3*vd22a_y - s3*vd22a_x;
+    /* link 22: angular velocity, w22 = R22' w12 + qd22 z */
+    const double w22_z = qd[2] + qd[3];
     MODELER_ZEROS(phi + 120, 8);
-    const double t19 = t18*t18;
-    const double t20 = five_bar_geo_L3*s3;
+    const double ww22_zz = w22_z*w22_z;
+    /* link 22: velocity of the origin, for unit speed of each joint below, m22 = R22' (m12 + e12 x
+        p22) */
+    const double m22_12x = five_bar_geo_L3*s3;
     MODELER_ZEROS(phi + 128, 8);
-    const double t21 = five_bar_geo_L3*c3;
-    phi[116] = t14*t21 - t19*t20 + t17;
+    const double m22_12y = five_bar_geo_L3*c3;
+    phi[116] = wd22_z*m22_12y - ww22_zz*m22_12x + vd22_y;
     MODELER_ZEROS(phi + 136, 8);
-    phi[156] = t17;
-    const double t22 = c3*t16 + s3*t15;
+    phi[156] = vd22_y;
+    const double vd22_x = c3*vd22a_x + s3*vd22a_y;
     MODELER_ZEROS(phi + 144, 8);
-    phi[117] = -(t14*t20 + t19*t21 + t22);
-    phi[157] = -t22;
+    phi[117] = -(wd22_z*m22_12x + ww22_zz*m22_12y + vd22_x);
+    phi[157] = -vd22_x;
     MODELER_ZEROS(phi + 152, 3);
-    phi[119] = t22*t20 + t17*t21;
+    phi[119] = vd22_x*m22_12x + vd22_y*m22_12y;
     MODELER_ZEROS(phi + 158, 2);
 }

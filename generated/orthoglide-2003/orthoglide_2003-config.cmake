@@ -1,6 +1,6 @@
 # find_package(orthoglide_2003) gives the target orthoglide_2003::orthoglide_2003: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. orthoglide_2003_SIGNATURE is what orthoglide_2003_signature() returns.
-set(orthoglide_2003_SIGNATURE fdc416c6c8c9aeab)
+set(orthoglide_2003_SIGNATURE 3def7ba1d49c7096)
 
 if(orthoglide_2003_FIND_COMPONENTS)
   set(_modeler_kinds ${orthoglide_2003_FIND_COMPONENTS})
@@ -13,14 +13,14 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_2003-${_modeler_kind}-fdc416c6c8c9aeab.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_2003-${_modeler_kind}-3def7ba1d49c7096.cmake")
   if(TARGET orthoglide_2003::orthoglide_2003 OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
   include("${_modeler_file}")
   if(NOT TARGET orthoglide_2003::orthoglide_2003) # installed by make
     if(_modeler_kind STREQUAL "shared")
-      set(_modeler_name liborthoglide_2003_model.so.fdc416c6c8c9aeab)
+      set(_modeler_name liborthoglide_2003_model.so.3def7ba1d49c7096)
     else()
       set(_modeler_name liborthoglide_2003_model.a)
     endif()
@@ -39,5 +39,5 @@ endforeach()
 if(NOT TARGET orthoglide_2003::orthoglide_2003)
   set(orthoglide_2003_FOUND FALSE)
   set(orthoglide_2003_NOT_FOUND_MESSAGE
-    "no library of signature fdc416c6c8c9aeab here that is ${_modeler_kinds}; install it again")
+    "no library of signature 3def7ba1d49c7096 here that is ${_modeler_kinds}; install it again")
 endif()

@@ -2,6 +2,29 @@
  *
  * Functions of orthoglide_2003.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   h      angular momentum J w
+ *   f      force on the link
+ *   n      moment on the link at its origin
+ *   fc     force on the link and all that it carries
+ *   MSc    first moments of the link and all that it carries
+ *   Jc     inertia of the link and all that it carries
+ *   m_1    velocity of the origin, for unit speed of each joint below
+ *   lin_1  momentum of what hangs on a joint, for unit speed of it
+ *   p      origin of the frame in that of its antecedent
+ *   x      axis x of the frame in frame 0
+ *   y      axis y of the frame in frame 0
+ *   o      origin of the frame in frame 0
+ *   ...a   in axes of the antecedent: fc, lin, vd
+ *   ...d   derivative by a variable, qd2 for qd[2], or by the time, t: x, y
  */
 #include "orthoglide_2003.h"
 
@@ -68,105 +91,167 @@ void orthoglide_2003_tree_inverse_dynamics(const double *q, const double *qd, co
     tau[0] = qdd[0]*beta[0];
     tau[1] = (qdd[1] - orthoglide_2003_geo_g)*beta[0];
     tau[2] = qdd[2]*beta[0];
-    const double t1 = qd[6]*qd[6];
-    const double t2 = t1*beta[22];
-    const double t3 = s7*t2;
-    const double t4 = s7*qd[6];
-    const double t5 = qd[7]*qd[7];
-    const double t6 = c7*qd[6];
-    const double t7 = t4*t6;
-    const double t8 = s7*(t3 - (t4*t4 + t5)*beta[21]) + c7*(c7*t2 + (qdd[7] - t7)*beta[21]);
-    const double t9 = qdd[6]*beta[22];
-    const double t10 = qd[7]*t6;
-    const double t11 = s7*qdd[6] + t10;
-    const double t12 = c6*(t9 - (t10 + t11)*beta[21] + (qdd[6]*beta[14] - t1*beta[15]));
-    const double t13 = s6*(t1*beta[14] + qdd[6]*beta[15] + t8) - t12 + qdd[3]*beta[1];
+    const double ww21_zz = qd[6]*qd[6];
+    /* link 41: force on the link, f41 = M41 vd41 + U41 MS41 */
+    const double minus_f41_x = ww21_zz*beta[22];
+    /* link 41: force on the link and all that it carries, fc41 = f41 + sum of R fc of what hangs on
+        it */
+    const double fc41a_y = s7*minus_f41_x;
+    /* link 31: angular velocity, w31 = R31' w21 + qd31 z */
+    const double minus_w31_x = s7*qd[6];
+    const double ww31_zz = qd[7]*qd[7];
+    const double minus_w31_y = c7*qd[6];
+    const double ww31_xy = minus_w31_x*minus_w31_y;
+    /* link 31: force on the link and all that it carries, fc31 = f31 + sum of R fc of what hangs on
+        it */
+    const double minus_fc31a_x = s7*(fc41a_y - (minus_w31_x*minus_w31_x + ww31_zz)*beta[21]) +
+        c7*(c7*minus_f41_x + (qdd[7] - ww31_xy)*beta[21]);
+    const double f41_z = qdd[6]*beta[22];
+    const double minus_ww31_yz = qd[7]*minus_w31_y;
+    /* link 31: angular acceleration, wd31 = R31' wd21 + (R31' w21) x qd31 z + qdd31 z */
+    const double minus_wd31_x = s7*qdd[6] + minus_ww31_yz;
+    const double t12 = c6*(f41_z - (minus_ww31_yz + minus_wd31_x)*beta[21] + (qdd[6]*beta[14] -
+        ww21_zz*beta[15]));
+    const double t13 = s6*(ww21_zz*beta[14] + qdd[6]*beta[15] + minus_fc31a_x) - t12 +
+        qdd[3]*beta[1];
     tau[3] = qd[3]*beta[2] + t13 + modeler_sign(qd[3])*beta[3] + beta[4];
-    const double t14 = qd[8]*qd[8];
-    const double t15 = t14*beta[32];
-    const double t16 = s9*t15;
-    const double t17 = s9*qd[8];
-    const double t18 = qd[9]*qd[9];
-    const double t19 = c9*qd[8];
-    const double t20 = t17*t19;
-    const double t21 = c9*(c9*t15 + (qdd[9] - t20)*beta[31]);
-    const double t22 = s9*(t16 - (t17*t17 + t18)*beta[31]) + t21;
-    const double t23 = qdd[8]*beta[32];
-    const double t24 = qd[9]*t19;
-    const double t25 = s9*qdd[8] + t24;
-    const double t26 = c8*(t23 - (t24 + t25)*beta[31] + (qdd[8]*beta[24] - t14*beta[25]));
-    const double t27 = s8*(t14*beta[24] + qdd[8]*beta[25] + t22) - t26 + qdd[4]*beta[5];
+    const double ww22_zz = qd[8]*qd[8];
+    /* link 42: force on the link, f42 = M42 vd42 + U42 MS42 */
+    const double minus_f42_x = ww22_zz*beta[32];
+    /* link 42: force on the link and all that it carries, fc42 = f42 + sum of R fc of what hangs on
+        it */
+    const double fc42a_y = s9*minus_f42_x;
+    /* link 32: angular velocity, w32 = R32' w22 + qd32 z */
+    const double minus_w32_x = s9*qd[8];
+    const double ww32_zz = qd[9]*qd[9];
+    const double minus_w32_y = c9*qd[8];
+    const double ww32_xy = minus_w32_x*minus_w32_y;
+    const double t21 = c9*(c9*minus_f42_x + (qdd[9] - ww32_xy)*beta[31]);
+    /* link 32: force on the link and all that it carries, fc32 = f32 + sum of R fc of what hangs on
+        it */
+    const double minus_fc32a_x = s9*(fc42a_y - (minus_w32_x*minus_w32_x + ww32_zz)*beta[31]) + t21;
+    const double f42_z = qdd[8]*beta[32];
+    const double minus_ww32_yz = qd[9]*minus_w32_y;
+    /* link 32: angular acceleration, wd32 = R32' wd22 + (R32' w22) x qd32 z + qdd32 z */
+    const double minus_wd32_x = s9*qdd[8] + minus_ww32_yz;
+    const double t26 = c8*(f42_z - (minus_ww32_yz + minus_wd32_x)*beta[31] + (qdd[8]*beta[24] -
+        ww22_zz*beta[25]));
+    const double t27 = s8*(ww22_zz*beta[24] + qdd[8]*beta[25] + minus_fc32a_x) - t26 +
+        qdd[4]*beta[5];
     tau[4] = qd[4]*beta[6] + t27 + modeler_sign(qd[4])*beta[7] + beta[8];
-    const double t28 = qd[10]*qd[10];
-    const double t29 = t28*beta[42];
-    const double t30 = s11*t29;
-    const double t31 = s11*qd[10];
-    const double t32 = qd[11]*qd[11];
-    const double t33 = c11*qd[10];
-    const double t34 = t31*t33;
-    const double t35 = c11*(c11*t29 + (qdd[11] - t34)*beta[41]);
-    const double t36 = s11*(t30 - (t31*t31 + t32)*beta[41]) + t35;
-    const double t37 = qdd[10]*beta[42];
-    const double t38 = qd[11]*t33;
-    const double t39 = s11*qdd[10] + t38;
-    const double t40 = c10*(t37 - (t38 + t39)*beta[41] + (qdd[10]*beta[34] - t28*beta[35]));
-    const double t41 = s10*(t28*beta[34] + qdd[10]*beta[35] + t36) - t40 + qdd[5]*beta[9];
+    const double ww23_zz = qd[10]*qd[10];
+    /* link 43: force on the link, f43 = M43 vd43 + U43 MS43 */
+    const double minus_f43_x = ww23_zz*beta[42];
+    /* link 43: force on the link and all that it carries, fc43 = f43 + sum of R fc of what hangs on
+        it */
+    const double fc43a_y = s11*minus_f43_x;
+    /* link 33: angular velocity, w33 = R33' w23 + qd33 z */
+    const double minus_w33_x = s11*qd[10];
+    const double ww33_zz = qd[11]*qd[11];
+    const double minus_w33_y = c11*qd[10];
+    const double ww33_xy = minus_w33_x*minus_w33_y;
+    const double t35 = c11*(c11*minus_f43_x + (qdd[11] - ww33_xy)*beta[41]);
+    /* link 33: force on the link and all that it carries, fc33 = f33 + sum of R fc of what hangs on
+        it */
+    const double minus_fc33a_x = s11*(fc43a_y - (minus_w33_x*minus_w33_x + ww33_zz)*beta[41]) + t35;
+    const double f43_z = qdd[10]*beta[42];
+    const double minus_ww33_yz = qd[11]*minus_w33_y;
+    /* link 33: angular acceleration, wd33 = R33' wd23 + (R33' w23) x qd33 z + qdd33 z */
+    const double minus_wd33_x = s11*qdd[10] + minus_ww33_yz;
+    const double t40 = c10*(f43_z - (minus_ww33_yz + minus_wd33_x)*beta[41] + (qdd[10]*beta[34] -
+        ww23_zz*beta[35]));
+    const double t41 = s10*(ww23_zz*beta[34] + qdd[10]*beta[35] + minus_fc33a_x) - t40 +
+        qdd[5]*beta[9];
     tau[5] = qd[5]*beta[10] + t41 + modeler_sign(qd[5])*beta[11] + beta[12];
-    const double t42 = c6*qdd[3];
-    const double t43 = qd[7]*t4;
-    const double t44 = c7*qdd[6] - t43;
-    const double t45 = (t42 + orthoglide_2003_geo_D41*(t43 - t44))*beta[22];
-    const double t46 = t4*beta[18] + t6*beta[19] - qd[7]*beta[20];
-    const double t47 = t4*beta[17] - qd[7]*beta[19];
-    const double t48 = t6*t46 + qd[7]*t47 + (qdd[7]*beta[18] - (t11*beta[16] + t44*beta[17]));
-    const double t49 = t4*beta[16] + t6*beta[17] - qd[7]*beta[18];
-    const double t50 = qd[7]*t49 + t4*t46 + (t11*beta[17] - qdd[7]*beta[19]);
-    const double t51 = c7*(c7*t45 - orthoglide_2003_geo_D41*t9 - t50);
-    const double t52 = s6*qdd[3];
-    const double t53 = t52*beta[15] - t42*beta[14] + qdd[6]*beta[13];
-    tau[6] = t53 - (s7*(t48 - t42*beta[21] + s7*t45) + t51);
-    const double t54 = orthoglide_2003_geo_g*c7 + s7*t52 + orthoglide_2003_geo_D41*(qdd[7] + t7);
-    const double t55 = c7*t52 - orthoglide_2003_geo_g*s7;
-    const double t56 = (c7*t54 - s7*(t55 + orthoglide_2003_geo_D41*(t6*t6 + t5)))*beta[22];
-    const double t57 = t4*t47 - t6*t49 + (qdd[7]*beta[20] - (t11*beta[18] + t44*beta[19]));
-    tau[7] = orthoglide_2003_geo_D41*t3 + t56 + (t57 + t55*beta[21]) - t56;
-    const double t58 = c8*qdd[4] - orthoglide_2003_geo_g*s8;
-    const double t59 = qd[9]*t17;
-    const double t60 = c9*qdd[8] - t59;
-    const double t61 = (t58 + orthoglide_2003_geo_D42*(t59 - t60))*beta[32];
-    const double t62 = t17*beta[28] + t19*beta[29] - qd[9]*beta[30];
-    const double t63 = t17*beta[27] - qd[9]*beta[29];
-    const double t64 = t19*t62 + qd[9]*t63 + (qdd[9]*beta[28] - (t25*beta[26] + t60*beta[27]));
-    const double t65 = t17*beta[26] + t19*beta[27] - qd[9]*beta[28];
-    const double t66 = qd[9]*t65 + t17*t62 + (t25*beta[27] - qdd[9]*beta[29]);
-    const double t67 = c9*(c9*t61 - orthoglide_2003_geo_D42*t23 - t66);
-    const double t68 = orthoglide_2003_geo_g*c8 + s8*qdd[4];
-    const double t69 = t68*beta[25] - t58*beta[24] + qdd[8]*beta[23];
-    tau[8] = t69 - (s9*(t64 - t58*beta[31] + s9*t61) + t67);
-    const double t70 = c9*t68;
-    const double t71 = c9*(s9*t68 + orthoglide_2003_geo_D42*(qdd[9] + t20));
-    const double t72 = (t71 - s9*(t70 + orthoglide_2003_geo_D42*(t19*t19 + t18)))*beta[32];
-    const double t73 = t17*t63 - t19*t65 + (qdd[9]*beta[30] - (t25*beta[28] + t60*beta[29]));
-    tau[9] = orthoglide_2003_geo_D42*t16 + t72 + (t73 + t70*beta[31]) - t72;
-    const double t74 = qdd[5] - orthoglide_2003_geo_g;
-    const double t75 = c10*t74;
-    const double t76 = qd[11]*t31;
-    const double t77 = c11*qdd[10] - t76;
-    const double t78 = (t75 + orthoglide_2003_geo_D43*(t76 - t77))*beta[42];
-    const double t79 = t31*beta[38] + t33*beta[39] - qd[11]*beta[40];
-    const double t80 = t31*beta[37] - qd[11]*beta[39];
-    const double t81 = t33*t79 + qd[11]*t80 + (qdd[11]*beta[38] - (t39*beta[36] + t77*beta[37]));
-    const double t82 = t31*beta[36] + t33*beta[37] - qd[11]*beta[38];
-    const double t83 = qd[11]*t82 + t31*t79 + (t39*beta[37] - qdd[11]*beta[39]);
-    const double t84 = c11*(c11*t78 - orthoglide_2003_geo_D43*t37 - t83);
-    const double t85 = s10*t74;
-    const double t86 = t85*beta[35] - t75*beta[34] + qdd[10]*beta[33];
-    tau[10] = t86 - (s11*(t81 - t75*beta[41] + s11*t78) + t84);
-    const double t87 = c11*t85;
-    const double t88 = c11*(s11*t85 + orthoglide_2003_geo_D43*(qdd[11] + t34));
-    const double t89 = (t88 - s11*(t87 + orthoglide_2003_geo_D43*(t33*t33 + t32)))*beta[42];
-    const double t90 = t31*t80 - t33*t82 + (qdd[11]*beta[40] - (t39*beta[38] + t77*beta[39]));
-    tau[11] = orthoglide_2003_geo_D43*t30 + t89 + (t90 + t87*beta[41]) - t89;
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double minus_vd21_y = c6*qdd[3];
+    const double minus_ww31_xz = qd[7]*minus_w31_x;
+    const double minus_wd31_y = c7*qdd[6] - minus_ww31_xz;
+    /* link 41: moment on the link at its origin, n41 = J41 wd41 + w41 x J41 w41 + MS41 x vd41 */
+    const double n41_y = (minus_vd21_y + orthoglide_2003_geo_D41*(minus_ww31_xz -
+        minus_wd31_y))*beta[22];
+    const double minus_h31_z = minus_w31_x*beta[18] + minus_w31_y*beta[19] - qd[7]*beta[20];
+    const double minus_h31_y = minus_w31_x*beta[17] - qd[7]*beta[19];
+    const double t48 = minus_w31_y*minus_h31_z + qd[7]*minus_h31_y + (qdd[7]*beta[18] -
+        (minus_wd31_x*beta[16] + minus_wd31_y*beta[17]));
+    const double minus_h31_x = minus_w31_x*beta[16] + minus_w31_y*beta[17] - qd[7]*beta[18];
+    /* link 31: moment on the link at its origin, n31 = J31 wd31 + w31 x J31 w31 + MS31 x vd31 */
+    const double minus_n31_y = qd[7]*minus_h31_x + minus_w31_x*minus_h31_z + (minus_wd31_x*beta[17]
+        - qdd[7]*beta[19]);
+    const double t51 = c7*(c7*n41_y - orthoglide_2003_geo_D41*f41_z - minus_n31_y);
+    const double minus_vd21_x = s6*qdd[3];
+    /* link 21: moment on the link at its origin, n21 = J21 wd21 + w21 x J21 w21 + MS21 x vd21 */
+    const double n21_z = minus_vd21_x*beta[15] - minus_vd21_y*beta[14] + qdd[6]*beta[13];
+    tau[6] = n21_z - (s7*(t48 - minus_vd21_y*beta[21] + s7*n41_y) + t51);
+    /* link 41: acceleration of the origin less gravity, vd41 = R41' (vd31 + U31 p41) */
+    const double vd41a_y = orthoglide_2003_geo_g*c7 + s7*minus_vd21_x +
+        orthoglide_2003_geo_D41*(qdd[7] + ww31_xy);
+    /* link 31: acceleration of the origin less gravity, vd31 = R31' (vd21 + U21 p31) */
+    const double minus_vd31_x = c7*minus_vd21_x - orthoglide_2003_geo_g*s7;
+    const double n41_z = (c7*vd41a_y - s7*(minus_vd31_x +
+        orthoglide_2003_geo_D41*(minus_w31_y*minus_w31_y + ww31_zz)))*beta[22];
+    const double t57 = minus_w31_x*minus_h31_y - minus_w31_y*minus_h31_x + (qdd[7]*beta[20] -
+        (minus_wd31_x*beta[18] + minus_wd31_y*beta[19]));
+    tau[7] = orthoglide_2003_geo_D41*fc41a_y + n41_z + (t57 + minus_vd31_x*beta[21]) - n41_z;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double minus_vd22_y = c8*qdd[4] - orthoglide_2003_geo_g*s8;
+    const double minus_ww32_xz = qd[9]*minus_w32_x;
+    const double minus_wd32_y = c9*qdd[8] - minus_ww32_xz;
+    /* link 42: moment on the link at its origin, n42 = J42 wd42 + w42 x J42 w42 + MS42 x vd42 */
+    const double n42_y = (minus_vd22_y + orthoglide_2003_geo_D42*(minus_ww32_xz -
+        minus_wd32_y))*beta[32];
+    const double minus_h32_z = minus_w32_x*beta[28] + minus_w32_y*beta[29] - qd[9]*beta[30];
+    const double minus_h32_y = minus_w32_x*beta[27] - qd[9]*beta[29];
+    const double t64 = minus_w32_y*minus_h32_z + qd[9]*minus_h32_y + (qdd[9]*beta[28] -
+        (minus_wd32_x*beta[26] + minus_wd32_y*beta[27]));
+    const double minus_h32_x = minus_w32_x*beta[26] + minus_w32_y*beta[27] - qd[9]*beta[28];
+    /* link 32: moment on the link at its origin, n32 = J32 wd32 + w32 x J32 w32 + MS32 x vd32 */
+    const double minus_n32_y = qd[9]*minus_h32_x + minus_w32_x*minus_h32_z + (minus_wd32_x*beta[27]
+        - qdd[9]*beta[29]);
+    const double t67 = c9*(c9*n42_y - orthoglide_2003_geo_D42*f42_z - minus_n32_y);
+    const double minus_vd22_x = orthoglide_2003_geo_g*c8 + s8*qdd[4];
+    /* link 22: moment on the link at its origin, n22 = J22 wd22 + w22 x J22 w22 + MS22 x vd22 */
+    const double n22_z = minus_vd22_x*beta[25] - minus_vd22_y*beta[24] + qdd[8]*beta[23];
+    tau[8] = n22_z - (s9*(t64 - minus_vd22_y*beta[31] + s9*n42_y) + t67);
+    /* link 32: acceleration of the origin less gravity, vd32 = R32' (vd22 + U22 p32) */
+    const double minus_vd32_x = c9*minus_vd22_x;
+    const double t71 = c9*(s9*minus_vd22_x + orthoglide_2003_geo_D42*(qdd[9] + ww32_xy));
+    const double n42_z = (t71 - s9*(minus_vd32_x + orthoglide_2003_geo_D42*(minus_w32_y*minus_w32_y
+        + ww32_zz)))*beta[32];
+    const double t73 = minus_w32_x*minus_h32_y - minus_w32_y*minus_h32_x + (qdd[9]*beta[30] -
+        (minus_wd32_x*beta[28] + minus_wd32_y*beta[29]));
+    tau[9] = orthoglide_2003_geo_D42*fc42a_y + n42_z + (t73 + minus_vd32_x*beta[31]) - n42_z;
+    /* link 13: acceleration of the origin less gravity, vd13 = R13' (vd0 + U0 p13) + 2 w13 x qd13 z
+        + qdd13 z */
+    const double vd13_z = qdd[5] - orthoglide_2003_geo_g;
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double minus_vd23_y = c10*vd13_z;
+    const double minus_ww33_xz = qd[11]*minus_w33_x;
+    const double minus_wd33_y = c11*qdd[10] - minus_ww33_xz;
+    /* link 43: moment on the link at its origin, n43 = J43 wd43 + w43 x J43 w43 + MS43 x vd43 */
+    const double n43_y = (minus_vd23_y + orthoglide_2003_geo_D43*(minus_ww33_xz -
+        minus_wd33_y))*beta[42];
+    const double minus_h33_z = minus_w33_x*beta[38] + minus_w33_y*beta[39] - qd[11]*beta[40];
+    const double minus_h33_y = minus_w33_x*beta[37] - qd[11]*beta[39];
+    const double t81 = minus_w33_y*minus_h33_z + qd[11]*minus_h33_y + (qdd[11]*beta[38] -
+        (minus_wd33_x*beta[36] + minus_wd33_y*beta[37]));
+    const double minus_h33_x = minus_w33_x*beta[36] + minus_w33_y*beta[37] - qd[11]*beta[38];
+    /* link 33: moment on the link at its origin, n33 = J33 wd33 + w33 x J33 w33 + MS33 x vd33 */
+    const double minus_n33_y = qd[11]*minus_h33_x + minus_w33_x*minus_h33_z + (minus_wd33_x*beta[37]
+        - qdd[11]*beta[39]);
+    const double t84 = c11*(c11*n43_y - orthoglide_2003_geo_D43*f43_z - minus_n33_y);
+    const double minus_vd23_x = s10*vd13_z;
+    /* link 23: moment on the link at its origin, n23 = J23 wd23 + w23 x J23 w23 + MS23 x vd23 */
+    const double n23_z = minus_vd23_x*beta[35] - minus_vd23_y*beta[34] + qdd[10]*beta[33];
+    tau[10] = n23_z - (s11*(t81 - minus_vd23_y*beta[41] + s11*n43_y) + t84);
+    /* link 33: acceleration of the origin less gravity, vd33 = R33' (vd23 + U23 p33) */
+    const double minus_vd33_x = c11*minus_vd23_x;
+    const double t88 = c11*(s11*minus_vd23_x + orthoglide_2003_geo_D43*(qdd[11] + ww33_xy));
+    const double n43_z = (t88 - s11*(minus_vd33_x + orthoglide_2003_geo_D43*(minus_w33_y*minus_w33_y
+        + ww33_zz)))*beta[42];
+    const double t90 = minus_w33_x*minus_h33_y - minus_w33_y*minus_h33_x + (qdd[11]*beta[40] -
+        (minus_wd33_x*beta[38] + minus_wd33_y*beta[39]));
+    tau[11] = orthoglide_2003_geo_D43*fc43a_y + n43_z + (t90 + minus_vd33_x*beta[41]) - n43_z;
 }
 
 /* Inertia matrix, rotor inertias included; symmetric.
@@ -198,73 +283,97 @@ void orthoglide_2003_tree_inertia_matrix(const double *q, const double *beta,
     M[26] = beta[0];
     MODELER_ZEROS(M + 1, 8);
     M[39] = beta[1];
-    const double t1 = c7*beta[22];
+    /* link 31: first moments of the link and all that it carries, MSc31 = MS31 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc31_x = c7*beta[22];
     MODELER_ZEROS(M + 9, 4);
-    const double t2 = s7*beta[22];
-    const double t3 = beta[21] - t2;
+    const double lin41a_41x = s7*beta[22];
+    const double MSc31_y = beta[21] - lin41a_41x;
     MODELER_ZEROS(M + 14, 8);
-    const double t4 = s6*beta[15] - c6*(c7*t1 - s7*t3 + beta[14]);
-    M[42] = t4;
+    /* link 11: first moments of the link and all that it carries, MSc11 = MS11 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double minus_MSc11_x = s6*beta[15] - c6*(c7*MSc31_x - s7*MSc31_y + beta[14]);
+    M[42] = minus_MSc11_x;
     MODELER_ZEROS(M + 22, 4);
-    const double t5 = s6*(c7*t2 + c7*t3);
-    M[43] = t5;
+    const double lin21a_31z = s6*(c7*lin41a_41x + c7*MSc31_y);
+    M[43] = lin21a_31z;
     M[52] = beta[5];
     MODELER_ZEROS(M + 27, 8);
-    const double t6 = c9*beta[32];
-    const double t7 = s9*beta[32];
+    /* link 32: first moments of the link and all that it carries, MSc32 = MS32 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc32_x = c9*beta[32];
+    const double lin42a_42x = s9*beta[32];
     MODELER_ZEROS(M + 35, 4);
-    const double t8 = beta[31] - t7;
-    const double t9 = s8*beta[25] - c8*(c9*t6 - s9*t8 + beta[24]);
+    const double MSc32_y = beta[31] - lin42a_42x;
+    /* link 12: first moments of the link and all that it carries, MSc12 = MS12 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double minus_MSc12_x = s8*beta[25] - c8*(c9*MSc32_x - s9*MSc32_y + beta[24]);
     MODELER_ZEROS(M + 40, 2);
-    M[56] = t9;
-    const double t10 = s8*(c9*t7 + c9*t8);
+    M[56] = minus_MSc12_x;
+    const double lin22a_32z = s8*(c9*lin42a_42x + c9*MSc32_y);
     MODELER_ZEROS(M + 44, 8);
-    M[57] = t10;
+    M[57] = lin22a_32z;
     M[65] = beta[9];
     MODELER_ZEROS(M + 53, 3);
-    const double t11 = c11*beta[42];
-    const double t12 = s11*beta[42];
-    const double t13 = beta[41] - t12;
+    /* link 33: first moments of the link and all that it carries, MSc33 = MS33 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc33_x = c11*beta[42];
+    const double lin43a_43x = s11*beta[42];
+    const double MSc33_y = beta[41] - lin43a_43x;
     MODELER_ZEROS(M + 58, 7);
-    const double t14 = s10*beta[35] - c10*(c11*t11 - s11*t13 + beta[34]);
-    M[70] = t14;
+    /* link 13: first moments of the link and all that it carries, MSc13 = MS13 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double minus_MSc13_x = s10*beta[35] - c10*(c11*MSc33_x - s11*MSc33_y + beta[34]);
+    M[70] = minus_MSc13_x;
     MODELER_ZEROS(M + 66, 4);
-    const double t15 = s10*(c11*t12 + c11*t13);
-    M[71] = t15;
+    const double lin23a_33z = s10*(c11*lin43a_43x + c11*MSc33_y);
+    M[71] = lin23a_33z;
     MODELER_ZEROS(M + 72, 3);
-    M[75] = t4;
-    const double t16 = beta[17] + orthoglide_2003_geo_D41*t2;
+    M[75] = minus_MSc11_x;
+    /* link 31: inertia of the link and all that it carries, Jc31 = J31 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double Jc31_xy = beta[17] + orthoglide_2003_geo_D41*lin41a_41x;
     MODELER_ZEROS(M + 76, 2);
-    M[78] = s7*(s7*beta[16] + c7*t16) + c7*(s7*t16 + k3*t1*c7) + beta[13];
-    const double t17 = s7*beta[18] + c7*beta[19];
-    M[79] = -t17;
+    M[78] = s7*(s7*beta[16] + c7*Jc31_xy) + c7*(s7*Jc31_xy + k3*MSc31_x*c7) + beta[13];
+    /* link 21: inertia of the link and all that it carries, Jc21 = J21 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc21_yz = s7*beta[18] + c7*beta[19];
+    M[79] = -minus_Jc21_yz;
     MODELER_ZEROS(M + 80, 7);
-    M[87] = t5;
-    M[90] = -t17;
+    M[87] = lin21a_31z;
+    M[90] = -minus_Jc21_yz;
     MODELER_ZEROS(M + 88, 2);
     M[91] = beta[20];
-    M[100] = t9;
+    M[100] = minus_MSc12_x;
     MODELER_ZEROS(M + 92, 8);
-    const double t18 = beta[27] + orthoglide_2003_geo_D42*t7;
-    M[104] = s9*(s9*beta[26] + c9*t18) + c9*(s9*t18 + k2*t6*c9) + beta[23];
+    /* link 32: inertia of the link and all that it carries, Jc32 = J32 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double Jc32_xy = beta[27] + orthoglide_2003_geo_D42*lin42a_42x;
+    M[104] = s9*(s9*beta[26] + c9*Jc32_xy) + c9*(s9*Jc32_xy + k2*MSc32_x*c9) + beta[23];
     MODELER_ZEROS(M + 101, 3);
-    const double t19 = s9*beta[28] + c9*beta[29];
-    M[105] = -t19;
+    /* link 22: inertia of the link and all that it carries, Jc22 = J22 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc22_yz = s9*beta[28] + c9*beta[29];
+    M[105] = -minus_Jc22_yz;
     MODELER_ZEROS(M + 106, 6);
-    M[112] = t10;
-    M[116] = -t19;
+    M[112] = lin22a_32z;
+    M[116] = -minus_Jc22_yz;
     M[117] = beta[30];
     MODELER_ZEROS(M + 113, 3);
-    M[125] = t14;
-    const double t20 = beta[37] + orthoglide_2003_geo_D43*t12;
+    M[125] = minus_MSc13_x;
+    /* link 33: inertia of the link and all that it carries, Jc33 = J33 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double Jc33_xy = beta[37] + orthoglide_2003_geo_D43*lin43a_43x;
     MODELER_ZEROS(M + 118, 7);
-    M[130] = s11*(s11*beta[36] + c11*t20) + c11*(s11*t20 + k1*t11*c11) + beta[33];
-    const double t21 = s11*beta[38] + c11*beta[39];
+    M[130] = s11*(s11*beta[36] + c11*Jc33_xy) + c11*(s11*Jc33_xy + k1*MSc33_x*c11) + beta[33];
+    /* link 23: inertia of the link and all that it carries, Jc23 = J23 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc23_yz = s11*beta[38] + c11*beta[39];
     MODELER_ZEROS(M + 126, 4);
-    M[131] = -t21;
-    M[137] = t15;
+    M[131] = -minus_Jc23_yz;
+    M[137] = lin23a_33z;
     MODELER_ZEROS(M + 132, 5);
-    M[142] = -t21;
+    M[142] = -minus_Jc23_yz;
     M[143] = beta[40];
     MODELER_ZEROS(M + 138, 4);
 }
@@ -293,16 +402,22 @@ void orthoglide_2003_tree_gravity(const double *q, const double *beta, double *M
 
     tau[1] = -orthoglide_2003_geo_g*beta[0];
     tau[7] = -orthoglide_2003_geo_g*s7*beta[21];
-    const double t1 = orthoglide_2003_geo_g*s8;
-    const double t2 = t1*beta[32];
-    const double t3 = orthoglide_2003_geo_g*c8;
-    tau[8] = s9*(s9*t2 - t1*beta[31]) + c9*t2*c9 + (t1*beta[24] + t3*beta[25]);
-    tau[9] = c9*t3*beta[31];
-    const double t4 = orthoglide_2003_geo_g*c10;
-    const double t5 = beta[42]*t4;
-    const double t6 = orthoglide_2003_geo_g*s10;
-    tau[10] = s11*(s11*t5 - beta[41]*t4) + c11*t5*c11 + (beta[34]*t4 - beta[35]*t6);
-    tau[11] = -c11*t6*beta[41];
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double vd22_y = orthoglide_2003_geo_g*s8;
+    /* link 42: moment on the link at its origin, n42 = J42 wd42 + w42 x J42 w42 + MS42 x vd42 */
+    const double minus_n42_y = vd22_y*beta[32];
+    const double minus_vd22_x = orthoglide_2003_geo_g*c8;
+    tau[8] = s9*(s9*minus_n42_y - vd22_y*beta[31]) + c9*minus_n42_y*c9 + (vd22_y*beta[24] +
+        minus_vd22_x*beta[25]);
+    tau[9] = c9*minus_vd22_x*beta[31];
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double vd23_y = orthoglide_2003_geo_g*c10;
+    /* link 43: moment on the link at its origin, n43 = J43 wd43 + w43 x J43 w43 + MS43 x vd43 */
+    const double minus_n43_y = beta[42]*vd23_y;
+    const double vd23_x = orthoglide_2003_geo_g*s10;
+    tau[10] = s11*(s11*minus_n43_y - beta[41]*vd23_y) + c11*minus_n43_y*c11 + (beta[34]*vd23_y -
+        beta[35]*vd23_x);
+    tau[11] = -c11*vd23_x*beta[41];
 }
 
 /* Torques without gravity and friction.
@@ -326,101 +441,155 @@ void orthoglide_2003_tree_coriolis(const double *q, const double *qd, const doub
     tau[0] = qdd[0]*beta[0];
     tau[1] = qdd[1]*beta[0];
     tau[2] = qdd[2]*beta[0];
-    const double t1 = qd[6]*qd[6];
-    const double t2 = t1*beta[22];
-    const double t3 = s7*t2;
-    const double t4 = s7*qd[6];
-    const double t5 = qd[7]*qd[7];
-    const double t6 = c7*qd[6];
-    const double t7 = t4*t6;
-    const double t8 = s7*(t3 - (t4*t4 + t5)*beta[21]) + c7*(c7*t2 + (qdd[7] - t7)*beta[21]);
-    const double t9 = qdd[6]*beta[22];
-    const double t10 = qd[7]*t6;
-    const double t11 = s7*qdd[6] + t10;
-    const double t12 = c6*(t9 - (t10 + t11)*beta[21] + (qdd[6]*beta[14] - t1*beta[15]));
-    tau[3] = s6*(t1*beta[14] + qdd[6]*beta[15] + t8) - t12 + qdd[3]*beta[1];
-    const double t13 = qd[8]*qd[8];
-    const double t14 = t13*beta[32];
-    const double t15 = s9*t14;
-    const double t16 = s9*qd[8];
-    const double t17 = qd[9]*qd[9];
-    const double t18 = c9*qd[8];
-    const double t19 = t16*t18;
-    const double t20 = c9*(c9*t14 + (qdd[9] - t19)*beta[31]);
-    const double t21 = s9*(t15 - (t16*t16 + t17)*beta[31]) + t20;
-    const double t22 = qdd[8]*beta[32];
-    const double t23 = qd[9]*t18;
-    const double t24 = s9*qdd[8] + t23;
-    const double t25 = c8*(t22 - (t23 + t24)*beta[31] + (qdd[8]*beta[24] - t13*beta[25]));
-    tau[4] = s8*(t13*beta[24] + qdd[8]*beta[25] + t21) - t25 + qdd[4]*beta[5];
-    const double t26 = qd[10]*qd[10];
-    const double t27 = t26*beta[42];
-    const double t28 = s11*t27;
-    const double t29 = s11*qd[10];
-    const double t30 = qd[11]*qd[11];
-    const double t31 = c11*qd[10];
-    const double t32 = t29*t31;
-    const double t33 = c11*(c11*t27 + (qdd[11] - t32)*beta[41]);
-    const double t34 = s11*(t28 - (t29*t29 + t30)*beta[41]) + t33;
-    const double t35 = qdd[10]*beta[42];
-    const double t36 = qd[11]*t31;
-    const double t37 = s11*qdd[10] + t36;
-    const double t38 = c10*(t35 - (t36 + t37)*beta[41] + (qdd[10]*beta[34] - t26*beta[35]));
-    tau[5] = s10*(t26*beta[34] + qdd[10]*beta[35] + t34) - t38 + qdd[5]*beta[9];
-    const double t39 = c6*qdd[3];
-    const double t40 = qd[7]*t4;
-    const double t41 = c7*qdd[6] - t40;
-    const double t42 = (t39 + orthoglide_2003_geo_D41*(t40 - t41))*beta[22];
-    const double t43 = t4*beta[18] + t6*beta[19] - qd[7]*beta[20];
-    const double t44 = t4*beta[17] - qd[7]*beta[19];
-    const double t45 = t6*t43 + qd[7]*t44 + (qdd[7]*beta[18] - (t11*beta[16] + t41*beta[17]));
-    const double t46 = t4*beta[16] + t6*beta[17] - qd[7]*beta[18];
-    const double t47 = qd[7]*t46 + t4*t43 + (t11*beta[17] - qdd[7]*beta[19]);
-    const double t48 = c7*(c7*t42 - orthoglide_2003_geo_D41*t9 - t47);
-    const double t49 = s6*qdd[3];
-    const double t50 = t49*beta[15] - t39*beta[14] + qdd[6]*beta[13];
-    tau[6] = t50 - (s7*(t45 - t39*beta[21] + s7*t42) + t48);
-    const double t51 = c7*t49;
-    const double t52 = c7*(s7*t49 + orthoglide_2003_geo_D41*(qdd[7] + t7));
-    const double t53 = beta[22]*(t52 - s7*(t51 + orthoglide_2003_geo_D41*(t6*t6 + t5)));
-    const double t54 = t4*t44 - t6*t46 + (qdd[7]*beta[20] - (t11*beta[18] + t41*beta[19]));
-    tau[7] = orthoglide_2003_geo_D41*t3 + t53 + (t54 + t51*beta[21]) - t53;
-    const double t55 = c8*qdd[4];
-    const double t56 = qd[9]*t16;
-    const double t57 = c9*qdd[8] - t56;
-    const double t58 = beta[32]*(t55 + orthoglide_2003_geo_D42*(t56 - t57));
-    const double t59 = t16*beta[28] + t18*beta[29] - qd[9]*beta[30];
-    const double t60 = t16*beta[27] - qd[9]*beta[29];
-    const double t61 = t18*t59 + qd[9]*t60 + (qdd[9]*beta[28] - (t24*beta[26] + t57*beta[27]));
-    const double t62 = t16*beta[26] + t18*beta[27] - qd[9]*beta[28];
-    const double t63 = qd[9]*t62 + t16*t59 + (t24*beta[27] - qdd[9]*beta[29]);
-    const double t64 = c9*(orthoglide_2003_geo_D42*t22 - c9*t58 + t63);
-    const double t65 = s8*qdd[4];
-    const double t66 = t65*beta[25] - t55*beta[24] + qdd[8]*beta[23];
-    tau[8] = t66 - (s9*(t61 - t55*beta[31] + s9*t58) - t64);
-    const double t67 = orthoglide_2003_geo_g*c8 + t65;
-    const double t68 = s9*(c9*t67 + orthoglide_2003_geo_D42*(t18*t18 + t17));
-    const double t69 = (c9*(s9*t67 + orthoglide_2003_geo_D42*(qdd[9] + t19)) - t68)*beta[32];
-    const double t70 = t16*t60 - t18*t62 + (qdd[9]*beta[30] - (t24*beta[28] + t57*beta[29]));
-    tau[9] = orthoglide_2003_geo_D42*t15 + t69 + (t70 + c9*t65*beta[31]) - t69;
-    const double t71 = qd[11]*t29;
-    const double t72 = c11*qdd[10] - t71;
-    const double t73 = c10*qdd[5];
-    const double t74 = beta[42]*(orthoglide_2003_geo_D43*(t71 - t72) + t73);
-    const double t75 = t29*beta[38] + t31*beta[39] - qd[11]*beta[40];
-    const double t76 = t29*beta[37] - qd[11]*beta[39];
-    const double t77 = t31*t75 + qd[11]*t76 + (qdd[11]*beta[38] - (t37*beta[36] + t72*beta[37]));
-    const double t78 = t29*beta[36] + t31*beta[37] - qd[11]*beta[38];
-    const double t79 = qd[11]*t78 + t29*t75 + (t37*beta[37] - qdd[11]*beta[39]);
-    const double t80 = c11*(orthoglide_2003_geo_D43*t35 - c11*t74 + t79);
-    const double t81 = s10*qdd[5];
-    const double t82 = beta[35]*t81 - beta[34]*t73 + qdd[10]*beta[33];
-    tau[10] = t82 - (s11*(t77 - beta[41]*t73 + s11*t74) - t80);
-    const double t83 = s10*(qdd[5] - orthoglide_2003_geo_g);
-    const double t84 = c11*(s11*t83 + orthoglide_2003_geo_D43*(qdd[11] + t32));
-    const double t85 = (t84 - s11*(c11*t83 + orthoglide_2003_geo_D43*(t31*t31 + t30)))*beta[42];
-    const double t86 = t29*t76 - t31*t78 + (qdd[11]*beta[40] - (t37*beta[38] + t72*beta[39]));
-    tau[11] = orthoglide_2003_geo_D43*t28 + t85 + (t86 + c11*t81*beta[41]) - t85;
+    const double ww21_zz = qd[6]*qd[6];
+    /* link 41: force on the link, f41 = M41 vd41 + U41 MS41 */
+    const double minus_f41_x = ww21_zz*beta[22];
+    /* link 41: force on the link and all that it carries, fc41 = f41 + sum of R fc of what hangs on
+        it */
+    const double fc41a_y = s7*minus_f41_x;
+    /* link 31: angular velocity, w31 = R31' w21 + qd31 z */
+    const double minus_w31_x = s7*qd[6];
+    const double ww31_zz = qd[7]*qd[7];
+    const double minus_w31_y = c7*qd[6];
+    const double ww31_xy = minus_w31_x*minus_w31_y;
+    /* link 31: force on the link and all that it carries, fc31 = f31 + sum of R fc of what hangs on
+        it */
+    const double minus_fc31a_x = s7*(fc41a_y - (minus_w31_x*minus_w31_x + ww31_zz)*beta[21]) +
+        c7*(c7*minus_f41_x + (qdd[7] - ww31_xy)*beta[21]);
+    const double f41_z = qdd[6]*beta[22];
+    const double minus_ww31_yz = qd[7]*minus_w31_y;
+    /* link 31: angular acceleration, wd31 = R31' wd21 + (R31' w21) x qd31 z + qdd31 z */
+    const double minus_wd31_x = s7*qdd[6] + minus_ww31_yz;
+    const double t12 = c6*(f41_z - (minus_ww31_yz + minus_wd31_x)*beta[21] + (qdd[6]*beta[14] -
+        ww21_zz*beta[15]));
+    tau[3] = s6*(ww21_zz*beta[14] + qdd[6]*beta[15] + minus_fc31a_x) - t12 + qdd[3]*beta[1];
+    const double ww22_zz = qd[8]*qd[8];
+    /* link 42: force on the link, f42 = M42 vd42 + U42 MS42 */
+    const double minus_f42_x = ww22_zz*beta[32];
+    /* link 42: force on the link and all that it carries, fc42 = f42 + sum of R fc of what hangs on
+        it */
+    const double fc42a_y = s9*minus_f42_x;
+    /* link 32: angular velocity, w32 = R32' w22 + qd32 z */
+    const double minus_w32_x = s9*qd[8];
+    const double ww32_zz = qd[9]*qd[9];
+    const double minus_w32_y = c9*qd[8];
+    const double ww32_xy = minus_w32_x*minus_w32_y;
+    const double t20 = c9*(c9*minus_f42_x + (qdd[9] - ww32_xy)*beta[31]);
+    /* link 32: force on the link and all that it carries, fc32 = f32 + sum of R fc of what hangs on
+        it */
+    const double minus_fc32a_x = s9*(fc42a_y - (minus_w32_x*minus_w32_x + ww32_zz)*beta[31]) + t20;
+    const double f42_z = qdd[8]*beta[32];
+    const double minus_ww32_yz = qd[9]*minus_w32_y;
+    /* link 32: angular acceleration, wd32 = R32' wd22 + (R32' w22) x qd32 z + qdd32 z */
+    const double minus_wd32_x = s9*qdd[8] + minus_ww32_yz;
+    const double t25 = c8*(f42_z - (minus_ww32_yz + minus_wd32_x)*beta[31] + (qdd[8]*beta[24] -
+        ww22_zz*beta[25]));
+    tau[4] = s8*(ww22_zz*beta[24] + qdd[8]*beta[25] + minus_fc32a_x) - t25 + qdd[4]*beta[5];
+    const double ww23_zz = qd[10]*qd[10];
+    /* link 43: force on the link, f43 = M43 vd43 + U43 MS43 */
+    const double minus_f43_x = ww23_zz*beta[42];
+    /* link 43: force on the link and all that it carries, fc43 = f43 + sum of R fc of what hangs on
+        it */
+    const double fc43a_y = s11*minus_f43_x;
+    /* link 33: angular velocity, w33 = R33' w23 + qd33 z */
+    const double minus_w33_x = s11*qd[10];
+    const double ww33_zz = qd[11]*qd[11];
+    const double minus_w33_y = c11*qd[10];
+    const double ww33_xy = minus_w33_x*minus_w33_y;
+    const double t33 = c11*(c11*minus_f43_x + (qdd[11] - ww33_xy)*beta[41]);
+    /* link 33: force on the link and all that it carries, fc33 = f33 + sum of R fc of what hangs on
+        it */
+    const double minus_fc33a_x = s11*(fc43a_y - (minus_w33_x*minus_w33_x + ww33_zz)*beta[41]) + t33;
+    const double f43_z = qdd[10]*beta[42];
+    const double minus_ww33_yz = qd[11]*minus_w33_y;
+    /* link 33: angular acceleration, wd33 = R33' wd23 + (R33' w23) x qd33 z + qdd33 z */
+    const double minus_wd33_x = s11*qdd[10] + minus_ww33_yz;
+    const double t38 = c10*(f43_z - (minus_ww33_yz + minus_wd33_x)*beta[41] + (qdd[10]*beta[34] -
+        ww23_zz*beta[35]));
+    tau[5] = s10*(ww23_zz*beta[34] + qdd[10]*beta[35] + minus_fc33a_x) - t38 + qdd[5]*beta[9];
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double minus_vd21_y = c6*qdd[3];
+    const double minus_ww31_xz = qd[7]*minus_w31_x;
+    const double minus_wd31_y = c7*qdd[6] - minus_ww31_xz;
+    /* link 41: moment on the link at its origin, n41 = J41 wd41 + w41 x J41 w41 + MS41 x vd41 */
+    const double n41_y = (minus_vd21_y + orthoglide_2003_geo_D41*(minus_ww31_xz -
+        minus_wd31_y))*beta[22];
+    const double minus_h31_z = minus_w31_x*beta[18] + minus_w31_y*beta[19] - qd[7]*beta[20];
+    const double minus_h31_y = minus_w31_x*beta[17] - qd[7]*beta[19];
+    const double t45 = minus_w31_y*minus_h31_z + qd[7]*minus_h31_y + (qdd[7]*beta[18] -
+        (minus_wd31_x*beta[16] + minus_wd31_y*beta[17]));
+    const double minus_h31_x = minus_w31_x*beta[16] + minus_w31_y*beta[17] - qd[7]*beta[18];
+    /* link 31: moment on the link at its origin, n31 = J31 wd31 + w31 x J31 w31 + MS31 x vd31 */
+    const double minus_n31_y = qd[7]*minus_h31_x + minus_w31_x*minus_h31_z + (minus_wd31_x*beta[17]
+        - qdd[7]*beta[19]);
+    const double t48 = c7*(c7*n41_y - orthoglide_2003_geo_D41*f41_z - minus_n31_y);
+    const double minus_vd21_x = s6*qdd[3];
+    /* link 21: moment on the link at its origin, n21 = J21 wd21 + w21 x J21 w21 + MS21 x vd21 */
+    const double n21_z = minus_vd21_x*beta[15] - minus_vd21_y*beta[14] + qdd[6]*beta[13];
+    tau[6] = n21_z - (s7*(t45 - minus_vd21_y*beta[21] + s7*n41_y) + t48);
+    /* link 31: acceleration of the origin less gravity, vd31 = R31' (vd21 + U21 p31) */
+    const double minus_vd31_x = c7*minus_vd21_x;
+    const double t52 = c7*(s7*minus_vd21_x + orthoglide_2003_geo_D41*(qdd[7] + ww31_xy));
+    const double n41_z = beta[22]*(t52 - s7*(minus_vd31_x +
+        orthoglide_2003_geo_D41*(minus_w31_y*minus_w31_y + ww31_zz)));
+    const double t54 = minus_w31_x*minus_h31_y - minus_w31_y*minus_h31_x + (qdd[7]*beta[20] -
+        (minus_wd31_x*beta[18] + minus_wd31_y*beta[19]));
+    tau[7] = orthoglide_2003_geo_D41*fc41a_y + n41_z + (t54 + minus_vd31_x*beta[21]) - n41_z;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double minus_vd22_y = c8*qdd[4];
+    const double minus_ww32_xz = qd[9]*minus_w32_x;
+    const double minus_wd32_y = c9*qdd[8] - minus_ww32_xz;
+    /* link 42: moment on the link at its origin, n42 = J42 wd42 + w42 x J42 w42 + MS42 x vd42 */
+    const double n42_y = beta[32]*(minus_vd22_y + orthoglide_2003_geo_D42*(minus_ww32_xz -
+        minus_wd32_y));
+    const double minus_h32_z = minus_w32_x*beta[28] + minus_w32_y*beta[29] - qd[9]*beta[30];
+    const double minus_h32_y = minus_w32_x*beta[27] - qd[9]*beta[29];
+    const double t61 = minus_w32_y*minus_h32_z + qd[9]*minus_h32_y + (qdd[9]*beta[28] -
+        (minus_wd32_x*beta[26] + minus_wd32_y*beta[27]));
+    const double minus_h32_x = minus_w32_x*beta[26] + minus_w32_y*beta[27] - qd[9]*beta[28];
+    /* link 32: moment on the link at its origin, n32 = J32 wd32 + w32 x J32 w32 + MS32 x vd32 */
+    const double minus_n32_y = qd[9]*minus_h32_x + minus_w32_x*minus_h32_z + (minus_wd32_x*beta[27]
+        - qdd[9]*beta[29]);
+    const double t64 = c9*(orthoglide_2003_geo_D42*f42_z - c9*n42_y + minus_n32_y);
+    const double minus_vd22_x = s8*qdd[4];
+    /* link 22: moment on the link at its origin, n22 = J22 wd22 + w22 x J22 w22 + MS22 x vd22 */
+    const double n22_z = minus_vd22_x*beta[25] - minus_vd22_y*beta[24] + qdd[8]*beta[23];
+    tau[8] = n22_z - (s9*(t61 - minus_vd22_y*beta[31] + s9*n42_y) - t64);
+    const double minus_vd22_x_2 = orthoglide_2003_geo_g*c8 + minus_vd22_x;
+    const double t68 = s9*(c9*minus_vd22_x_2 + orthoglide_2003_geo_D42*(minus_w32_y*minus_w32_y +
+        ww32_zz));
+    const double n42_z = (c9*(s9*minus_vd22_x_2 + orthoglide_2003_geo_D42*(qdd[9] + ww32_xy)) -
+        t68)*beta[32];
+    const double t70 = minus_w32_x*minus_h32_y - minus_w32_y*minus_h32_x + (qdd[9]*beta[30] -
+        (minus_wd32_x*beta[28] + minus_wd32_y*beta[29]));
+    tau[9] = orthoglide_2003_geo_D42*fc42a_y + n42_z + (t70 + c9*minus_vd22_x*beta[31]) - n42_z;
+    const double minus_ww33_xz = qd[11]*minus_w33_x;
+    const double minus_wd33_y = c11*qdd[10] - minus_ww33_xz;
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double minus_vd23_y = c10*qdd[5];
+    /* link 43: moment on the link at its origin, n43 = J43 wd43 + w43 x J43 w43 + MS43 x vd43 */
+    const double n43_y = beta[42]*(orthoglide_2003_geo_D43*(minus_ww33_xz - minus_wd33_y) +
+        minus_vd23_y);
+    const double minus_h33_z = minus_w33_x*beta[38] + minus_w33_y*beta[39] - qd[11]*beta[40];
+    const double minus_h33_y = minus_w33_x*beta[37] - qd[11]*beta[39];
+    const double t77 = minus_w33_y*minus_h33_z + qd[11]*minus_h33_y + (qdd[11]*beta[38] -
+        (minus_wd33_x*beta[36] + minus_wd33_y*beta[37]));
+    const double minus_h33_x = minus_w33_x*beta[36] + minus_w33_y*beta[37] - qd[11]*beta[38];
+    /* link 33: moment on the link at its origin, n33 = J33 wd33 + w33 x J33 w33 + MS33 x vd33 */
+    const double minus_n33_y = qd[11]*minus_h33_x + minus_w33_x*minus_h33_z + (minus_wd33_x*beta[37]
+        - qdd[11]*beta[39]);
+    const double t80 = c11*(orthoglide_2003_geo_D43*f43_z - c11*n43_y + minus_n33_y);
+    const double minus_vd23_x = s10*qdd[5];
+    /* link 23: moment on the link at its origin, n23 = J23 wd23 + w23 x J23 w23 + MS23 x vd23 */
+    const double n23_z = beta[35]*minus_vd23_x - beta[34]*minus_vd23_y + qdd[10]*beta[33];
+    tau[10] = n23_z - (s11*(t77 - beta[41]*minus_vd23_y + s11*n43_y) - t80);
+    const double minus_vd23_x_2 = s10*(qdd[5] - orthoglide_2003_geo_g);
+    const double t84 = c11*(s11*minus_vd23_x_2 + orthoglide_2003_geo_D43*(qdd[11] + ww33_xy));
+    const double n43_z = (t84 - s11*(c11*minus_vd23_x_2 +
+        orthoglide_2003_geo_D43*(minus_w33_y*minus_w33_y + ww33_zz)))*beta[42];
+    const double t86 = minus_w33_x*minus_h33_y - minus_w33_y*minus_h33_x + (qdd[11]*beta[40] -
+        (minus_wd33_x*beta[38] + minus_wd33_y*beta[39]));
+    tau[11] = orthoglide_2003_geo_D43*fc43a_y + n43_z + (t86 + c11*minus_vd23_x*beta[41]) - n43_z;
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets.
@@ -449,7 +618,8 @@ void orthoglide_2003_tree_forward_kinematics(const double *q, double *MODELER_RE
 {
     MODELER_ALL_ZEROS(T, 252);
 
-    const double k1 = orthoglide_2003_geo_a + orthoglide_2003_geo_b3;
+    /* link 32: origin of the frame in frame 0, o32 = o22 + [x22 y22 z22] p32 */
+    const double o32_z = orthoglide_2003_geo_a + orthoglide_2003_geo_b3;
 
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -490,9 +660,9 @@ void orthoglide_2003_tree_forward_kinematics(const double *q, double *MODELER_RE
     MODELER_ZEROS(T + 21, 3);
     T[47] = q[3];
     T[50] = 1.0;
-    const double t1 = orthoglide_2003_geo_a - q[4];
+    const double minus_p12_x = orthoglide_2003_geo_a - q[4];
     MODELER_ZEROS(T + 25, 2);
-    T[51] = -t1;
+    T[51] = -minus_p12_x;
     T[52] = 1.0;
     T[57] = 1.0;
     MODELER_ZEROS(T + 28, 1);
@@ -500,8 +670,8 @@ void orthoglide_2003_tree_forward_kinematics(const double *q, double *MODELER_RE
     T[61] = 1.0;
     MODELER_ZEROS(T + 30, 1);
     T[66] = 1.0;
-    const double t2 = orthoglide_2003_geo_a - q[5];
-    T[67] = -t2;
+    const double minus_p13_y = orthoglide_2003_geo_a - q[5];
+    T[67] = -minus_p13_y;
     MODELER_ZEROS(T + 32, 2);
     T[68] = 1.0;
     T[71] = orthoglide_2003_geo_a;
@@ -513,120 +683,122 @@ void orthoglide_2003_tree_forward_kinematics(const double *q, double *MODELER_RE
     MODELER_ZEROS(T + 42, 4);
     T[81] = -c6;
     T[83] = q[3];
-    const double t3 = c6*c7;
+    const double x31_x = c6*c7;
     MODELER_ZEROS(T + 48, 2);
-    T[84] = t3;
-    const double t4 = c6*s7;
-    T[85] = -t4;
+    T[84] = x31_x;
+    const double minus_y31_x = c6*s7;
+    T[85] = -minus_y31_x;
     MODELER_ZEROS(T + 53, 4);
     T[86] = -s6;
     T[88] = -s7;
     T[89] = -c7;
     MODELER_ZEROS(T + 58, 1);
     T[91] = orthoglide_2003_geo_b3;
-    const double t5 = s6*c7;
-    T[92] = -t5;
+    const double minus_x31_z = s6*c7;
+    T[92] = -minus_x31_z;
     MODELER_ZEROS(T + 60, 1);
-    const double t6 = s6*s7;
-    T[93] = t6;
+    const double y31_z = s6*s7;
+    T[93] = y31_z;
     T[94] = -c6;
     MODELER_ZEROS(T + 62, 4);
     T[95] = q[3];
     T[96] = c6;
     MODELER_ZEROS(T + 69, 2);
     T[98] = -s6;
-    const double t7 = orthoglide_2003_geo_D41*t3;
-    T[99] = t7;
+    /* link 41: origin of the frame in frame 0, o41 = o31 + [x31 y31 z31] p41 */
+    const double o41_x = orthoglide_2003_geo_D41*x31_x;
+    T[99] = o41_x;
     MODELER_ZEROS(T + 74, 4);
     T[101] = -1.0;
-    const double t8 = orthoglide_2003_geo_b3 - orthoglide_2003_geo_D41*s7;
-    T[103] = t8;
+    const double o41_y = orthoglide_2003_geo_b3 - orthoglide_2003_geo_D41*s7;
+    T[103] = o41_y;
     MODELER_ZEROS(T + 79, 1);
     T[104] = -s6;
     T[106] = -c6;
-    const double t9 = q[3] - orthoglide_2003_geo_D41*t5;
+    const double o41_z = q[3] - orthoglide_2003_geo_D41*minus_x31_z;
     MODELER_ZEROS(T + 82, 1);
-    T[107] = t9;
+    T[107] = o41_z;
     T[109] = 1.0;
-    T[111] = t7;
+    T[111] = o41_x;
     MODELER_ZEROS(T + 87, 1);
     T[114] = 1.0;
-    T[115] = t8;
+    T[115] = o41_y;
     T[116] = 1.0;
     MODELER_ZEROS(T + 90, 1);
-    T[119] = t9;
-    T[120] = t3;
-    T[121] = -t4;
+    T[119] = o41_z;
+    T[120] = x31_x;
+    T[121] = -minus_y31_x;
     MODELER_ZEROS(T + 97, 1);
     T[122] = -s6;
     T[124] = -s7;
     T[125] = -c7;
     MODELER_ZEROS(T + 100, 1);
     T[127] = orthoglide_2003_geo_b7;
-    T[128] = -t5;
-    T[129] = t6;
+    T[128] = -minus_x31_z;
+    T[129] = y31_z;
     MODELER_ZEROS(T + 102, 1);
     T[130] = -c6;
     T[131] = q[3];
     MODELER_ZEROS(T + 105, 1);
     T[132] = -s8;
     T[133] = -c8;
-    T[135] = -t1;
+    T[135] = -minus_p12_x;
     MODELER_ZEROS(T + 108, 1);
     T[136] = c8;
     T[137] = -s8;
     T[142] = 1.0;
     MODELER_ZEROS(T + 110, 1);
     T[143] = orthoglide_2003_geo_a;
-    const double t10 = s8*c9;
-    T[144] = -t10;
+    const double minus_x32_x = s8*c9;
+    T[144] = -minus_x32_x;
     MODELER_ZEROS(T + 112, 2);
-    const double t11 = s8*s9;
-    T[145] = t11;
+    const double y32_x = s8*s9;
+    T[145] = y32_x;
     T[146] = -c8;
     MODELER_ZEROS(T + 117, 2);
-    T[147] = -t1;
-    const double t12 = c8*c9;
-    T[148] = t12;
+    T[147] = -minus_p12_x;
+    const double x32_y = c8*c9;
+    T[148] = x32_y;
     MODELER_ZEROS(T + 123, 1);
-    const double t13 = c8*s9;
-    T[149] = -t13;
+    const double minus_y32_y = c8*s9;
+    T[149] = -minus_y32_y;
     T[150] = -s8;
     MODELER_ZEROS(T + 126, 1);
     T[152] = -s9;
     T[153] = -c9;
-    T[155] = k1;
+    T[155] = o32_z;
     MODELER_ZEROS(T + 134, 1);
     T[156] = -s8;
     T[158] = -c8;
     MODELER_ZEROS(T + 138, 4);
-    const double t14 = t1 + orthoglide_2003_geo_D42*t10;
-    T[159] = -t14;
+    /* link 42: origin of the frame in frame 0, o42 = o32 + [x32 y32 z32] p42 */
+    const double minus_o42_x = minus_p12_x + orthoglide_2003_geo_D42*minus_x32_x;
+    T[159] = -minus_o42_x;
     T[160] = c8;
     MODELER_ZEROS(T + 151, 1);
     T[162] = -s8;
-    const double t15 = orthoglide_2003_geo_D42*t12;
-    T[163] = t15;
+    const double o42_y = orthoglide_2003_geo_D42*x32_y;
+    T[163] = o42_y;
     MODELER_ZEROS(T + 154, 1);
     T[165] = -1.0;
-    const double t16 = k1 - orthoglide_2003_geo_D42*s9;
-    T[167] = t16;
+    const double o42_z = o32_z - orthoglide_2003_geo_D42*s9;
+    T[167] = o42_z;
     MODELER_ZEROS(T + 157, 1);
     T[168] = 1.0;
-    T[171] = -t14;
+    T[171] = -minus_o42_x;
     T[173] = 1.0;
     MODELER_ZEROS(T + 161, 1);
-    T[175] = t15;
+    T[175] = o42_y;
     T[178] = 1.0;
-    T[179] = t16;
+    T[179] = o42_z;
     MODELER_ZEROS(T + 164, 1);
-    T[180] = -t10;
-    T[181] = t11;
+    T[180] = -minus_x32_x;
+    T[181] = y32_x;
     T[182] = -c8;
     MODELER_ZEROS(T + 166, 1);
-    T[183] = -t1;
-    T[184] = t12;
-    T[185] = -t13;
+    T[183] = -minus_p12_x;
+    T[184] = x32_y;
+    T[185] = -minus_y32_y;
     MODELER_ZEROS(T + 169, 2);
     T[186] = -s8;
     T[188] = -s9;
@@ -637,7 +809,7 @@ void orthoglide_2003_tree_forward_kinematics(const double *q, double *MODELER_RE
     MODELER_ZEROS(T + 174, 1);
     T[196] = -s10;
     T[197] = -c10;
-    T[199] = -t2;
+    T[199] = -minus_p13_y;
     MODELER_ZEROS(T + 176, 2);
     T[200] = c10;
     T[201] = -s10;
@@ -647,56 +819,57 @@ void orthoglide_2003_tree_forward_kinematics(const double *q, double *MODELER_RE
     T[205] = -c11;
     T[207] = orthoglide_2003_geo_b3;
     MODELER_ZEROS(T + 190, 1);
-    const double t17 = s10*c11;
-    T[208] = -t17;
-    const double t18 = s10*s11;
+    const double minus_x33_y = s10*c11;
+    T[208] = -minus_x33_y;
+    const double y33_y = s10*s11;
     MODELER_ZEROS(T + 192, 2);
-    T[209] = t18;
+    T[209] = y33_y;
     T[210] = -c10;
-    T[211] = -t2;
+    T[211] = -minus_p13_y;
     MODELER_ZEROS(T + 195, 1);
-    const double t19 = c10*c11;
-    T[212] = t19;
-    const double t20 = c10*s11;
+    const double x33_z = c10*c11;
+    T[212] = x33_z;
+    const double minus_y33_z = c10*s11;
     MODELER_ZEROS(T + 198, 1);
-    T[213] = -t20;
+    T[213] = -minus_y33_z;
     T[214] = -s10;
     T[215] = orthoglide_2003_geo_a;
     MODELER_ZEROS(T + 202, 1);
     T[217] = -1.0;
-    const double t21 = orthoglide_2003_geo_b3 - orthoglide_2003_geo_D43*s11;
-    T[219] = t21;
+    /* link 43: origin of the frame in frame 0, o43 = o33 + [x33 y33 z33] p43 */
+    const double o43_x = orthoglide_2003_geo_b3 - orthoglide_2003_geo_D43*s11;
+    T[219] = o43_x;
     MODELER_ZEROS(T + 206, 1);
     T[220] = -s10;
     T[222] = -c10;
     MODELER_ZEROS(T + 216, 1);
-    const double t22 = t2 + orthoglide_2003_geo_D43*t17;
-    T[223] = -t22;
+    const double minus_o43_y = minus_p13_y + orthoglide_2003_geo_D43*minus_x33_y;
+    T[223] = -minus_o43_y;
     T[224] = c10;
     MODELER_ZEROS(T + 218, 1);
     T[226] = -s10;
-    const double t23 = orthoglide_2003_geo_a + orthoglide_2003_geo_D43*t19;
-    T[227] = t23;
+    const double o43_z = orthoglide_2003_geo_a + orthoglide_2003_geo_D43*x33_z;
+    T[227] = o43_z;
     MODELER_ZEROS(T + 221, 1);
     T[230] = 1.0;
-    T[231] = t21;
+    T[231] = o43_x;
     T[232] = 1.0;
     MODELER_ZEROS(T + 225, 1);
-    T[235] = -t22;
+    T[235] = -minus_o43_y;
     T[237] = 1.0;
-    T[239] = t23;
+    T[239] = o43_z;
     MODELER_ZEROS(T + 228, 2);
     T[240] = -s11;
     T[241] = -c11;
     T[243] = orthoglide_2003_geo_b7;
     MODELER_ZEROS(T + 233, 2);
-    T[244] = -t17;
-    T[245] = t18;
+    T[244] = -minus_x33_y;
+    T[245] = y33_y;
     T[246] = -c10;
     MODELER_ZEROS(T + 236, 1);
-    T[247] = -t2;
-    T[248] = t19;
-    T[249] = -t20;
+    T[247] = -minus_p13_y;
+    T[248] = x33_z;
+    T[249] = -minus_y33_z;
     MODELER_ZEROS(T + 238, 1);
     T[250] = -s10;
     T[251] = orthoglide_2003_geo_a;
@@ -720,40 +893,41 @@ void orthoglide_2003_tree_drift(const double *q, const double *qd, double *MODEL
     double s11, c11;
     modeler_sincos(q[11], &s11, &c11);
 
-    const double t1 = c6*qd[6];
-    const double t2 = s7*qd[7];
-    const double t3 = s6*qd[6];
-    const double t4 = c7*qd[7];
-    const double t5 = orthoglide_2003_geo_D41*(c7*t1 - s6*t2)*qd[6];
-    values[0] = orthoglide_2003_geo_D41*(s7*t3 - c6*t4)*qd[7] - t5;
-    values[1] = orthoglide_2003_geo_D41*t2*qd[7];
-    const double t6 = orthoglide_2003_geo_D41*(c7*t3 + c6*t2)*qd[6];
-    values[2] = t6 + orthoglide_2003_geo_D41*(s7*t1 + s6*t4)*qd[7];
-    const double t7 = s8*qd[8];
-    const double t8 = s9*qd[9];
-    const double t9 = c8*qd[8];
-    const double t10 = c9*qd[9];
-    const double t11 = orthoglide_2003_geo_D42*(s9*t9 + s8*t10)*qd[9];
-    values[3] = orthoglide_2003_geo_D42*(c9*t7 + c8*t8)*qd[8] + t11;
-    const double t12 = orthoglide_2003_geo_D42*(s9*t7 - c8*t10)*qd[9];
-    values[4] = t12 - orthoglide_2003_geo_D42*(c9*t9 - s8*t8)*qd[8];
-    values[5] = orthoglide_2003_geo_D42*t8*qd[9];
-    const double t13 = s11*qd[11];
-    values[6] = orthoglide_2003_geo_D43*t13*qd[11];
-    const double t14 = s10*qd[10];
-    const double t15 = c10*qd[10];
-    const double t16 = c11*qd[11];
-    const double t17 = orthoglide_2003_geo_D43*(c11*t14 + c10*t13)*qd[10];
-    values[7] = t17 + orthoglide_2003_geo_D43*(s11*t15 + s10*t16)*qd[11];
-    const double t18 = orthoglide_2003_geo_D43*(c11*t15 - s10*t13)*qd[10];
-    values[8] = orthoglide_2003_geo_D43*(s11*t14 - c10*t16)*qd[11] - t18;
+    const double minus_x21d_tz = c6*qd[6];
+    const double y31d_ty = s7*qd[7];
+    const double minus_x21d_tx = s6*qd[6];
+    const double minus_x31d_ty = c7*qd[7];
+    const double t5 = orthoglide_2003_geo_D41*(c7*minus_x21d_tz - s6*y31d_ty)*qd[6];
+    values[0] = orthoglide_2003_geo_D41*(s7*minus_x21d_tx - c6*minus_x31d_ty)*qd[7] - t5;
+    values[1] = orthoglide_2003_geo_D41*y31d_ty*qd[7];
+    const double t6 = orthoglide_2003_geo_D41*(c7*minus_x21d_tx + c6*y31d_ty)*qd[6];
+    values[2] = t6 + orthoglide_2003_geo_D41*(s7*minus_x21d_tz + s6*minus_x31d_ty)*qd[7];
+    const double minus_x22d_ty = s8*qd[8];
+    const double y32d_tz = s9*qd[9];
+    const double minus_x22d_tx = c8*qd[8];
+    const double minus_x32d_tz = c9*qd[9];
+    const double t11 = orthoglide_2003_geo_D42*(s9*minus_x22d_tx + s8*minus_x32d_tz)*qd[9];
+    values[3] = orthoglide_2003_geo_D42*(c9*minus_x22d_ty + c8*y32d_tz)*qd[8] + t11;
+    const double t12 = orthoglide_2003_geo_D42*(s9*minus_x22d_ty - c8*minus_x32d_tz)*qd[9];
+    values[4] = t12 - orthoglide_2003_geo_D42*(c9*minus_x22d_tx - s8*y32d_tz)*qd[8];
+    values[5] = orthoglide_2003_geo_D42*y32d_tz*qd[9];
+    const double y33d_tx = s11*qd[11];
+    values[6] = orthoglide_2003_geo_D43*y33d_tx*qd[11];
+    const double minus_x23d_tz = s10*qd[10];
+    const double minus_x23d_ty = c10*qd[10];
+    const double minus_x33d_tx = c11*qd[11];
+    const double t17 = orthoglide_2003_geo_D43*(c11*minus_x23d_tz + c10*y33d_tx)*qd[10];
+    values[7] = t17 + orthoglide_2003_geo_D43*(s11*minus_x23d_ty + s10*minus_x33d_tx)*qd[11];
+    const double t18 = orthoglide_2003_geo_D43*(c11*minus_x23d_ty - s10*y33d_tx)*qd[10];
+    values[8] = orthoglide_2003_geo_D43*(s11*minus_x23d_tz - c10*minus_x33d_tx)*qd[11] - t18;
 }
 
 /* All equations of all loops, cosines, nonzeros of df/du, turns.
  * 20 additions, 30 multiplications. */
 void orthoglide_2003_tree_closure(const double *q, double *MODELER_RESTRICT values)
 {
-    const double k1 = orthoglide_2003_geo_a + orthoglide_2003_geo_b3;
+    /* link 32: origin of the frame in frame 0, o32 = o22 + [x22 y22 z22] p32 */
+    const double o32_z = orthoglide_2003_geo_a + orthoglide_2003_geo_b3;
 
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -768,36 +942,44 @@ void orthoglide_2003_tree_closure(const double *q, double *MODELER_RESTRICT valu
     double s11, c11;
     modeler_sincos(q[11], &s11, &c11);
 
-    const double t1 = c6*c7*orthoglide_2003_geo_D41;
-    values[0] = t1 - q[0];
+    /* link 41: origin of the frame in frame 0, o41 = o31 + [x31 y31 z31] p41 */
+    const double o41_x = c6*c7*orthoglide_2003_geo_D41;
+    values[0] = o41_x - q[0];
     values[1] = -(q[1] + orthoglide_2003_geo_D41*s7);
-    const double t2 = s6*c7*orthoglide_2003_geo_D41;
-    values[2] = q[3] - t2 + orthoglide_2003_geo_d6 - q[2];
-    const double t3 = s8*c9*orthoglide_2003_geo_D42;
-    values[3] = orthoglide_2003_geo_d6 - (orthoglide_2003_geo_a - q[4] + t3) - q[0];
-    const double t4 = c8*c9*orthoglide_2003_geo_D42;
-    values[4] = t4 - q[1];
-    values[5] = -(orthoglide_2003_geo_D42*s9 - k1 + orthoglide_2003_geo_b3 + q[2]);
+    /* link 51: velocity of the origin, for unit speed of each joint below, m51 = R51' (m41 + e41 x
+        p51) */
+    const double minus_m51_21y = s6*c7*orthoglide_2003_geo_D41;
+    values[2] = q[3] - minus_m51_21y + orthoglide_2003_geo_d6 - q[2];
+    /* link 52: velocity of the origin, for unit speed of each joint below, m52 = R52' (m42 + e42 x
+        p52) */
+    const double minus_m52_22y = s8*c9*orthoglide_2003_geo_D42;
+    values[3] = orthoglide_2003_geo_d6 - (orthoglide_2003_geo_a - q[4] + minus_m52_22y) - q[0];
+    /* link 42: origin of the frame in frame 0, o42 = o32 + [x32 y32 z32] p42 */
+    const double o42_y = c8*c9*orthoglide_2003_geo_D42;
+    values[4] = o42_y - q[1];
+    values[5] = -(orthoglide_2003_geo_D42*s9 - o32_z + orthoglide_2003_geo_b3 + q[2]);
     values[6] = -(q[0] + orthoglide_2003_geo_D43*s11);
-    const double t5 = s10*c11*orthoglide_2003_geo_D43;
-    values[7] = orthoglide_2003_geo_d6 - (orthoglide_2003_geo_a - q[5] + t5) - q[1];
-    const double t6 = c10*c11*orthoglide_2003_geo_D43;
-    values[8] = orthoglide_2003_geo_a + t6 - q[2];
+    /* link 53: velocity of the origin, for unit speed of each joint below, m53 = R53' (m43 + e43 x
+        p53) */
+    const double minus_m53_23y = s10*c11*orthoglide_2003_geo_D43;
+    values[7] = orthoglide_2003_geo_d6 - (orthoglide_2003_geo_a - q[5] + minus_m53_23y) - q[1];
+    const double minus_m53_23x = c10*c11*orthoglide_2003_geo_D43;
+    values[8] = orthoglide_2003_geo_a + minus_m53_23x - q[2];
     values[9] = -1.0;
-    values[10] = -t2;
+    values[10] = -minus_m51_21y;
     values[11] = -c6*s7*orthoglide_2003_geo_D41;
     values[12] = -1.0;
     values[13] = -orthoglide_2003_geo_D41*c7;
     values[14] = -1.0;
     values[15] = 1.0;
-    values[16] = -t1;
+    values[16] = -o41_x;
     values[17] = s6*s7*orthoglide_2003_geo_D41;
     values[18] = -1.0;
     values[19] = 1.0;
-    values[20] = -t4;
+    values[20] = -o42_y;
     values[21] = s8*s9*orthoglide_2003_geo_D42;
     values[22] = -1.0;
-    values[23] = -t3;
+    values[23] = -minus_m52_22y;
     values[24] = -c8*s9*orthoglide_2003_geo_D42;
     values[25] = -1.0;
     values[26] = -orthoglide_2003_geo_D42*c9;
@@ -805,10 +987,10 @@ void orthoglide_2003_tree_closure(const double *q, double *MODELER_RESTRICT valu
     values[28] = -orthoglide_2003_geo_D43*c11;
     values[29] = -1.0;
     values[30] = 1.0;
-    values[31] = -t6;
+    values[31] = -minus_m53_23x;
     values[32] = s10*s11*orthoglide_2003_geo_D43;
     values[33] = -1.0;
-    values[34] = -t5;
+    values[34] = -minus_m53_23y;
     values[35] = -c10*s11*orthoglide_2003_geo_D43;
     values[36] = c6;
     values[37] = s6;
@@ -828,7 +1010,8 @@ void orthoglide_2003_tree_closure(const double *q, double *MODELER_RESTRICT valu
  * 20 additions, 15 multiplications. */
 void orthoglide_2003_tree_residual(const double *q, double *MODELER_RESTRICT f)
 {
-    const double k1 = orthoglide_2003_geo_a + orthoglide_2003_geo_b3;
+    /* link 32: origin of the frame in frame 0, o32 = o22 + [x22 y22 z22] p32 */
+    const double o32_z = orthoglide_2003_geo_a + orthoglide_2003_geo_b3;
 
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -846,13 +1029,15 @@ void orthoglide_2003_tree_residual(const double *q, double *MODELER_RESTRICT f)
     f[0] = c6*c7*orthoglide_2003_geo_D41 - q[0];
     f[1] = -(q[1] + orthoglide_2003_geo_D41*s7);
     f[2] = q[3] - s6*c7*orthoglide_2003_geo_D41 + orthoglide_2003_geo_d6 - q[2];
-    const double t1 = orthoglide_2003_geo_a - q[4] + s8*c9*orthoglide_2003_geo_D42;
-    f[3] = orthoglide_2003_geo_d6 - t1 - q[0];
+    /* link 42: origin of the frame in frame 0, o42 = o32 + [x32 y32 z32] p42 */
+    const double minus_o42_x = orthoglide_2003_geo_a - q[4] + s8*c9*orthoglide_2003_geo_D42;
+    f[3] = orthoglide_2003_geo_d6 - minus_o42_x - q[0];
     f[4] = c8*c9*orthoglide_2003_geo_D42 - q[1];
-    f[5] = -(orthoglide_2003_geo_D42*s9 - k1 + orthoglide_2003_geo_b3 + q[2]);
+    f[5] = -(orthoglide_2003_geo_D42*s9 - o32_z + orthoglide_2003_geo_b3 + q[2]);
     f[6] = -(q[0] + orthoglide_2003_geo_D43*s11);
-    const double t2 = orthoglide_2003_geo_a - q[5] + s10*c11*orthoglide_2003_geo_D43;
-    f[7] = orthoglide_2003_geo_d6 - t2 - q[1];
+    /* link 43: origin of the frame in frame 0, o43 = o33 + [x33 y33 z33] p43 */
+    const double minus_o43_y = orthoglide_2003_geo_a - q[5] + s10*c11*orthoglide_2003_geo_D43;
+    f[7] = orthoglide_2003_geo_d6 - minus_o43_y - q[1];
     f[8] = orthoglide_2003_geo_a + c10*c11*orthoglide_2003_geo_D43 - q[2];
 }
 

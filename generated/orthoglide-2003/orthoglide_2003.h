@@ -18,7 +18,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "fdc416c6c8c9aeab"
+#define ORTHOGLIDE_2003_SIGNATURE "3def7ba1d49c7096"
+#define ORTHOGLIDE_2003_SIGNATURE_1 0x3def7ba1u
+#define ORTHOGLIDE_2003_SIGNATURE_2 0xd49c7096u
 
 #define ORTHOGLIDE_2003_JOINTS 3
 #define ORTHOGLIDE_2003_STANDARD_PARAMETERS 163

@@ -2,6 +2,16 @@
  *
  * Functions of orthoglide_2003.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
  */
 #include "orthoglide_2003.h"
 
@@ -87,178 +97,195 @@ void orthoglide_2003_tree_base_regressor(const double *q, const double *qd, cons
     phi[227] = 1.0;
     phi[271] = qdd[6];
     MODELER_ZEROS(phi + 52, 8);
-    const double t1 = qd[6]*qd[6];
-    const double t2 = s6*t1 - c6*qdd[6];
+    const double ww21_zz = qd[6]*qd[6];
+    const double t2 = s6*ww21_zz - c6*qdd[6];
     MODELER_ZEROS(phi + 60, 8);
     phi[143] = t2;
-    const double t3 = c6*qdd[3];
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double minus_vd21_y = c6*qdd[3];
     MODELER_ZEROS(phi + 68, 8);
-    phi[272] = -t3;
-    phi[144] = s6*qdd[6] + c6*t1;
+    phi[272] = -minus_vd21_y;
+    phi[144] = s6*qdd[6] + c6*ww21_zz;
     MODELER_ZEROS(phi + 76, 8);
-    const double t4 = s6*qdd[3];
-    phi[273] = t4;
+    const double minus_vd21_x = s6*qdd[3];
+    phi[273] = minus_vd21_x;
     MODELER_ZEROS(phi + 84, 2);
-    const double t5 = s7*qdd[6];
-    const double t6 = c7*qd[6];
+    /* link 31: acceleration of points of the link, U31 = [wd31 x] + [w31 x][w31 x] */
+    const double U31_yz = s7*qdd[6];
+    /* link 31: angular velocity, w31 = R31' w21 + qd31 z */
+    const double minus_w31_y = c7*qd[6];
     MODELER_ZEROS(phi + 87, 8);
-    const double t7 = qd[7]*t6;
-    const double t8 = t5 + t7;
+    const double minus_ww31_yz = qd[7]*minus_w31_y;
+    /* link 31: angular acceleration, wd31 = R31' wd21 + (R31' w21) x qd31 z + qdd31 z */
+    const double minus_wd31_x = U31_yz + minus_ww31_yz;
     MODELER_ZEROS(phi + 95, 8);
-    const double t9 = s7*qd[6];
-    const double t10 = qd[7]*t9;
+    const double minus_w31_x = s7*qd[6];
+    const double minus_ww31_xz = qd[7]*minus_w31_x;
     MODELER_ZEROS(phi + 103, 8);
-    phi[274] = s7*t8 + c7*t10;
-    const double t11 = t9*t6;
+    phi[274] = s7*minus_wd31_x + c7*minus_ww31_xz;
+    const double ww31_xy = minus_w31_x*minus_w31_y;
     MODELER_ZEROS(phi + 111, 8);
-    phi[317] = -t11;
+    phi[317] = -ww31_xy;
     MODELER_ZEROS(phi + 119, 8);
-    const double t12 = c7*qdd[6];
-    const double t13 = t10 - t12 + t10;
+    const double minus_U31_xz = c7*qdd[6];
+    const double minus_U31_zx = minus_ww31_xz - minus_U31_xz + minus_ww31_xz;
     MODELER_ZEROS(phi + 127, 3);
-    const double t14 = t7 + t8;
-    phi[275] = c7*t14 - s7*t13;
+    const double minus_U31_zy = minus_ww31_yz + minus_wd31_x;
+    phi[275] = c7*minus_U31_zy - s7*minus_U31_zx;
     MODELER_ZEROS(phi + 134, 8);
-    const double t15 = qd[7]*qd[7];
-    const double t16 = t6*t6 + t15;
+    const double ww31_zz = qd[7]*qd[7];
+    const double minus_U31_xx = minus_w31_y*minus_w31_y + ww31_zz;
     MODELER_ZEROS(phi + 142, 1);
-    const double t17 = t9*t9 + t15;
-    phi[318] = t17 - t16;
+    const double minus_U31_yy = minus_w31_x*minus_w31_x + ww31_zz;
+    phi[318] = minus_U31_yy - minus_U31_xx;
     MODELER_ZEROS(phi + 145, 5);
-    phi[276] = c7*(t1 - t16) - s7*(qdd[7] + t11);
-    phi[319] = -t5;
+    phi[276] = c7*(ww21_zz - minus_U31_xx) - s7*(qdd[7] + ww31_xy);
+    phi[319] = -U31_yz;
     MODELER_ZEROS(phi + 152, 8);
-    const double t18 = qdd[7] - t11;
-    phi[277] = -(s7*(t1 - t17) + c7*t18);
+    const double minus_U31_xy = qdd[7] - ww31_xy;
+    phi[277] = -(s7*(ww21_zz - minus_U31_yy) + c7*minus_U31_xy);
     MODELER_ZEROS(phi + 160, 8);
-    phi[320] = -t12;
+    phi[320] = -minus_U31_xz;
     phi[321] = qdd[7];
     MODELER_ZEROS(phi + 168, 8);
-    phi[150] = s6*c7*t18 - s6*s7*t17 + c6*t14;
-    phi[279] = s7*t3;
+    phi[150] = s6*c7*minus_U31_xy - s6*s7*minus_U31_yy + c6*minus_U31_zy;
+    phi[279] = s7*minus_vd21_y;
     MODELER_ZEROS(phi + 176, 1);
-    phi[322] = c7*t4 - orthoglide_2003_geo_g*s7;
+    phi[322] = c7*minus_vd21_x - orthoglide_2003_geo_g*s7;
     phi[151] = t2;
     MODELER_ZEROS(phi + 181, 8);
-    phi[280] = orthoglide_2003_geo_D41*c7*qdd[6] - (t3 + orthoglide_2003_geo_D41*t13);
-    phi[323] = orthoglide_2003_geo_D41*s7*t1;
+    phi[280] = orthoglide_2003_geo_D41*c7*qdd[6] - (minus_vd21_y +
+        orthoglide_2003_geo_D41*minus_U31_zx);
+    phi[323] = orthoglide_2003_geo_D41*s7*ww21_zz;
     MODELER_ZEROS(phi + 189, 7);
     phi[367] = qdd[8];
-    const double t19 = qd[8]*qd[8];
+    const double ww22_zz = qd[8]*qd[8];
     MODELER_ZEROS(phi + 198, 5);
-    const double t20 = s8*t19 - c8*qdd[8];
+    const double t20 = s8*ww22_zz - c8*qdd[8];
     phi[196] = t20;
     MODELER_ZEROS(phi + 205, 8);
-    const double t21 = c8*qdd[4] - orthoglide_2003_geo_g*s8;
-    phi[368] = -t21;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double minus_vd22_y = c8*qdd[4] - orthoglide_2003_geo_g*s8;
+    phi[368] = -minus_vd22_y;
     MODELER_ZEROS(phi + 213, 8);
-    phi[197] = s8*qdd[8] + c8*t19;
-    const double t22 = orthoglide_2003_geo_g*c8 + s8*qdd[4];
+    phi[197] = s8*qdd[8] + c8*ww22_zz;
+    const double minus_vd22_x = orthoglide_2003_geo_g*c8 + s8*qdd[4];
     MODELER_ZEROS(phi + 221, 3);
-    phi[369] = t22;
-    const double t23 = s9*qdd[8];
+    phi[369] = minus_vd22_x;
+    /* link 32: acceleration of points of the link, U32 = [wd32 x] + [w32 x][w32 x] */
+    const double U32_yz = s9*qdd[8];
     MODELER_ZEROS(phi + 228, 8);
-    const double t24 = c9*qd[8];
-    const double t25 = qd[9]*t24;
+    /* link 32: angular velocity, w32 = R32' w22 + qd32 z */
+    const double minus_w32_y = c9*qd[8];
+    const double minus_ww32_yz = qd[9]*minus_w32_y;
     MODELER_ZEROS(phi + 236, 8);
-    const double t26 = t23 + t25;
+    /* link 32: angular acceleration, wd32 = R32' wd22 + (R32' w22) x qd32 z + qdd32 z */
+    const double minus_wd32_x = U32_yz + minus_ww32_yz;
     MODELER_ZEROS(phi + 244, 5);
-    const double t27 = s9*qd[8];
-    const double t28 = qd[9]*t27;
+    const double minus_w32_x = s9*qd[8];
+    const double minus_ww32_xz = qd[9]*minus_w32_x;
     MODELER_ZEROS(phi + 251, 5);
-    phi[370] = s9*t26 + c9*t28;
-    const double t29 = t27*t24;
+    phi[370] = s9*minus_wd32_x + c9*minus_ww32_xz;
+    const double ww32_xy = minus_w32_x*minus_w32_y;
     MODELER_ZEROS(phi + 258, 8);
-    phi[413] = -t29;
-    const double t30 = c9*qdd[8];
+    phi[413] = -ww32_xy;
+    const double minus_U32_xz = c9*qdd[8];
     MODELER_ZEROS(phi + 266, 5);
-    const double t31 = t28 - t30 + t28;
-    const double t32 = t25 + t26;
+    const double minus_U32_zx = minus_ww32_xz - minus_U32_xz + minus_ww32_xz;
+    const double minus_U32_zy = minus_ww32_yz + minus_wd32_x;
     MODELER_ZEROS(phi + 278, 1);
-    phi[371] = c9*t32 - s9*t31;
-    const double t33 = qd[9]*qd[9];
+    phi[371] = c9*minus_U32_zy - s9*minus_U32_zx;
+    const double ww32_zz = qd[9]*qd[9];
     MODELER_ZEROS(phi + 281, 8);
-    const double t34 = t24*t24 + t33;
-    const double t35 = t27*t27 + t33;
+    const double minus_U32_xx = minus_w32_y*minus_w32_y + ww32_zz;
+    const double minus_U32_yy = minus_w32_x*minus_w32_x + ww32_zz;
     MODELER_ZEROS(phi + 289, 8);
-    phi[414] = t35 - t34;
-    phi[372] = c9*(t19 - t34) - s9*(qdd[9] + t29);
+    phi[414] = minus_U32_yy - minus_U32_xx;
+    phi[372] = c9*(ww22_zz - minus_U32_xx) - s9*(qdd[9] + ww32_xy);
     MODELER_ZEROS(phi + 297, 8);
-    phi[415] = -t23;
-    const double t36 = qdd[9] - t29;
+    phi[415] = -U32_yz;
+    const double minus_U32_xy = qdd[9] - ww32_xy;
     MODELER_ZEROS(phi + 305, 8);
-    phi[373] = -(s9*(t19 - t35) + c9*t36);
-    phi[416] = -t30;
+    phi[373] = -(s9*(ww22_zz - minus_U32_yy) + c9*minus_U32_xy);
+    phi[416] = -minus_U32_xz;
     MODELER_ZEROS(phi + 313, 4);
     phi[417] = qdd[9];
-    phi[203] = s8*c9*t36 - s8*s9*t35 + c8*t32;
+    phi[203] = s8*c9*minus_U32_xy - s8*s9*minus_U32_yy + c8*minus_U32_zy;
     MODELER_ZEROS(phi + 324, 8);
-    phi[375] = s9*t21;
-    phi[418] = c9*t22;
+    phi[375] = s9*minus_vd22_y;
+    phi[418] = c9*minus_vd22_x;
     MODELER_ZEROS(phi + 332, 8);
     phi[204] = t20;
-    phi[376] = orthoglide_2003_geo_D42*c9*qdd[8] - (t21 + orthoglide_2003_geo_D42*t31);
+    phi[376] = orthoglide_2003_geo_D42*c9*qdd[8] - (minus_vd22_y +
+        orthoglide_2003_geo_D42*minus_U32_zx);
     MODELER_ZEROS(phi + 340, 8);
-    phi[419] = orthoglide_2003_geo_D42*s9*t19;
+    phi[419] = orthoglide_2003_geo_D42*s9*ww22_zz;
     phi[463] = qdd[10];
     MODELER_ZEROS(phi + 348, 8);
-    const double t37 = qd[10]*qd[10];
-    const double t38 = s10*t37 - c10*qdd[10];
+    const double ww23_zz = qd[10]*qd[10];
+    const double t38 = s10*ww23_zz - c10*qdd[10];
     MODELER_ZEROS(phi + 356, 8);
     phi[249] = t38;
-    const double t39 = qdd[5] - orthoglide_2003_geo_g;
+    /* link 13: acceleration of the origin less gravity, vd13 = R13' (vd0 + U0 p13) + 2 w13 x qd13 z
+        + qdd13 z */
+    const double vd13_z = qdd[5] - orthoglide_2003_geo_g;
     MODELER_ZEROS(phi + 364, 3);
-    const double t40 = c10*t39;
-    phi[464] = -t40;
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double minus_vd23_y = c10*vd13_z;
+    phi[464] = -minus_vd23_y;
     MODELER_ZEROS(phi + 374, 1);
-    phi[250] = s10*qdd[10] + c10*t37;
+    phi[250] = s10*qdd[10] + c10*ww23_zz;
     MODELER_ZEROS(phi + 377, 8);
-    const double t41 = s10*t39;
-    phi[465] = t41;
+    const double minus_vd23_x = s10*vd13_z;
+    phi[465] = minus_vd23_x;
     MODELER_ZEROS(phi + 385, 8);
-    const double t42 = s11*qdd[10];
-    const double t43 = c11*qd[10];
+    /* link 33: acceleration of points of the link, U33 = [wd33 x] + [w33 x][w33 x] */
+    const double U33_yz = s11*qdd[10];
+    /* link 33: angular velocity, w33 = R33' w23 + qd33 z */
+    const double minus_w33_y = c11*qd[10];
     MODELER_ZEROS(phi + 393, 8);
-    const double t44 = qd[11]*t43;
-    const double t45 = t42 + t44;
+    const double minus_ww33_yz = qd[11]*minus_w33_y;
+    /* link 33: angular acceleration, wd33 = R33' wd23 + (R33' w23) x qd33 z + qdd33 z */
+    const double minus_wd33_x = U33_yz + minus_ww33_yz;
     MODELER_ZEROS(phi + 401, 8);
-    const double t46 = s11*qd[10];
-    const double t47 = qd[11]*t46;
+    const double minus_w33_x = s11*qd[10];
+    const double minus_ww33_xz = qd[11]*minus_w33_x;
     MODELER_ZEROS(phi + 409, 4);
-    phi[466] = s11*t45 + c11*t47;
-    const double t48 = t46*t43;
+    phi[466] = s11*minus_wd33_x + c11*minus_ww33_xz;
+    const double ww33_xy = minus_w33_x*minus_w33_y;
     MODELER_ZEROS(phi + 420, 8);
-    phi[509] = -t48;
-    const double t49 = c11*qdd[10];
+    phi[509] = -ww33_xy;
+    const double minus_U33_xz = c11*qdd[10];
     MODELER_ZEROS(phi + 428, 8);
-    const double t50 = t47 - t49 + t47;
-    const double t51 = t44 + t45;
+    const double minus_U33_zx = minus_ww33_xz - minus_U33_xz + minus_ww33_xz;
+    const double minus_U33_zy = minus_ww33_yz + minus_wd33_x;
     MODELER_ZEROS(phi + 436, 8);
-    phi[467] = c11*t51 - s11*t50;
-    const double t52 = qd[11]*qd[11];
+    phi[467] = c11*minus_U33_zy - s11*minus_U33_zx;
+    const double ww33_zz = qd[11]*qd[11];
     MODELER_ZEROS(phi + 444, 8);
-    const double t53 = t43*t43 + t52;
-    const double t54 = t46*t46 + t52;
+    const double minus_U33_xx = minus_w33_y*minus_w33_y + ww33_zz;
+    const double minus_U33_yy = minus_w33_x*minus_w33_x + ww33_zz;
     MODELER_ZEROS(phi + 452, 8);
-    phi[510] = t54 - t53;
-    phi[468] = c11*(t37 - t53) - s11*(qdd[11] + t48);
+    phi[510] = minus_U33_yy - minus_U33_xx;
+    phi[468] = c11*(ww23_zz - minus_U33_xx) - s11*(qdd[11] + ww33_xy);
     MODELER_ZEROS(phi + 460, 3);
-    phi[511] = -t42;
-    const double t55 = qdd[11] - t48;
+    phi[511] = -U33_yz;
+    const double minus_U33_xy = qdd[11] - ww33_xy;
     MODELER_ZEROS(phi + 470, 1);
-    phi[469] = -(s11*(t37 - t54) + c11*t55);
-    phi[512] = -t49;
+    phi[469] = -(s11*(ww23_zz - minus_U33_yy) + c11*minus_U33_xy);
+    phi[512] = -minus_U33_xz;
     MODELER_ZEROS(phi + 473, 8);
     phi[513] = qdd[11];
-    phi[256] = s10*c11*t55 - s10*s11*t54 + c10*t51;
+    phi[256] = s10*c11*minus_U33_xy - s10*s11*minus_U33_yy + c10*minus_U33_zy;
     MODELER_ZEROS(phi + 481, 8);
-    phi[471] = s11*t40;
-    phi[514] = c11*t41;
+    phi[471] = s11*minus_vd23_y;
+    phi[514] = c11*minus_vd23_x;
     MODELER_ZEROS(phi + 489, 8);
     phi[257] = t38;
-    phi[472] = orthoglide_2003_geo_D43*c11*qdd[10] - (t40 + orthoglide_2003_geo_D43*t50);
+    phi[472] = orthoglide_2003_geo_D43*c11*qdd[10] - (minus_vd23_y +
+        orthoglide_2003_geo_D43*minus_U33_zx);
     MODELER_ZEROS(phi + 497, 8);
-    phi[515] = orthoglide_2003_geo_D43*s11*t37;
+    phi[515] = orthoglide_2003_geo_D43*s11*ww23_zz;
     MODELER_ZEROS(phi + 505, 4);
 }
 

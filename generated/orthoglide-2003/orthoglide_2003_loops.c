@@ -94,7 +94,7 @@ static void base_rows(const double *u, const double *qd, const double *qdd, doub
 
 const char *orthoglide_2003_signature(void)
 {
-    return "fdc416c6c8c9aeab";
+    return "3def7ba1d49c7096";
 }
 
 /* Each sample starts from the one before; where that fails, from home. */

@@ -1,6 +1,6 @@
 # find_package(orthoglide_2012) takes any, find_package(orthoglide_2012 1) any of this C interface,
-# find_package(orthoglide_2012 1.24235.19592.60564) only what has the signature 5eab4c88ec94117a.
-set(PACKAGE_VERSION 1.24235.19592.60564)
+# find_package(orthoglide_2012 1.12173.63608.40478) only what has the signature 2f8df8789e1ed002.
+set(PACKAGE_VERSION 1.12173.63608.40478)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -1,6 +1,6 @@
 # find_package(orthoglide_2012) gives the target orthoglide_2012::orthoglide_2012: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. orthoglide_2012_SIGNATURE is what orthoglide_2012_signature() returns.
-set(orthoglide_2012_SIGNATURE 5eab4c88ec94117a)
+set(orthoglide_2012_SIGNATURE 2f8df8789e1ed002)
 
 if(orthoglide_2012_FIND_COMPONENTS)
   set(_modeler_kinds ${orthoglide_2012_FIND_COMPONENTS})
@@ -13,14 +13,14 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_2012-${_modeler_kind}-5eab4c88ec94117a.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_2012-${_modeler_kind}-2f8df8789e1ed002.cmake")
   if(TARGET orthoglide_2012::orthoglide_2012 OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
   include("${_modeler_file}")
   if(NOT TARGET orthoglide_2012::orthoglide_2012) # installed by make
     if(_modeler_kind STREQUAL "shared")
-      set(_modeler_name liborthoglide_2012_model.so.5eab4c88ec94117a)
+      set(_modeler_name liborthoglide_2012_model.so.2f8df8789e1ed002)
     else()
       set(_modeler_name liborthoglide_2012_model.a)
     endif()
@@ -39,5 +39,5 @@ endforeach()
 if(NOT TARGET orthoglide_2012::orthoglide_2012)
   set(orthoglide_2012_FOUND FALSE)
   set(orthoglide_2012_NOT_FOUND_MESSAGE
-    "no library of signature 5eab4c88ec94117a here that is ${_modeler_kinds}; install it again")
+    "no library of signature 2f8df8789e1ed002 here that is ${_modeler_kinds}; install it again")
 endif()

@@ -2,6 +2,31 @@
  *
  * Functions of orthoglide_2012.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
+ *   h      angular momentum J w
+ *   f      force on the link
+ *   n      moment on the link at its origin
+ *   fc     force on the link and all that it carries
+ *   nc     moment on the link and all that it carries
+ *   MSc    first moments of the link and all that it carries
+ *   Jc     inertia of the link and all that it carries
+ *   m_1    velocity of the origin, for unit speed of each joint below
+ *   lin_1  momentum of what hangs on a joint, for unit speed of it
+ *   p      origin of the frame in that of its antecedent
+ *   x      axis x of the frame in frame 0
+ *   y      axis y of the frame in frame 0
+ *   o      origin of the frame in frame 0
+ *   ...a   in axes of the antecedent: fc, lin
+ *   ...d   derivative by a variable, qd2 for qd[2], or by the time, t: x, y
  */
 #include "orthoglide_2012.h"
 
@@ -53,116 +78,185 @@ void orthoglide_2012_tree_inverse_dynamics(const double *q, const double *qd, co
     double s11, c11;
     modeler_sincos(q[11], &s11, &c11);
 
-    const double t1 = qd[6]*qd[6];
-    const double t2 = t1*beta[24];
-    const double t3 = c7*qd[6];
-    const double t4 = qd[7]*qd[7];
-    const double t5 = t3*t3 + t4;
-    const double t6 = s7*qd[6];
-    const double t7 = t6*t3;
-    const double t8 = s7*t2;
-    const double t9 = qdd[7] + t7;
-    const double t10 = c7*(t5*beta[20] + (qdd[7] - t7)*beta[21] + c7*t2);
-    const double t11 = t10 + s7*(t9*beta[20] - (t6*t6 + t4)*beta[21] + t8);
-    const double t12 = qdd[6]*beta[24];
-    const double t13 = qd[7]*t6;
-    const double t14 = c7*qdd[6] - t13;
-    const double t15 = t13 - t14;
-    const double t16 = qd[7]*t3;
-    const double t17 = s7*qdd[6] + t16;
-    const double t18 = t12 - (t15*beta[20] + (t16 + t17)*beta[21]);
-    const double t19 = s6*(t1*beta[11] + qdd[6]*beta[12] + t11);
-    const double t20 = t19 - c6*(qdd[6]*beta[11] - t1*beta[12] + t18) + qdd[3]*beta[0];
-    tau[3] = qd[3]*beta[1] + t20 + modeler_sign(qd[3])*beta[2];
-    const double t21 = qd[8]*qd[8];
-    const double t22 = t21*beta[38];
-    const double t23 = s9*t22;
-    const double t24 = s9*qd[8];
-    const double t25 = qd[9]*qd[9];
-    const double t26 = c9*qd[8];
-    const double t27 = t24*t26;
-    const double t28 = c9*(c9*t22 + (qdd[9] - t27)*beta[35]);
-    const double t29 = s9*(t23 - (t24*t24 + t25)*beta[35]) + t28;
-    const double t30 = qdd[8]*beta[38];
-    const double t31 = qd[9]*t26;
-    const double t32 = s9*qdd[8] + t31;
-    const double t33 = c8*(t30 - (t31 + t32)*beta[35] + (qdd[8]*beta[26] - t21*beta[27]));
-    const double t34 = s8*(t21*beta[26] + qdd[8]*beta[27] + t29) - t33 + qdd[4]*beta[3];
-    tau[4] = qd[4]*beta[4] + t34 + modeler_sign(qd[4])*beta[5];
-    const double t35 = qd[10]*qd[10];
-    const double t36 = t35*beta[52];
-    const double t37 = s11*t36;
-    const double t38 = s11*qd[10];
-    const double t39 = qd[11]*qd[11];
-    const double t40 = c11*qd[10];
-    const double t41 = t38*t40;
-    const double t42 = c11*(c11*t36 + (qdd[11] - t41)*beta[49]);
-    const double t43 = s11*(t37 - (t38*t38 + t39)*beta[49]) + t42;
-    const double t44 = qdd[10]*beta[52];
-    const double t45 = qd[11]*t40;
-    const double t46 = s11*qdd[10] + t45;
-    const double t47 = c10*(t44 - (t45 + t46)*beta[49] + (qdd[10]*beta[40] - t35*beta[41]));
-    const double t48 = qdd[5] - orthoglide_2012_geo_g;
-    const double t49 = s10*(t35*beta[40] + qdd[10]*beta[41] + t43) - t47 + t48*beta[6];
-    tau[5] = t49 + qdd[5]*beta[7] + qd[5]*beta[8] + modeler_sign(qd[5])*beta[9];
-    const double t50 = c6*qdd[3];
-    const double t51 = (t50 + orthoglide_2012_geo_d4*t15)*beta[24];
-    const double t52 = t6*beta[17] + t3*beta[18] - qd[7]*beta[19];
-    const double t53 = t6*beta[16] - qd[7]*beta[18];
-    const double t54 = t3*t52 + qd[7]*t53 + (qdd[7]*beta[17] - (t17*beta[15] + t14*beta[16]));
-    const double t55 = t6*beta[15] + t3*beta[16] - qd[7]*beta[17];
-    const double t56 = qd[7]*t55 + t6*t52 + (t17*beta[16] - qdd[7]*beta[18]) - t50*beta[20];
-    const double t57 = c7*(c7*t51 - orthoglide_2012_geo_d4*t12 - t56);
-    const double t58 = s6*qdd[3];
-    const double t59 = t58*beta[12] - t50*beta[11] + qdd[6]*beta[10];
-    const double t60 = t59 - (s7*(t54 - t50*beta[21] + s7*t51) + t57) + qd[6]*beta[13];
+    const double ww21_zz = qd[6]*qd[6];
+    /* link 41: force on the link, f41 = M41 vd41 + U41 MS41 */
+    const double minus_f41_x = ww21_zz*beta[24];
+    /* link 31: angular velocity, w31 = R31' w21 + qd31 z */
+    const double minus_w31_y = c7*qd[6];
+    const double ww31_zz = qd[7]*qd[7];
+    /* link 31: acceleration of points of the link, U31 = [wd31 x] + [w31 x][w31 x] */
+    const double minus_U31_xx = minus_w31_y*minus_w31_y + ww31_zz;
+    const double minus_w31_x = s7*qd[6];
+    const double ww31_xy = minus_w31_x*minus_w31_y;
+    /* link 41: force on the link and all that it carries, fc41 = f41 + sum of R fc of what hangs on
+        it */
+    const double fc41a_y = s7*minus_f41_x;
+    const double U31_yx = qdd[7] + ww31_xy;
+    const double t10 = c7*(minus_U31_xx*beta[20] + (qdd[7] - ww31_xy)*beta[21] + c7*minus_f41_x);
+    /* link 31: force on the link and all that it carries, fc31 = f31 + sum of R fc of what hangs on
+        it */
+    const double minus_fc31a_x = t10 + s7*(U31_yx*beta[20] - (minus_w31_x*minus_w31_x +
+        ww31_zz)*beta[21] + fc41a_y);
+    const double f41_z = qdd[6]*beta[24];
+    const double minus_ww31_xz = qd[7]*minus_w31_x;
+    /* link 31: angular acceleration, wd31 = R31' wd21 + (R31' w21) x qd31 z + qdd31 z */
+    const double minus_wd31_y = c7*qdd[6] - minus_ww31_xz;
+    const double minus_U31_zx = minus_ww31_xz - minus_wd31_y;
+    const double minus_ww31_yz = qd[7]*minus_w31_y;
+    const double minus_wd31_x = s7*qdd[6] + minus_ww31_yz;
+    const double fc31_z = f41_z - (minus_U31_zx*beta[20] + (minus_ww31_yz + minus_wd31_x)*beta[21]);
+    const double t19 = s6*(ww21_zz*beta[11] + qdd[6]*beta[12] + minus_fc31a_x);
+    /* link 11: force on the link and all that it carries, fc11 = f11 + sum of R fc of what hangs on
+        it */
+    const double fc11_z = t19 - c6*(qdd[6]*beta[11] - ww21_zz*beta[12] + fc31_z) + qdd[3]*beta[0];
+    tau[3] = qd[3]*beta[1] + fc11_z + modeler_sign(qd[3])*beta[2];
+    const double ww22_zz = qd[8]*qd[8];
+    /* link 42: force on the link, f42 = M42 vd42 + U42 MS42 */
+    const double minus_f42_x = ww22_zz*beta[38];
+    /* link 42: force on the link and all that it carries, fc42 = f42 + sum of R fc of what hangs on
+        it */
+    const double fc42a_y = s9*minus_f42_x;
+    /* link 32: angular velocity, w32 = R32' w22 + qd32 z */
+    const double minus_w32_x = s9*qd[8];
+    const double ww32_zz = qd[9]*qd[9];
+    const double minus_w32_y = c9*qd[8];
+    const double ww32_xy = minus_w32_x*minus_w32_y;
+    const double t28 = c9*(c9*minus_f42_x + (qdd[9] - ww32_xy)*beta[35]);
+    /* link 32: force on the link and all that it carries, fc32 = f32 + sum of R fc of what hangs on
+        it */
+    const double minus_fc32a_x = s9*(fc42a_y - (minus_w32_x*minus_w32_x + ww32_zz)*beta[35]) + t28;
+    const double f42_z = qdd[8]*beta[38];
+    const double minus_ww32_yz = qd[9]*minus_w32_y;
+    /* link 32: angular acceleration, wd32 = R32' wd22 + (R32' w22) x qd32 z + qdd32 z */
+    const double minus_wd32_x = s9*qdd[8] + minus_ww32_yz;
+    const double t33 = c8*(f42_z - (minus_ww32_yz + minus_wd32_x)*beta[35] + (qdd[8]*beta[26] -
+        ww22_zz*beta[27]));
+    /* link 12: force on the link and all that it carries, fc12 = f12 + sum of R fc of what hangs on
+        it */
+    const double fc12_z = s8*(ww22_zz*beta[26] + qdd[8]*beta[27] + minus_fc32a_x) - t33 +
+        qdd[4]*beta[3];
+    tau[4] = qd[4]*beta[4] + fc12_z + modeler_sign(qd[4])*beta[5];
+    const double ww23_zz = qd[10]*qd[10];
+    /* link 43: force on the link, f43 = M43 vd43 + U43 MS43 */
+    const double minus_f43_x = ww23_zz*beta[52];
+    /* link 43: force on the link and all that it carries, fc43 = f43 + sum of R fc of what hangs on
+        it */
+    const double fc43a_y = s11*minus_f43_x;
+    /* link 33: angular velocity, w33 = R33' w23 + qd33 z */
+    const double minus_w33_x = s11*qd[10];
+    const double ww33_zz = qd[11]*qd[11];
+    const double minus_w33_y = c11*qd[10];
+    const double ww33_xy = minus_w33_x*minus_w33_y;
+    const double t42 = c11*(c11*minus_f43_x + (qdd[11] - ww33_xy)*beta[49]);
+    /* link 33: force on the link and all that it carries, fc33 = f33 + sum of R fc of what hangs on
+        it */
+    const double minus_fc33a_x = s11*(fc43a_y - (minus_w33_x*minus_w33_x + ww33_zz)*beta[49]) + t42;
+    const double f43_z = qdd[10]*beta[52];
+    const double minus_ww33_yz = qd[11]*minus_w33_y;
+    /* link 33: angular acceleration, wd33 = R33' wd23 + (R33' w23) x qd33 z + qdd33 z */
+    const double minus_wd33_x = s11*qdd[10] + minus_ww33_yz;
+    const double t47 = c10*(f43_z - (minus_ww33_yz + minus_wd33_x)*beta[49] + (qdd[10]*beta[40] -
+        ww23_zz*beta[41]));
+    /* link 13: acceleration of the origin less gravity, vd13 = R13' (vd0 + U0 p13) + 2 w13 x qd13 z
+        + qdd13 z */
+    const double vd13_z = qdd[5] - orthoglide_2012_geo_g;
+    /* link 13: force on the link and all that it carries, fc13 = f13 + sum of R fc of what hangs on
+        it */
+    const double fc13_z = s10*(ww23_zz*beta[40] + qdd[10]*beta[41] + minus_fc33a_x) - t47 +
+        vd13_z*beta[6];
+    tau[5] = fc13_z + qdd[5]*beta[7] + qd[5]*beta[8] + modeler_sign(qd[5])*beta[9];
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double minus_vd21_y = c6*qdd[3];
+    /* link 41: moment on the link at its origin, n41 = J41 wd41 + w41 x J41 w41 + MS41 x vd41 */
+    const double n41_y = (minus_vd21_y + orthoglide_2012_geo_d4*minus_U31_zx)*beta[24];
+    const double minus_h31_z = minus_w31_x*beta[17] + minus_w31_y*beta[18] - qd[7]*beta[19];
+    const double minus_h31_y = minus_w31_x*beta[16] - qd[7]*beta[18];
+    const double t54 = minus_w31_y*minus_h31_z + qd[7]*minus_h31_y + (qdd[7]*beta[17] -
+        (minus_wd31_x*beta[15] + minus_wd31_y*beta[16]));
+    const double minus_h31_x = minus_w31_x*beta[15] + minus_w31_y*beta[16] - qd[7]*beta[17];
+    /* link 31: moment on the link at its origin, n31 = J31 wd31 + w31 x J31 w31 + MS31 x vd31 */
+    const double minus_n31_y = qd[7]*minus_h31_x + minus_w31_x*minus_h31_z + (minus_wd31_x*beta[16]
+        - qdd[7]*beta[18]) - minus_vd21_y*beta[20];
+    const double t57 = c7*(c7*n41_y - orthoglide_2012_geo_d4*f41_z - minus_n31_y);
+    const double minus_vd21_x = s6*qdd[3];
+    /* link 21: moment on the link at its origin, n21 = J21 wd21 + w21 x J21 w21 + MS21 x vd21 */
+    const double n21_z = minus_vd21_x*beta[12] - minus_vd21_y*beta[11] + qdd[6]*beta[10];
+    const double t60 = n21_z - (s7*(t54 - minus_vd21_y*beta[21] + s7*n41_y) + t57) + qd[6]*beta[13];
     tau[6] = modeler_sign(qd[6])*beta[14] + t60;
-    const double t61 = orthoglide_2012_geo_g*c7 + s7*t58;
-    const double t62 = c7*t58 - orthoglide_2012_geo_g*s7;
-    const double t63 = c7*(t61 + orthoglide_2012_geo_d4*t9);
-    const double t64 = (t63 - s7*(t62 + orthoglide_2012_geo_d4*t5))*beta[24];
-    const double t65 = t6*t53 - t3*t55 + (qdd[7]*beta[19] - (t17*beta[17] + t14*beta[18]));
-    const double t66 = orthoglide_2012_geo_d4*t8 + t64 + (t61*beta[20] + t62*beta[21] + t65);
-    tau[7] = t66 - t64 + qd[7]*beta[22] + modeler_sign(qd[7])*beta[23];
-    const double t67 = c8*qdd[4] - orthoglide_2012_geo_g*s8;
-    const double t68 = qd[9]*t24;
-    const double t69 = c9*qdd[8] - t68;
-    const double t70 = (t67 + orthoglide_2012_geo_d4*(t68 - t69))*beta[38];
-    const double t71 = t24*beta[32] + t26*beta[33] - qd[9]*beta[34];
-    const double t72 = t24*beta[31] - qd[9]*beta[33];
-    const double t73 = t26*t71 + qd[9]*t72 + (qdd[9]*beta[32] - (t32*beta[30] + t69*beta[31]));
-    const double t74 = t24*beta[30] + t26*beta[31] - qd[9]*beta[32];
-    const double t75 = qd[9]*t74 + t24*t71 + (t32*beta[31] - qdd[9]*beta[33]);
-    const double t76 = c9*(c9*t70 - orthoglide_2012_geo_d4*t30 - t75);
-    const double t77 = orthoglide_2012_geo_g*c8 + s8*qdd[4];
-    const double t78 = t77*beta[27] - t67*beta[26] + qdd[8]*beta[25];
-    const double t79 = t78 - (s9*(t73 - t67*beta[35] + s9*t70) + t76) + qd[8]*beta[28];
+    /* link 31: acceleration of the origin less gravity, vd31 = R31' (vd21 + U21 p31) */
+    const double vd31_y = orthoglide_2012_geo_g*c7 + s7*minus_vd21_x;
+    const double minus_vd31_x = c7*minus_vd21_x - orthoglide_2012_geo_g*s7;
+    const double t63 = c7*(vd31_y + orthoglide_2012_geo_d4*U31_yx);
+    const double n41_z = (t63 - s7*(minus_vd31_x + orthoglide_2012_geo_d4*minus_U31_xx))*beta[24];
+    const double t65 = minus_w31_x*minus_h31_y - minus_w31_y*minus_h31_x + (qdd[7]*beta[19] -
+        (minus_wd31_x*beta[17] + minus_wd31_y*beta[18]));
+    /* link 31: moment on the link and all that it carries, nc31 = n31 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc31_z = orthoglide_2012_geo_d4*fc41a_y + n41_z + (vd31_y*beta[20] +
+        minus_vd31_x*beta[21] + t65);
+    tau[7] = nc31_z - n41_z + qd[7]*beta[22] + modeler_sign(qd[7])*beta[23];
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double minus_vd22_y = c8*qdd[4] - orthoglide_2012_geo_g*s8;
+    const double minus_ww32_xz = qd[9]*minus_w32_x;
+    const double minus_wd32_y = c9*qdd[8] - minus_ww32_xz;
+    /* link 42: moment on the link at its origin, n42 = J42 wd42 + w42 x J42 w42 + MS42 x vd42 */
+    const double n42_y = (minus_vd22_y + orthoglide_2012_geo_d4*(minus_ww32_xz -
+        minus_wd32_y))*beta[38];
+    const double minus_h32_z = minus_w32_x*beta[32] + minus_w32_y*beta[33] - qd[9]*beta[34];
+    const double minus_h32_y = minus_w32_x*beta[31] - qd[9]*beta[33];
+    const double t73 = minus_w32_y*minus_h32_z + qd[9]*minus_h32_y + (qdd[9]*beta[32] -
+        (minus_wd32_x*beta[30] + minus_wd32_y*beta[31]));
+    const double minus_h32_x = minus_w32_x*beta[30] + minus_w32_y*beta[31] - qd[9]*beta[32];
+    /* link 32: moment on the link at its origin, n32 = J32 wd32 + w32 x J32 w32 + MS32 x vd32 */
+    const double minus_n32_y = qd[9]*minus_h32_x + minus_w32_x*minus_h32_z + (minus_wd32_x*beta[31]
+        - qdd[9]*beta[33]);
+    const double t76 = c9*(c9*n42_y - orthoglide_2012_geo_d4*f42_z - minus_n32_y);
+    const double minus_vd22_x = orthoglide_2012_geo_g*c8 + s8*qdd[4];
+    /* link 22: moment on the link at its origin, n22 = J22 wd22 + w22 x J22 w22 + MS22 x vd22 */
+    const double n22_z = minus_vd22_x*beta[27] - minus_vd22_y*beta[26] + qdd[8]*beta[25];
+    const double t79 = n22_z - (s9*(t73 - minus_vd22_y*beta[35] + s9*n42_y) + t76) + qd[8]*beta[28];
     tau[8] = modeler_sign(qd[8])*beta[29] + t79;
-    const double t80 = c9*t77;
-    const double t81 = c9*(s9*t77 + orthoglide_2012_geo_d4*(qdd[9] + t27));
-    const double t82 = (t81 - s9*(t80 + orthoglide_2012_geo_d4*(t26*t26 + t25)))*beta[38];
-    const double t83 = t24*t72 - t26*t74 + (qdd[9]*beta[34] - (t32*beta[32] + t69*beta[33]));
-    const double t84 = t82 - (orthoglide_2012_geo_d4*t23 + t82 + (t83 + t80*beta[35]));
+    /* link 32: acceleration of the origin less gravity, vd32 = R32' (vd22 + U22 p32) */
+    const double minus_vd32_x = c9*minus_vd22_x;
+    const double t81 = c9*(s9*minus_vd22_x + orthoglide_2012_geo_d4*(qdd[9] + ww32_xy));
+    const double n42_z = (t81 - s9*(minus_vd32_x + orthoglide_2012_geo_d4*(minus_w32_y*minus_w32_y +
+        ww32_zz)))*beta[38];
+    const double t83 = minus_w32_x*minus_h32_y - minus_w32_y*minus_h32_x + (qdd[9]*beta[34] -
+        (minus_wd32_x*beta[32] + minus_wd32_y*beta[33]));
+    const double t84 = n42_z - (orthoglide_2012_geo_d4*fc42a_y + n42_z + (t83 +
+        minus_vd32_x*beta[35]));
     tau[9] = qd[9]*beta[36] - t84 + modeler_sign(qd[9])*beta[37];
-    const double t85 = c10*t48;
-    const double t86 = qd[11]*t38;
-    const double t87 = c11*qdd[10] - t86;
-    const double t88 = (t85 + orthoglide_2012_geo_d4*(t86 - t87))*beta[52];
-    const double t89 = t38*beta[46] + t40*beta[47] - qd[11]*beta[48];
-    const double t90 = t38*beta[45] - qd[11]*beta[47];
-    const double t91 = t40*t89 + qd[11]*t90 + (qdd[11]*beta[46] - (t46*beta[44] + t87*beta[45]));
-    const double t92 = t38*beta[44] + t40*beta[45] - qd[11]*beta[46];
-    const double t93 = qd[11]*t92 + t38*t89 + (t46*beta[45] - qdd[11]*beta[47]);
-    const double t94 = c11*(c11*t88 - orthoglide_2012_geo_d4*t44 - t93);
-    const double t95 = s10*t48;
-    const double t96 = t95*beta[41] - t85*beta[40] + qdd[10]*beta[39];
-    const double t97 = t96 - (s11*(t91 - t85*beta[49] + s11*t88) + t94) + qd[10]*beta[42];
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double minus_vd23_y = c10*vd13_z;
+    const double minus_ww33_xz = qd[11]*minus_w33_x;
+    const double minus_wd33_y = c11*qdd[10] - minus_ww33_xz;
+    /* link 43: moment on the link at its origin, n43 = J43 wd43 + w43 x J43 w43 + MS43 x vd43 */
+    const double n43_y = (minus_vd23_y + orthoglide_2012_geo_d4*(minus_ww33_xz -
+        minus_wd33_y))*beta[52];
+    const double minus_h33_z = minus_w33_x*beta[46] + minus_w33_y*beta[47] - qd[11]*beta[48];
+    const double minus_h33_y = minus_w33_x*beta[45] - qd[11]*beta[47];
+    const double t91 = minus_w33_y*minus_h33_z + qd[11]*minus_h33_y + (qdd[11]*beta[46] -
+        (minus_wd33_x*beta[44] + minus_wd33_y*beta[45]));
+    const double minus_h33_x = minus_w33_x*beta[44] + minus_w33_y*beta[45] - qd[11]*beta[46];
+    /* link 33: moment on the link at its origin, n33 = J33 wd33 + w33 x J33 w33 + MS33 x vd33 */
+    const double minus_n33_y = qd[11]*minus_h33_x + minus_w33_x*minus_h33_z + (minus_wd33_x*beta[45]
+        - qdd[11]*beta[47]);
+    const double t94 = c11*(c11*n43_y - orthoglide_2012_geo_d4*f43_z - minus_n33_y);
+    const double minus_vd23_x = s10*vd13_z;
+    /* link 23: moment on the link at its origin, n23 = J23 wd23 + w23 x J23 w23 + MS23 x vd23 */
+    const double n23_z = minus_vd23_x*beta[41] - minus_vd23_y*beta[40] + qdd[10]*beta[39];
+    const double t97 = n23_z - (s11*(t91 - minus_vd23_y*beta[49] + s11*n43_y) + t94) +
+        qd[10]*beta[42];
     tau[10] = modeler_sign(qd[10])*beta[43] + t97;
-    const double t98 = c11*t95;
-    const double t99 = c11*(s11*t95 + orthoglide_2012_geo_d4*(qdd[11] + t41));
-    const double t100 = (t99 - s11*(t98 + orthoglide_2012_geo_d4*(t40*t40 + t39)))*beta[52];
-    const double t101 = t38*t90 - t40*t92 + (qdd[11]*beta[48] - (t46*beta[46] + t87*beta[47]));
-    const double t102 = t100 - (orthoglide_2012_geo_d4*t37 + t100 + (t101 + t98*beta[49]));
+    /* link 33: acceleration of the origin less gravity, vd33 = R33' (vd23 + U23 p33) */
+    const double minus_vd33_x = c11*minus_vd23_x;
+    const double t99 = c11*(s11*minus_vd23_x + orthoglide_2012_geo_d4*(qdd[11] + ww33_xy));
+    const double n43_z = (t99 - s11*(minus_vd33_x + orthoglide_2012_geo_d4*(minus_w33_y*minus_w33_y
+        + ww33_zz)))*beta[52];
+    const double t101 = minus_w33_x*minus_h33_y - minus_w33_y*minus_h33_x + (qdd[11]*beta[48] -
+        (minus_wd33_x*beta[46] + minus_wd33_y*beta[47]));
+    const double t102 = n43_z - (orthoglide_2012_geo_d4*fc43a_y + n43_z + (t101 +
+        minus_vd33_x*beta[49]));
     tau[11] = qd[11]*beta[50] - t102 + modeler_sign(qd[11])*beta[51];
 }
 
@@ -189,74 +283,98 @@ void orthoglide_2012_tree_inertia_matrix(const double *q, const double *beta,
     modeler_sincos(q[11], &s11, &c11);
 
     M[39] = beta[0];
-    const double t1 = s7*beta[24];
-    const double t2 = beta[21] - t1;
+    const double lin41a_41x = s7*beta[24];
+    /* link 31: first moments of the link and all that it carries, MSc31 = MS31 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc31_y = beta[21] - lin41a_41x;
     MODELER_ZEROS(M + 0, 8);
-    const double t3 = c7*beta[24];
-    const double t4 = beta[20] + t3;
+    const double lin41a_41y = c7*beta[24];
+    const double MSc31_x = beta[20] + lin41a_41y;
     MODELER_ZEROS(M + 8, 8);
-    const double t5 = s6*beta[12] - c6*(c7*t4 - s7*t2 + beta[11]);
-    M[42] = t5;
+    /* link 11: first moments of the link and all that it carries, MSc11 = MS11 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double minus_MSc11_x = s6*beta[12] - c6*(c7*MSc31_x - s7*MSc31_y + beta[11]);
+    M[42] = minus_MSc11_x;
     MODELER_ZEROS(M + 16, 8);
-    const double t6 = s6*(c7*t2 + s7*t4);
-    M[43] = t6;
+    const double lin21a_31z = s6*(c7*MSc31_y + s7*MSc31_x);
+    M[43] = lin21a_31z;
     MODELER_ZEROS(M + 24, 8);
     M[52] = beta[3];
-    const double t7 = c9*beta[38];
-    const double t8 = s9*beta[38];
+    /* link 32: first moments of the link and all that it carries, MSc32 = MS32 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc32_x = c9*beta[38];
+    const double lin42a_42x = s9*beta[38];
     MODELER_ZEROS(M + 32, 7);
-    const double t9 = beta[35] - t8;
-    const double t10 = s8*beta[27] - c8*(c9*t7 - s9*t9 + beta[26]);
+    const double MSc32_y = beta[35] - lin42a_42x;
+    /* link 12: first moments of the link and all that it carries, MSc12 = MS12 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double minus_MSc12_x = s8*beta[27] - c8*(c9*MSc32_x - s9*MSc32_y + beta[26]);
     MODELER_ZEROS(M + 40, 2);
-    M[56] = t10;
-    const double t11 = s8*(c9*t8 + c9*t9);
+    M[56] = minus_MSc12_x;
+    const double lin22a_32z = s8*(c9*lin42a_42x + c9*MSc32_y);
     MODELER_ZEROS(M + 44, 8);
-    M[57] = t11;
+    M[57] = lin22a_32z;
     M[65] = beta[6] + beta[7];
     MODELER_ZEROS(M + 53, 3);
-    const double t12 = c11*beta[52];
-    const double t13 = s11*beta[52];
-    const double t14 = beta[49] - t13;
+    /* link 33: first moments of the link and all that it carries, MSc33 = MS33 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double MSc33_x = c11*beta[52];
+    const double lin43a_43x = s11*beta[52];
+    const double MSc33_y = beta[49] - lin43a_43x;
     MODELER_ZEROS(M + 58, 7);
-    const double t15 = s10*beta[41] - c10*(c11*t12 - s11*t14 + beta[40]);
-    M[70] = t15;
+    /* link 13: first moments of the link and all that it carries, MSc13 = MS13 + sum of R MSc + Mc
+        p of what hangs on it */
+    const double minus_MSc13_x = s10*beta[41] - c10*(c11*MSc33_x - s11*MSc33_y + beta[40]);
+    M[70] = minus_MSc13_x;
     MODELER_ZEROS(M + 66, 4);
-    const double t16 = s10*(c11*t13 + c11*t14);
-    M[71] = t16;
+    const double lin23a_33z = s10*(c11*lin43a_43x + c11*MSc33_y);
+    M[71] = lin23a_33z;
     MODELER_ZEROS(M + 72, 3);
-    M[75] = t5;
-    const double t17 = beta[16] + orthoglide_2012_geo_d4*t1;
+    M[75] = minus_MSc11_x;
+    /* link 31: inertia of the link and all that it carries, Jc31 = J31 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double Jc31_xy = beta[16] + orthoglide_2012_geo_d4*lin41a_41x;
     MODELER_ZEROS(M + 76, 2);
-    M[78] = s7*(s7*beta[15] + c7*t17) + c7*(s7*t17 + k1*t3*c7) + beta[10];
-    const double t18 = s7*beta[17] + c7*beta[18];
+    M[78] = s7*(s7*beta[15] + c7*Jc31_xy) + c7*(s7*Jc31_xy + k1*lin41a_41y*c7) + beta[10];
+    /* link 21: inertia of the link and all that it carries, Jc21 = J21 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc21_yz = s7*beta[17] + c7*beta[18];
     MODELER_ZEROS(M + 80, 7);
-    M[79] = -t18;
-    M[87] = t6;
-    M[90] = -t18;
+    M[79] = -minus_Jc21_yz;
+    M[87] = lin21a_31z;
+    M[90] = -minus_Jc21_yz;
     MODELER_ZEROS(M + 88, 2);
     M[91] = beta[19];
-    M[100] = t10;
+    M[100] = minus_MSc12_x;
     MODELER_ZEROS(M + 92, 8);
-    const double t19 = beta[31] + orthoglide_2012_geo_d4*t8;
-    M[104] = s9*(s9*beta[30] + c9*t19) + c9*(s9*t19 + k1*t7*c9) + beta[25];
+    /* link 32: inertia of the link and all that it carries, Jc32 = J32 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double Jc32_xy = beta[31] + orthoglide_2012_geo_d4*lin42a_42x;
+    M[104] = s9*(s9*beta[30] + c9*Jc32_xy) + c9*(s9*Jc32_xy + k1*MSc32_x*c9) + beta[25];
     MODELER_ZEROS(M + 101, 3);
-    const double t20 = s9*beta[32] + c9*beta[33];
-    M[105] = -t20;
+    /* link 22: inertia of the link and all that it carries, Jc22 = J22 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc22_yz = s9*beta[32] + c9*beta[33];
+    M[105] = -minus_Jc22_yz;
     MODELER_ZEROS(M + 106, 6);
-    M[112] = t11;
-    M[116] = -t20;
+    M[112] = lin22a_32z;
+    M[116] = -minus_Jc22_yz;
     M[117] = beta[34];
     MODELER_ZEROS(M + 113, 3);
-    M[125] = t15;
-    const double t21 = beta[45] + orthoglide_2012_geo_d4*t13;
+    M[125] = minus_MSc13_x;
+    /* link 33: inertia of the link and all that it carries, Jc33 = J33 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double Jc33_xy = beta[45] + orthoglide_2012_geo_d4*lin43a_43x;
     MODELER_ZEROS(M + 118, 7);
-    M[130] = s11*(s11*beta[44] + c11*t21) + c11*(s11*t21 + k1*t12*c11) + beta[39];
-    const double t22 = s11*beta[46] + c11*beta[47];
+    M[130] = s11*(s11*beta[44] + c11*Jc33_xy) + c11*(s11*Jc33_xy + k1*MSc33_x*c11) + beta[39];
+    /* link 23: inertia of the link and all that it carries, Jc23 = J23 + sum of R Jc R' + Js of
+        what hangs on it */
+    const double minus_Jc23_yz = s11*beta[46] + c11*beta[47];
     MODELER_ZEROS(M + 126, 4);
-    M[131] = -t22;
-    M[137] = t16;
+    M[131] = -minus_Jc23_yz;
+    M[137] = lin23a_33z;
     MODELER_ZEROS(M + 132, 5);
-    M[142] = -t22;
+    M[142] = -minus_Jc23_yz;
     M[143] = beta[48];
     MODELER_ZEROS(M + 138, 4);
 }
@@ -285,16 +403,22 @@ void orthoglide_2012_tree_gravity(const double *q, const double *beta, double *M
 
     tau[5] = -orthoglide_2012_geo_g*beta[6];
     tau[7] = orthoglide_2012_geo_g*c7*beta[20] - orthoglide_2012_geo_g*s7*beta[21];
-    const double t1 = orthoglide_2012_geo_g*s8;
-    const double t2 = t1*beta[38];
-    const double t3 = orthoglide_2012_geo_g*c8;
-    tau[8] = s9*(s9*t2 - t1*beta[35]) + c9*t2*c9 + (t1*beta[26] + t3*beta[27]);
-    tau[9] = c9*t3*beta[35];
-    const double t4 = orthoglide_2012_geo_g*c10;
-    const double t5 = beta[52]*t4;
-    const double t6 = orthoglide_2012_geo_g*s10;
-    tau[10] = s11*(s11*t5 - beta[49]*t4) + c11*t5*c11 + (beta[40]*t4 - beta[41]*t6);
-    tau[11] = -c11*t6*beta[49];
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double vd22_y = orthoglide_2012_geo_g*s8;
+    /* link 42: moment on the link at its origin, n42 = J42 wd42 + w42 x J42 w42 + MS42 x vd42 */
+    const double minus_n42_y = vd22_y*beta[38];
+    const double minus_vd22_x = orthoglide_2012_geo_g*c8;
+    tau[8] = s9*(s9*minus_n42_y - vd22_y*beta[35]) + c9*minus_n42_y*c9 + (vd22_y*beta[26] +
+        minus_vd22_x*beta[27]);
+    tau[9] = c9*minus_vd22_x*beta[35];
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double vd23_y = orthoglide_2012_geo_g*c10;
+    /* link 43: moment on the link at its origin, n43 = J43 wd43 + w43 x J43 w43 + MS43 x vd43 */
+    const double minus_n43_y = beta[52]*vd23_y;
+    const double vd23_x = orthoglide_2012_geo_g*s10;
+    tau[10] = s11*(s11*minus_n43_y - beta[49]*vd23_y) + c11*minus_n43_y*c11 + (beta[40]*vd23_y -
+        beta[41]*vd23_x);
+    tau[11] = -c11*vd23_x*beta[49];
 }
 
 /* Torques without gravity and friction.
@@ -319,109 +443,167 @@ void orthoglide_2012_tree_coriolis(const double *q, const double *qd, const doub
     double s11, c11;
     modeler_sincos(q[11], &s11, &c11);
 
-    const double t1 = qd[6]*qd[6];
-    const double t2 = t1*beta[24];
-    const double t3 = c7*qd[6];
-    const double t4 = qd[7]*qd[7];
-    const double t5 = t3*t3 + t4;
-    const double t6 = s7*qd[6];
-    const double t7 = t6*t3;
-    const double t8 = s7*t2;
-    const double t9 = qdd[7] + t7;
-    const double t10 = c7*(t5*beta[20] + (qdd[7] - t7)*beta[21] + c7*t2);
-    const double t11 = t10 + s7*(t9*beta[20] - (t6*t6 + t4)*beta[21] + t8);
-    const double t12 = qdd[6]*beta[24];
-    const double t13 = qd[7]*t6;
-    const double t14 = c7*qdd[6] - t13;
-    const double t15 = t13 - t14;
-    const double t16 = qd[7]*t3;
-    const double t17 = s7*qdd[6] + t16;
-    const double t18 = t12 - (t15*beta[20] + (t16 + t17)*beta[21]);
-    const double t19 = s6*(t1*beta[11] + qdd[6]*beta[12] + t11);
-    tau[3] = t19 - c6*(qdd[6]*beta[11] - t1*beta[12] + t18) + qdd[3]*beta[0];
-    const double t20 = qd[8]*qd[8];
-    const double t21 = t20*beta[38];
-    const double t22 = s9*t21;
-    const double t23 = s9*qd[8];
-    const double t24 = qd[9]*qd[9];
-    const double t25 = c9*qd[8];
-    const double t26 = t23*t25;
-    const double t27 = c9*(c9*t21 + (qdd[9] - t26)*beta[35]);
-    const double t28 = s9*(t22 - (t23*t23 + t24)*beta[35]) + t27;
-    const double t29 = qdd[8]*beta[38];
-    const double t30 = qd[9]*t25;
-    const double t31 = s9*qdd[8] + t30;
-    const double t32 = c8*(t29 - (t30 + t31)*beta[35] + (qdd[8]*beta[26] - t20*beta[27]));
-    tau[4] = s8*(t20*beta[26] + qdd[8]*beta[27] + t28) - t32 + qdd[4]*beta[3];
-    const double t33 = qd[10]*qd[10];
-    const double t34 = t33*beta[52];
-    const double t35 = s11*t34;
-    const double t36 = s11*qd[10];
-    const double t37 = qd[11]*qd[11];
-    const double t38 = c11*qd[10];
-    const double t39 = t36*t38;
-    const double t40 = c11*(c11*t34 + (qdd[11] - t39)*beta[49]);
-    const double t41 = s11*(t35 - (t36*t36 + t37)*beta[49]) + t40;
-    const double t42 = qdd[10]*beta[52];
-    const double t43 = qd[11]*t38;
-    const double t44 = s11*qdd[10] + t43;
-    const double t45 = c10*(t42 - (t43 + t44)*beta[49] + (qdd[10]*beta[40] - t33*beta[41]));
-    const double t46 = s10*(t33*beta[40] + qdd[10]*beta[41] + t41) - t45 + qdd[5]*beta[6];
-    tau[5] = qdd[5]*beta[7] + t46;
-    const double t47 = c6*qdd[3];
-    const double t48 = (t47 + orthoglide_2012_geo_d4*t15)*beta[24];
-    const double t49 = t6*beta[17] + t3*beta[18] - qd[7]*beta[19];
-    const double t50 = t6*beta[16] - qd[7]*beta[18];
-    const double t51 = t3*t49 + qd[7]*t50 + (qdd[7]*beta[17] - (t17*beta[15] + t14*beta[16]));
-    const double t52 = t6*beta[15] + t3*beta[16] - qd[7]*beta[17];
-    const double t53 = qd[7]*t52 + t6*t49 + (t17*beta[16] - qdd[7]*beta[18]) - t47*beta[20];
-    const double t54 = c7*(c7*t48 - orthoglide_2012_geo_d4*t12 - t53);
-    const double t55 = s6*qdd[3];
-    const double t56 = t55*beta[12] - t47*beta[11] + qdd[6]*beta[10];
-    tau[6] = t56 - (s7*(t51 - t47*beta[21] + s7*t48) + t54);
-    const double t57 = s7*t55;
-    const double t58 = c7*t55;
-    const double t59 = c7*(t57 + orthoglide_2012_geo_d4*t9);
-    const double t60 = beta[24]*(t59 - s7*(t58 + orthoglide_2012_geo_d4*t5));
-    const double t61 = t6*t50 - t3*t52 + (qdd[7]*beta[19] - (t17*beta[17] + t14*beta[18]));
-    const double t62 = orthoglide_2012_geo_d4*t8 + t60 + (t57*beta[20] + t58*beta[21] + t61);
-    tau[7] = t62 - t60;
-    const double t63 = c8*qdd[4];
-    const double t64 = qd[9]*t23;
-    const double t65 = c9*qdd[8] - t64;
-    const double t66 = beta[38]*(t63 + orthoglide_2012_geo_d4*(t64 - t65));
-    const double t67 = t23*beta[32] + t25*beta[33] - qd[9]*beta[34];
-    const double t68 = t23*beta[31] - qd[9]*beta[33];
-    const double t69 = t25*t67 + qd[9]*t68 + (qdd[9]*beta[32] - (t31*beta[30] + t65*beta[31]));
-    const double t70 = t23*beta[30] + t25*beta[31] - qd[9]*beta[32];
-    const double t71 = qd[9]*t70 + t23*t67 + (t31*beta[31] - qdd[9]*beta[33]);
-    const double t72 = c9*(orthoglide_2012_geo_d4*t29 - c9*t66 + t71);
-    const double t73 = s8*qdd[4];
-    const double t74 = t73*beta[27] - t63*beta[26] + qdd[8]*beta[25];
-    tau[8] = t74 - (s9*(t69 - t63*beta[35] + s9*t66) - t72);
-    const double t75 = orthoglide_2012_geo_g*c8 + t73;
-    const double t76 = s9*(c9*t75 + orthoglide_2012_geo_d4*(t25*t25 + t24));
-    const double t77 = (c9*(s9*t75 + orthoglide_2012_geo_d4*(qdd[9] + t26)) - t76)*beta[38];
-    const double t78 = t23*t68 - t25*t70 + (qdd[9]*beta[34] - (t31*beta[32] + t65*beta[33]));
-    tau[9] = orthoglide_2012_geo_d4*t22 + t77 + (t78 + c9*t73*beta[35]) - t77;
-    const double t79 = qd[11]*t36;
-    const double t80 = c11*qdd[10] - t79;
-    const double t81 = c10*qdd[5];
-    const double t82 = beta[52]*(orthoglide_2012_geo_d4*(t79 - t80) + t81);
-    const double t83 = t36*beta[46] + t38*beta[47] - qd[11]*beta[48];
-    const double t84 = t36*beta[45] - qd[11]*beta[47];
-    const double t85 = t38*t83 + qd[11]*t84 + (qdd[11]*beta[46] - (t44*beta[44] + t80*beta[45]));
-    const double t86 = t36*beta[44] + t38*beta[45] - qd[11]*beta[46];
-    const double t87 = qd[11]*t86 + t36*t83 + (t44*beta[45] - qdd[11]*beta[47]);
-    const double t88 = c11*(orthoglide_2012_geo_d4*t42 - c11*t82 + t87);
-    const double t89 = s10*qdd[5];
-    const double t90 = beta[41]*t89 - beta[40]*t81 + qdd[10]*beta[39];
-    tau[10] = t90 - (s11*(t85 - beta[49]*t81 + s11*t82) - t88);
-    const double t91 = s10*(qdd[5] - orthoglide_2012_geo_g);
-    const double t92 = c11*(s11*t91 + orthoglide_2012_geo_d4*(qdd[11] + t39));
-    const double t93 = (t92 - s11*(c11*t91 + orthoglide_2012_geo_d4*(t38*t38 + t37)))*beta[52];
-    const double t94 = t36*t84 - t38*t86 + (qdd[11]*beta[48] - (t44*beta[46] + t80*beta[47]));
-    tau[11] = orthoglide_2012_geo_d4*t35 + t93 + (t94 + c11*t89*beta[49]) - t93;
+    const double ww21_zz = qd[6]*qd[6];
+    /* link 41: force on the link, f41 = M41 vd41 + U41 MS41 */
+    const double minus_f41_x = ww21_zz*beta[24];
+    /* link 31: angular velocity, w31 = R31' w21 + qd31 z */
+    const double minus_w31_y = c7*qd[6];
+    const double ww31_zz = qd[7]*qd[7];
+    /* link 31: acceleration of points of the link, U31 = [wd31 x] + [w31 x][w31 x] */
+    const double minus_U31_xx = minus_w31_y*minus_w31_y + ww31_zz;
+    const double minus_w31_x = s7*qd[6];
+    const double ww31_xy = minus_w31_x*minus_w31_y;
+    /* link 41: force on the link and all that it carries, fc41 = f41 + sum of R fc of what hangs on
+        it */
+    const double fc41a_y = s7*minus_f41_x;
+    const double U31_yx = qdd[7] + ww31_xy;
+    const double t10 = c7*(minus_U31_xx*beta[20] + (qdd[7] - ww31_xy)*beta[21] + c7*minus_f41_x);
+    /* link 31: force on the link and all that it carries, fc31 = f31 + sum of R fc of what hangs on
+        it */
+    const double minus_fc31a_x = t10 + s7*(U31_yx*beta[20] - (minus_w31_x*minus_w31_x +
+        ww31_zz)*beta[21] + fc41a_y);
+    const double f41_z = qdd[6]*beta[24];
+    const double minus_ww31_xz = qd[7]*minus_w31_x;
+    /* link 31: angular acceleration, wd31 = R31' wd21 + (R31' w21) x qd31 z + qdd31 z */
+    const double minus_wd31_y = c7*qdd[6] - minus_ww31_xz;
+    const double minus_U31_zx = minus_ww31_xz - minus_wd31_y;
+    const double minus_ww31_yz = qd[7]*minus_w31_y;
+    const double minus_wd31_x = s7*qdd[6] + minus_ww31_yz;
+    const double fc31_z = f41_z - (minus_U31_zx*beta[20] + (minus_ww31_yz + minus_wd31_x)*beta[21]);
+    const double t19 = s6*(ww21_zz*beta[11] + qdd[6]*beta[12] + minus_fc31a_x);
+    tau[3] = t19 - c6*(qdd[6]*beta[11] - ww21_zz*beta[12] + fc31_z) + qdd[3]*beta[0];
+    const double ww22_zz = qd[8]*qd[8];
+    /* link 42: force on the link, f42 = M42 vd42 + U42 MS42 */
+    const double minus_f42_x = ww22_zz*beta[38];
+    /* link 42: force on the link and all that it carries, fc42 = f42 + sum of R fc of what hangs on
+        it */
+    const double fc42a_y = s9*minus_f42_x;
+    /* link 32: angular velocity, w32 = R32' w22 + qd32 z */
+    const double minus_w32_x = s9*qd[8];
+    const double ww32_zz = qd[9]*qd[9];
+    const double minus_w32_y = c9*qd[8];
+    const double ww32_xy = minus_w32_x*minus_w32_y;
+    const double t27 = c9*(c9*minus_f42_x + (qdd[9] - ww32_xy)*beta[35]);
+    /* link 32: force on the link and all that it carries, fc32 = f32 + sum of R fc of what hangs on
+        it */
+    const double minus_fc32a_x = s9*(fc42a_y - (minus_w32_x*minus_w32_x + ww32_zz)*beta[35]) + t27;
+    const double f42_z = qdd[8]*beta[38];
+    const double minus_ww32_yz = qd[9]*minus_w32_y;
+    /* link 32: angular acceleration, wd32 = R32' wd22 + (R32' w22) x qd32 z + qdd32 z */
+    const double minus_wd32_x = s9*qdd[8] + minus_ww32_yz;
+    const double t32 = c8*(f42_z - (minus_ww32_yz + minus_wd32_x)*beta[35] + (qdd[8]*beta[26] -
+        ww22_zz*beta[27]));
+    tau[4] = s8*(ww22_zz*beta[26] + qdd[8]*beta[27] + minus_fc32a_x) - t32 + qdd[4]*beta[3];
+    const double ww23_zz = qd[10]*qd[10];
+    /* link 43: force on the link, f43 = M43 vd43 + U43 MS43 */
+    const double minus_f43_x = ww23_zz*beta[52];
+    /* link 43: force on the link and all that it carries, fc43 = f43 + sum of R fc of what hangs on
+        it */
+    const double fc43a_y = s11*minus_f43_x;
+    /* link 33: angular velocity, w33 = R33' w23 + qd33 z */
+    const double minus_w33_x = s11*qd[10];
+    const double ww33_zz = qd[11]*qd[11];
+    const double minus_w33_y = c11*qd[10];
+    const double ww33_xy = minus_w33_x*minus_w33_y;
+    const double t40 = c11*(c11*minus_f43_x + (qdd[11] - ww33_xy)*beta[49]);
+    /* link 33: force on the link and all that it carries, fc33 = f33 + sum of R fc of what hangs on
+        it */
+    const double minus_fc33a_x = s11*(fc43a_y - (minus_w33_x*minus_w33_x + ww33_zz)*beta[49]) + t40;
+    const double f43_z = qdd[10]*beta[52];
+    const double minus_ww33_yz = qd[11]*minus_w33_y;
+    /* link 33: angular acceleration, wd33 = R33' wd23 + (R33' w23) x qd33 z + qdd33 z */
+    const double minus_wd33_x = s11*qdd[10] + minus_ww33_yz;
+    const double t45 = c10*(f43_z - (minus_ww33_yz + minus_wd33_x)*beta[49] + (qdd[10]*beta[40] -
+        ww23_zz*beta[41]));
+    /* link 13: force on the link and all that it carries, fc13 = f13 + sum of R fc of what hangs on
+        it */
+    const double fc13_z = s10*(ww23_zz*beta[40] + qdd[10]*beta[41] + minus_fc33a_x) - t45 +
+        qdd[5]*beta[6];
+    tau[5] = qdd[5]*beta[7] + fc13_z;
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double minus_vd21_y = c6*qdd[3];
+    /* link 41: moment on the link at its origin, n41 = J41 wd41 + w41 x J41 w41 + MS41 x vd41 */
+    const double n41_y = (minus_vd21_y + orthoglide_2012_geo_d4*minus_U31_zx)*beta[24];
+    const double minus_h31_z = minus_w31_x*beta[17] + minus_w31_y*beta[18] - qd[7]*beta[19];
+    const double minus_h31_y = minus_w31_x*beta[16] - qd[7]*beta[18];
+    const double t51 = minus_w31_y*minus_h31_z + qd[7]*minus_h31_y + (qdd[7]*beta[17] -
+        (minus_wd31_x*beta[15] + minus_wd31_y*beta[16]));
+    const double minus_h31_x = minus_w31_x*beta[15] + minus_w31_y*beta[16] - qd[7]*beta[17];
+    /* link 31: moment on the link at its origin, n31 = J31 wd31 + w31 x J31 w31 + MS31 x vd31 */
+    const double minus_n31_y = qd[7]*minus_h31_x + minus_w31_x*minus_h31_z + (minus_wd31_x*beta[16]
+        - qdd[7]*beta[18]) - minus_vd21_y*beta[20];
+    const double t54 = c7*(c7*n41_y - orthoglide_2012_geo_d4*f41_z - minus_n31_y);
+    const double minus_vd21_x = s6*qdd[3];
+    /* link 21: moment on the link at its origin, n21 = J21 wd21 + w21 x J21 w21 + MS21 x vd21 */
+    const double n21_z = minus_vd21_x*beta[12] - minus_vd21_y*beta[11] + qdd[6]*beta[10];
+    tau[6] = n21_z - (s7*(t51 - minus_vd21_y*beta[21] + s7*n41_y) + t54);
+    /* link 31: acceleration of the origin less gravity, vd31 = R31' (vd21 + U21 p31) */
+    const double vd31_y = s7*minus_vd21_x;
+    const double minus_vd31_x = c7*minus_vd21_x;
+    const double t59 = c7*(vd31_y + orthoglide_2012_geo_d4*U31_yx);
+    const double n41_z = beta[24]*(t59 - s7*(minus_vd31_x + orthoglide_2012_geo_d4*minus_U31_xx));
+    const double t61 = minus_w31_x*minus_h31_y - minus_w31_y*minus_h31_x + (qdd[7]*beta[19] -
+        (minus_wd31_x*beta[17] + minus_wd31_y*beta[18]));
+    /* link 31: moment on the link and all that it carries, nc31 = n31 + sum of R nc + p x R fc of
+        what hangs on it */
+    const double nc31_z = orthoglide_2012_geo_d4*fc41a_y + n41_z + (vd31_y*beta[20] +
+        minus_vd31_x*beta[21] + t61);
+    tau[7] = nc31_z - n41_z;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double minus_vd22_y = c8*qdd[4];
+    const double minus_ww32_xz = qd[9]*minus_w32_x;
+    const double minus_wd32_y = c9*qdd[8] - minus_ww32_xz;
+    /* link 42: moment on the link at its origin, n42 = J42 wd42 + w42 x J42 w42 + MS42 x vd42 */
+    const double n42_y = beta[38]*(minus_vd22_y + orthoglide_2012_geo_d4*(minus_ww32_xz -
+        minus_wd32_y));
+    const double minus_h32_z = minus_w32_x*beta[32] + minus_w32_y*beta[33] - qd[9]*beta[34];
+    const double minus_h32_y = minus_w32_x*beta[31] - qd[9]*beta[33];
+    const double t69 = minus_w32_y*minus_h32_z + qd[9]*minus_h32_y + (qdd[9]*beta[32] -
+        (minus_wd32_x*beta[30] + minus_wd32_y*beta[31]));
+    const double minus_h32_x = minus_w32_x*beta[30] + minus_w32_y*beta[31] - qd[9]*beta[32];
+    /* link 32: moment on the link at its origin, n32 = J32 wd32 + w32 x J32 w32 + MS32 x vd32 */
+    const double minus_n32_y = qd[9]*minus_h32_x + minus_w32_x*minus_h32_z + (minus_wd32_x*beta[31]
+        - qdd[9]*beta[33]);
+    const double t72 = c9*(orthoglide_2012_geo_d4*f42_z - c9*n42_y + minus_n32_y);
+    const double minus_vd22_x = s8*qdd[4];
+    /* link 22: moment on the link at its origin, n22 = J22 wd22 + w22 x J22 w22 + MS22 x vd22 */
+    const double n22_z = minus_vd22_x*beta[27] - minus_vd22_y*beta[26] + qdd[8]*beta[25];
+    tau[8] = n22_z - (s9*(t69 - minus_vd22_y*beta[35] + s9*n42_y) - t72);
+    const double minus_vd22_x_2 = orthoglide_2012_geo_g*c8 + minus_vd22_x;
+    const double t76 = s9*(c9*minus_vd22_x_2 + orthoglide_2012_geo_d4*(minus_w32_y*minus_w32_y +
+        ww32_zz));
+    const double n42_z = (c9*(s9*minus_vd22_x_2 + orthoglide_2012_geo_d4*(qdd[9] + ww32_xy)) -
+        t76)*beta[38];
+    const double t78 = minus_w32_x*minus_h32_y - minus_w32_y*minus_h32_x + (qdd[9]*beta[34] -
+        (minus_wd32_x*beta[32] + minus_wd32_y*beta[33]));
+    tau[9] = orthoglide_2012_geo_d4*fc42a_y + n42_z + (t78 + c9*minus_vd22_x*beta[35]) - n42_z;
+    const double minus_ww33_xz = qd[11]*minus_w33_x;
+    const double minus_wd33_y = c11*qdd[10] - minus_ww33_xz;
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double minus_vd23_y = c10*qdd[5];
+    /* link 43: moment on the link at its origin, n43 = J43 wd43 + w43 x J43 w43 + MS43 x vd43 */
+    const double n43_y = beta[52]*(orthoglide_2012_geo_d4*(minus_ww33_xz - minus_wd33_y) +
+        minus_vd23_y);
+    const double minus_h33_z = minus_w33_x*beta[46] + minus_w33_y*beta[47] - qd[11]*beta[48];
+    const double minus_h33_y = minus_w33_x*beta[45] - qd[11]*beta[47];
+    const double t85 = minus_w33_y*minus_h33_z + qd[11]*minus_h33_y + (qdd[11]*beta[46] -
+        (minus_wd33_x*beta[44] + minus_wd33_y*beta[45]));
+    const double minus_h33_x = minus_w33_x*beta[44] + minus_w33_y*beta[45] - qd[11]*beta[46];
+    /* link 33: moment on the link at its origin, n33 = J33 wd33 + w33 x J33 w33 + MS33 x vd33 */
+    const double minus_n33_y = qd[11]*minus_h33_x + minus_w33_x*minus_h33_z + (minus_wd33_x*beta[45]
+        - qdd[11]*beta[47]);
+    const double t88 = c11*(orthoglide_2012_geo_d4*f43_z - c11*n43_y + minus_n33_y);
+    const double minus_vd23_x = s10*qdd[5];
+    /* link 23: moment on the link at its origin, n23 = J23 wd23 + w23 x J23 w23 + MS23 x vd23 */
+    const double n23_z = beta[41]*minus_vd23_x - beta[40]*minus_vd23_y + qdd[10]*beta[39];
+    tau[10] = n23_z - (s11*(t85 - beta[49]*minus_vd23_y + s11*n43_y) - t88);
+    const double minus_vd23_x_2 = s10*(qdd[5] - orthoglide_2012_geo_g);
+    const double t92 = c11*(s11*minus_vd23_x_2 + orthoglide_2012_geo_d4*(qdd[11] + ww33_xy));
+    const double n43_z = (t92 - s11*(c11*minus_vd23_x_2 +
+        orthoglide_2012_geo_d4*(minus_w33_y*minus_w33_y + ww33_zz)))*beta[52];
+    const double t94 = minus_w33_x*minus_h33_y - minus_w33_y*minus_h33_x + (qdd[11]*beta[48] -
+        (minus_wd33_x*beta[46] + minus_wd33_y*beta[47]));
+    tau[11] = orthoglide_2012_geo_d4*fc43a_y + n43_z + (t94 + c11*minus_vd23_x*beta[49]) - n43_z;
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets.
@@ -491,8 +673,8 @@ void orthoglide_2012_tree_forward_kinematics(const double *q, double *MODELER_RE
     T[47] = q[3];
     T[50] = 1.0;
     MODELER_ZEROS(T + 28, 1);
-    const double t1 = orthoglide_2012_geo_a - q[4];
-    T[51] = -t1;
+    const double minus_p12_x = orthoglide_2012_geo_a - q[4];
+    T[51] = -minus_p12_x;
     T[52] = 1.0;
     MODELER_ZEROS(T + 30, 1);
     T[57] = 1.0;
@@ -501,8 +683,8 @@ void orthoglide_2012_tree_forward_kinematics(const double *q, double *MODELER_RE
     T[61] = 1.0;
     T[66] = 1.0;
     MODELER_ZEROS(T + 37, 4);
-    const double t2 = orthoglide_2012_geo_a - q[5];
-    T[67] = -t2;
+    const double minus_p13_y = orthoglide_2012_geo_a - q[5];
+    T[67] = -minus_p13_y;
     T[68] = 1.0;
     MODELER_ZEROS(T + 42, 4);
     T[71] = orthoglide_2012_geo_a;
@@ -515,16 +697,16 @@ void orthoglide_2012_tree_forward_kinematics(const double *q, double *MODELER_RE
     T[81] = -c6;
     T[83] = q[3];
     MODELER_ZEROS(T + 58, 1);
-    const double t3 = c6*c7;
-    T[84] = t3;
+    const double x31_x = c6*c7;
+    T[84] = x31_x;
     T[85] = -c6*s7;
     MODELER_ZEROS(T + 60, 1);
     T[86] = -s6;
     T[88] = -s7;
     MODELER_ZEROS(T + 62, 4);
     T[89] = -c7;
-    const double t4 = s6*c7;
-    T[92] = -t4;
+    const double minus_x31_z = s6*c7;
+    T[92] = -minus_x31_z;
     MODELER_ZEROS(T + 69, 2);
     T[93] = s6*s7;
     T[94] = -c6;
@@ -533,46 +715,47 @@ void orthoglide_2012_tree_forward_kinematics(const double *q, double *MODELER_RE
     T[96] = c6;
     MODELER_ZEROS(T + 79, 1);
     T[98] = -s6;
-    const double t5 = orthoglide_2012_geo_d4*t3;
-    T[99] = t5;
+    /* link 41: origin of the frame in frame 0, o41 = o31 + [x31 y31 z31] p41 */
+    const double o41_x = orthoglide_2012_geo_d4*x31_x;
+    T[99] = o41_x;
     MODELER_ZEROS(T + 82, 1);
     T[101] = -1.0;
-    const double t6 = orthoglide_2012_geo_d4*s7;
+    const double minus_o41_y = orthoglide_2012_geo_d4*s7;
     MODELER_ZEROS(T + 87, 1);
-    T[103] = -t6;
+    T[103] = -minus_o41_y;
     T[104] = -s6;
     T[106] = -c6;
     MODELER_ZEROS(T + 90, 2);
-    const double t7 = q[3] - orthoglide_2012_geo_d4*t4;
-    T[107] = t7;
+    const double o41_z = q[3] - orthoglide_2012_geo_d4*minus_x31_z;
+    T[107] = o41_z;
     MODELER_ZEROS(T + 97, 1);
     T[108] = 1.0;
-    T[111] = t5;
+    T[111] = o41_x;
     T[114] = 1.0;
     MODELER_ZEROS(T + 100, 1);
-    T[115] = -t6;
+    T[115] = -minus_o41_y;
     T[117] = -1.0;
     MODELER_ZEROS(T + 102, 1);
-    T[119] = t7;
+    T[119] = o41_z;
     T[120] = -s8;
     T[121] = -c8;
     MODELER_ZEROS(T + 105, 1);
-    T[123] = -t1;
+    T[123] = -minus_p12_x;
     T[124] = c8;
     MODELER_ZEROS(T + 109, 2);
     T[125] = -s8;
     T[130] = 1.0;
     MODELER_ZEROS(T + 112, 2);
     T[131] = orthoglide_2012_geo_a;
-    const double t8 = s8*c9;
-    T[132] = -t8;
+    const double minus_x32_x = s8*c9;
+    T[132] = -minus_x32_x;
     MODELER_ZEROS(T + 116, 1);
     T[133] = s8*s9;
     T[134] = -c8;
     MODELER_ZEROS(T + 118, 1);
-    T[135] = -t1;
-    const double t9 = c8*c9;
-    T[136] = t9;
+    T[135] = -minus_p12_x;
+    const double x32_y = c8*c9;
+    T[136] = x32_y;
     MODELER_ZEROS(T + 122, 1);
     T[137] = -c8*s9;
     T[138] = -s8;
@@ -584,32 +767,33 @@ void orthoglide_2012_tree_forward_kinematics(const double *q, double *MODELER_RE
     T[144] = -s8;
     T[146] = -c8;
     MODELER_ZEROS(T + 142, 1);
-    const double t10 = t1 + orthoglide_2012_geo_d4*t8;
-    T[147] = -t10;
+    /* link 42: origin of the frame in frame 0, o42 = o32 + [x32 y32 z32] p42 */
+    const double minus_o42_x = minus_p12_x + orthoglide_2012_geo_d4*minus_x32_x;
+    T[147] = -minus_o42_x;
     T[148] = c8;
     MODELER_ZEROS(T + 145, 1);
     T[150] = -s8;
-    const double t11 = orthoglide_2012_geo_d4*t9;
+    const double o42_y = orthoglide_2012_geo_d4*x32_y;
     MODELER_ZEROS(T + 149, 1);
-    T[151] = t11;
+    T[151] = o42_y;
     T[153] = -1.0;
     MODELER_ZEROS(T + 152, 1);
-    const double t12 = orthoglide_2012_geo_a - orthoglide_2012_geo_d4*s9;
-    T[155] = t12;
+    const double o42_z = orthoglide_2012_geo_a - orthoglide_2012_geo_d4*s9;
+    T[155] = o42_z;
     T[157] = -1.0;
     MODELER_ZEROS(T + 154, 1);
-    T[159] = -t10;
+    T[159] = -minus_o42_x;
     T[160] = 1.0;
     MODELER_ZEROS(T + 156, 1);
-    T[163] = t11;
+    T[163] = o42_y;
     T[166] = 1.0;
-    T[167] = t12;
+    T[167] = o42_z;
     MODELER_ZEROS(T + 158, 1);
     T[170] = 1.0;
     T[172] = -s10;
     MODELER_ZEROS(T + 161, 2);
     T[173] = -c10;
-    T[175] = -t2;
+    T[175] = -minus_p13_y;
     T[176] = c10;
     MODELER_ZEROS(T + 164, 2);
     T[177] = -s10;
@@ -617,44 +801,45 @@ void orthoglide_2012_tree_forward_kinematics(const double *q, double *MODELER_RE
     MODELER_ZEROS(T + 168, 2);
     T[180] = -s11;
     T[181] = -c11;
-    const double t13 = s10*c11;
+    const double minus_x33_y = s10*c11;
     MODELER_ZEROS(T + 171, 1);
-    T[184] = -t13;
+    T[184] = -minus_x33_y;
     T[185] = s10*s11;
     MODELER_ZEROS(T + 174, 1);
     T[186] = -c10;
-    T[187] = -t2;
+    T[187] = -minus_p13_y;
     MODELER_ZEROS(T + 178, 1);
-    const double t14 = c10*c11;
-    T[188] = t14;
+    const double x33_z = c10*c11;
+    T[188] = x33_z;
     T[189] = -c10*s11;
     MODELER_ZEROS(T + 182, 2);
     T[190] = -s10;
     T[191] = orthoglide_2012_geo_a;
     MODELER_ZEROS(T + 192, 1);
     T[193] = -1.0;
-    const double t15 = orthoglide_2012_geo_d4*s11;
-    T[195] = -t15;
+    /* link 43: origin of the frame in frame 0, o43 = o33 + [x33 y33 z33] p43 */
+    const double minus_o43_x = orthoglide_2012_geo_d4*s11;
+    T[195] = -minus_o43_x;
     MODELER_ZEROS(T + 194, 1);
     T[196] = -s10;
     T[198] = -c10;
     MODELER_ZEROS(T + 197, 1);
-    const double t16 = t2 + orthoglide_2012_geo_d4*t13;
-    T[199] = -t16;
+    const double minus_o43_y = minus_p13_y + orthoglide_2012_geo_d4*minus_x33_y;
+    T[199] = -minus_o43_y;
     T[200] = c10;
     MODELER_ZEROS(T + 201, 1);
     T[202] = -s10;
-    const double t17 = orthoglide_2012_geo_a + orthoglide_2012_geo_d4*t14;
+    const double o43_z = orthoglide_2012_geo_a + orthoglide_2012_geo_d4*x33_z;
     MODELER_ZEROS(T + 204, 2);
-    T[203] = t17;
+    T[203] = o43_z;
     T[206] = 1.0;
-    T[207] = -t15;
+    T[207] = -minus_o43_x;
     MODELER_ZEROS(T + 208, 1);
     T[209] = -1.0;
-    T[211] = -t16;
+    T[211] = -minus_o43_y;
     MODELER_ZEROS(T + 210, 1);
     T[212] = 1.0;
-    T[215] = t17;
+    T[215] = o43_z;
     MODELER_ZEROS(T + 213, 2);
 }
 
@@ -675,33 +860,33 @@ void orthoglide_2012_tree_drift(const double *q, const double *qd, double *MODEL
     double s11, c11;
     modeler_sincos(q[11], &s11, &c11);
 
-    const double t1 = c6*qd[6];
-    const double t2 = s7*qd[7];
-    const double t3 = s6*qd[6];
-    const double t4 = c7*qd[7];
-    const double t5 = orthoglide_2012_geo_d4*(c7*t1 - s6*t2)*qd[6];
-    values[0] = orthoglide_2012_geo_d4*(s7*t3 - c6*t4)*qd[7] - t5;
-    values[1] = orthoglide_2012_geo_d4*t2*qd[7];
-    const double t6 = orthoglide_2012_geo_d4*(c7*t3 + c6*t2)*qd[6];
-    values[2] = t6 + orthoglide_2012_geo_d4*(s7*t1 + s6*t4)*qd[7];
-    const double t7 = s8*qd[8];
-    const double t8 = s9*qd[9];
-    const double t9 = c8*qd[8];
-    const double t10 = c9*qd[9];
-    const double t11 = orthoglide_2012_geo_d4*(s9*t9 + s8*t10)*qd[9];
-    values[3] = orthoglide_2012_geo_d4*(c9*t7 + c8*t8)*qd[8] + t11;
-    const double t12 = orthoglide_2012_geo_d4*(s9*t7 - c8*t10)*qd[9];
-    values[4] = t12 - orthoglide_2012_geo_d4*(c9*t9 - s8*t8)*qd[8];
-    values[5] = orthoglide_2012_geo_d4*t8*qd[9];
-    const double t13 = s11*qd[11];
-    values[6] = orthoglide_2012_geo_d4*t13*qd[11];
-    const double t14 = s10*qd[10];
-    const double t15 = c10*qd[10];
-    const double t16 = c11*qd[11];
-    const double t17 = orthoglide_2012_geo_d4*(c11*t14 + c10*t13)*qd[10];
-    values[7] = t17 + orthoglide_2012_geo_d4*(s11*t15 + s10*t16)*qd[11];
-    const double t18 = orthoglide_2012_geo_d4*(c11*t15 - s10*t13)*qd[10];
-    values[8] = orthoglide_2012_geo_d4*(s11*t14 - c10*t16)*qd[11] - t18;
+    const double minus_x21d_tz = c6*qd[6];
+    const double y31d_ty = s7*qd[7];
+    const double minus_x21d_tx = s6*qd[6];
+    const double minus_x31d_ty = c7*qd[7];
+    const double t5 = orthoglide_2012_geo_d4*(c7*minus_x21d_tz - s6*y31d_ty)*qd[6];
+    values[0] = orthoglide_2012_geo_d4*(s7*minus_x21d_tx - c6*minus_x31d_ty)*qd[7] - t5;
+    values[1] = orthoglide_2012_geo_d4*y31d_ty*qd[7];
+    const double t6 = orthoglide_2012_geo_d4*(c7*minus_x21d_tx + c6*y31d_ty)*qd[6];
+    values[2] = t6 + orthoglide_2012_geo_d4*(s7*minus_x21d_tz + s6*minus_x31d_ty)*qd[7];
+    const double minus_x22d_ty = s8*qd[8];
+    const double y32d_tz = s9*qd[9];
+    const double minus_x22d_tx = c8*qd[8];
+    const double minus_x32d_tz = c9*qd[9];
+    const double t11 = orthoglide_2012_geo_d4*(s9*minus_x22d_tx + s8*minus_x32d_tz)*qd[9];
+    values[3] = orthoglide_2012_geo_d4*(c9*minus_x22d_ty + c8*y32d_tz)*qd[8] + t11;
+    const double t12 = orthoglide_2012_geo_d4*(s9*minus_x22d_ty - c8*minus_x32d_tz)*qd[9];
+    values[4] = t12 - orthoglide_2012_geo_d4*(c9*minus_x22d_tx - s8*y32d_tz)*qd[8];
+    values[5] = orthoglide_2012_geo_d4*y32d_tz*qd[9];
+    const double y33d_tx = s11*qd[11];
+    values[6] = orthoglide_2012_geo_d4*y33d_tx*qd[11];
+    const double minus_x23d_tz = s10*qd[10];
+    const double minus_x23d_ty = c10*qd[10];
+    const double minus_x33d_tx = c11*qd[11];
+    const double t17 = orthoglide_2012_geo_d4*(c11*minus_x23d_tz + c10*y33d_tx)*qd[10];
+    values[7] = t17 + orthoglide_2012_geo_d4*(s11*minus_x23d_ty + s10*minus_x33d_tx)*qd[11];
+    const double t18 = orthoglide_2012_geo_d4*(c11*minus_x23d_ty - s10*y33d_tx)*qd[10];
+    values[8] = orthoglide_2012_geo_d4*(s11*minus_x23d_tz - c10*minus_x33d_tx)*qd[11] - t18;
 }
 
 /* All equations of all loops, cosines, nonzeros of df/du, turns.
@@ -721,36 +906,44 @@ void orthoglide_2012_tree_closure(const double *q, double *MODELER_RESTRICT valu
     double s11, c11;
     modeler_sincos(q[11], &s11, &c11);
 
-    const double t1 = c6*c7*orthoglide_2012_geo_d4;
-    values[0] = t1 - q[0];
+    /* link 41: origin of the frame in frame 0, o41 = o31 + [x31 y31 z31] p41 */
+    const double o41_x = c6*c7*orthoglide_2012_geo_d4;
+    values[0] = o41_x - q[0];
     values[1] = -(q[1] + orthoglide_2012_geo_d4*s7);
-    const double t2 = s6*c7*orthoglide_2012_geo_d4;
-    values[2] = q[3] - t2 + orthoglide_2012_geo_d6 - q[2];
-    const double t3 = s8*c9*orthoglide_2012_geo_d4;
-    values[3] = orthoglide_2012_geo_d6 - (orthoglide_2012_geo_a - q[4] + t3) - q[0];
-    const double t4 = c8*c9*orthoglide_2012_geo_d4;
-    values[4] = t4 - q[1];
+    /* link 51: velocity of the origin, for unit speed of each joint below, m51 = R51' (m41 + e41 x
+        p51) */
+    const double minus_m51_21x = s6*c7*orthoglide_2012_geo_d4;
+    values[2] = q[3] - minus_m51_21x + orthoglide_2012_geo_d6 - q[2];
+    /* link 52: velocity of the origin, for unit speed of each joint below, m52 = R52' (m42 + e42 x
+        p52) */
+    const double minus_m52_22x = s8*c9*orthoglide_2012_geo_d4;
+    values[3] = orthoglide_2012_geo_d6 - (orthoglide_2012_geo_a - q[4] + minus_m52_22x) - q[0];
+    /* link 42: origin of the frame in frame 0, o42 = o32 + [x32 y32 z32] p42 */
+    const double o42_y = c8*c9*orthoglide_2012_geo_d4;
+    values[4] = o42_y - q[1];
     values[5] = orthoglide_2012_geo_a - orthoglide_2012_geo_d4*s9 - q[2];
     values[6] = -(q[0] + orthoglide_2012_geo_d4*s11);
-    const double t5 = s10*c11*orthoglide_2012_geo_d4;
-    values[7] = orthoglide_2012_geo_d6 - (orthoglide_2012_geo_a - q[5] + t5) - q[1];
-    const double t6 = c10*c11*orthoglide_2012_geo_d4;
-    values[8] = orthoglide_2012_geo_a + t6 - q[2];
+    /* link 53: velocity of the origin, for unit speed of each joint below, m53 = R53' (m43 + e43 x
+        p53) */
+    const double minus_m53_23x = s10*c11*orthoglide_2012_geo_d4;
+    values[7] = orthoglide_2012_geo_d6 - (orthoglide_2012_geo_a - q[5] + minus_m53_23x) - q[1];
+    const double m53_23y = c10*c11*orthoglide_2012_geo_d4;
+    values[8] = orthoglide_2012_geo_a + m53_23y - q[2];
     values[9] = -1.0;
-    values[10] = -t2;
+    values[10] = -minus_m51_21x;
     values[11] = -c6*s7*orthoglide_2012_geo_d4;
     values[12] = -1.0;
     values[13] = -orthoglide_2012_geo_d4*c7;
     values[14] = -1.0;
     values[15] = 1.0;
-    values[16] = -t1;
+    values[16] = -o41_x;
     values[17] = s6*s7*orthoglide_2012_geo_d4;
     values[18] = -1.0;
     values[19] = 1.0;
-    values[20] = -t4;
+    values[20] = -o42_y;
     values[21] = s8*s9*orthoglide_2012_geo_d4;
     values[22] = -1.0;
-    values[23] = -t3;
+    values[23] = -minus_m52_22x;
     values[24] = -c8*s9*orthoglide_2012_geo_d4;
     values[25] = -1.0;
     values[26] = -orthoglide_2012_geo_d4*c9;
@@ -758,10 +951,10 @@ void orthoglide_2012_tree_closure(const double *q, double *MODELER_RESTRICT valu
     values[28] = -orthoglide_2012_geo_d4*c11;
     values[29] = -1.0;
     values[30] = 1.0;
-    values[31] = -t6;
+    values[31] = -m53_23y;
     values[32] = s10*s11*orthoglide_2012_geo_d4;
     values[33] = -1.0;
-    values[34] = -t5;
+    values[34] = -minus_m53_23x;
     values[35] = -c10*s11*orthoglide_2012_geo_d4;
     values[36] = c6;
     values[37] = s6;
@@ -797,13 +990,15 @@ void orthoglide_2012_tree_residual(const double *q, double *MODELER_RESTRICT f)
     f[0] = c6*c7*orthoglide_2012_geo_d4 - q[0];
     f[1] = -(q[1] + orthoglide_2012_geo_d4*s7);
     f[2] = q[3] - s6*c7*orthoglide_2012_geo_d4 + orthoglide_2012_geo_d6 - q[2];
-    const double t1 = orthoglide_2012_geo_a - q[4] + s8*c9*orthoglide_2012_geo_d4;
-    f[3] = orthoglide_2012_geo_d6 - t1 - q[0];
+    /* link 42: origin of the frame in frame 0, o42 = o32 + [x32 y32 z32] p42 */
+    const double minus_o42_x = orthoglide_2012_geo_a - q[4] + s8*c9*orthoglide_2012_geo_d4;
+    f[3] = orthoglide_2012_geo_d6 - minus_o42_x - q[0];
     f[4] = c8*c9*orthoglide_2012_geo_d4 - q[1];
     f[5] = orthoglide_2012_geo_a - orthoglide_2012_geo_d4*s9 - q[2];
     f[6] = -(q[0] + orthoglide_2012_geo_d4*s11);
-    const double t2 = orthoglide_2012_geo_a - q[5] + s10*c11*orthoglide_2012_geo_d4;
-    f[7] = orthoglide_2012_geo_d6 - t2 - q[1];
+    /* link 43: origin of the frame in frame 0, o43 = o33 + [x33 y33 z33] p43 */
+    const double minus_o43_y = orthoglide_2012_geo_a - q[5] + s10*c11*orthoglide_2012_geo_d4;
+    f[7] = orthoglide_2012_geo_d6 - minus_o43_y - q[1];
     f[8] = orthoglide_2012_geo_a + c10*c11*orthoglide_2012_geo_d4 - q[2];
 }
 

@@ -18,7 +18,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "5eab4c88ec94117a"
+#define ORTHOGLIDE_2012_SIGNATURE "2f8df8789e1ed002"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0x2f8df878u
+#define ORTHOGLIDE_2012_SIGNATURE_2 0x9e1ed002u
 
 #define ORTHOGLIDE_2012_JOINTS 3
 #define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196

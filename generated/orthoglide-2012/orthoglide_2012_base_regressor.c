@@ -2,6 +2,18 @@
  *
  * Functions of orthoglide_2012.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
+ *   x      axis x of the frame in frame 0
+ *   y      axis y of the frame in frame 0
  */
 #include "orthoglide_2012.h"
 
@@ -58,8 +70,10 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
     phi[216] = qd[4];
     phi[217] = modeler_sign(qd[4]);
     MODELER_ZEROS(phi + 16, 8);
-    const double t1 = qdd[5] - orthoglide_2012_geo_g;
-    phi[271] = t1;
+    /* link 13: acceleration of the origin less gravity, vd13 = R13' (vd0 + U0 p13) + 2 w13 x qd13 z
+        + qdd13 z */
+    const double vd13_z = qdd[5] - orthoglide_2012_geo_g;
+    phi[271] = vd13_z;
     MODELER_ZEROS(phi + 24, 8);
     phi[272] = qdd[5];
     MODELER_ZEROS(phi + 32, 8);
@@ -67,211 +81,226 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
     phi[274] = modeler_sign(qd[5]);
     MODELER_ZEROS(phi + 40, 8);
     phi[328] = qdd[6];
-    const double t2 = qd[6]*qd[6];
+    const double ww21_zz = qd[6]*qd[6];
     MODELER_ZEROS(phi + 48, 8);
-    const double t3 = s6*t2 - c6*qdd[6];
+    const double t3 = s6*ww21_zz - c6*qdd[6];
     phi[170] = t3;
     MODELER_ZEROS(phi + 56, 8);
-    const double t4 = c6*qdd[3];
+    /* link 21: acceleration of the origin less gravity, vd21 = R21' (vd11 + U11 p21) */
+    const double minus_vd21_y = c6*qdd[3];
     MODELER_ZEROS(phi + 64, 8);
-    phi[329] = -t4;
-    phi[171] = s6*qdd[6] + c6*t2;
+    phi[329] = -minus_vd21_y;
+    phi[171] = s6*qdd[6] + c6*ww21_zz;
     MODELER_ZEROS(phi + 72, 8);
-    const double t5 = s6*qdd[3];
-    phi[330] = t5;
+    const double minus_vd21_x = s6*qdd[3];
+    phi[330] = minus_vd21_x;
     MODELER_ZEROS(phi + 80, 8);
     phi[331] = qd[6];
     phi[332] = modeler_sign(qd[6]);
     MODELER_ZEROS(phi + 88, 8);
-    const double t6 = s7*qdd[6];
+    /* link 31: acceleration of points of the link, U31 = [wd31 x] + [w31 x][w31 x] */
+    const double U31_yz = s7*qdd[6];
     MODELER_ZEROS(phi + 96, 8);
-    const double t7 = c7*qd[6];
-    const double t8 = qd[7]*t7;
+    /* link 31: angular velocity, w31 = R31' w21 + qd31 z */
+    const double minus_w31_y = c7*qd[6];
+    const double minus_ww31_yz = qd[7]*minus_w31_y;
     MODELER_ZEROS(phi + 104, 8);
-    const double t9 = t6 + t8;
-    const double t10 = s7*qd[6];
+    /* link 31: angular acceleration, wd31 = R31' wd21 + (R31' w21) x qd31 z + qdd31 z */
+    const double minus_wd31_x = U31_yz + minus_ww31_yz;
+    const double minus_w31_x = s7*qd[6];
     MODELER_ZEROS(phi + 112, 8);
-    const double t11 = qd[7]*t10;
-    phi[333] = s7*t9 + c7*t11;
+    const double minus_ww31_xz = qd[7]*minus_w31_x;
+    phi[333] = s7*minus_wd31_x + c7*minus_ww31_xz;
     MODELER_ZEROS(phi + 120, 8);
-    const double t12 = t10*t7;
-    phi[386] = -t12;
+    const double ww31_xy = minus_w31_x*minus_w31_y;
+    phi[386] = -ww31_xy;
     MODELER_ZEROS(phi + 128, 8);
-    const double t13 = c7*qdd[6];
+    const double minus_U31_xz = c7*qdd[6];
     MODELER_ZEROS(phi + 136, 8);
-    const double t14 = t11 - t13 + t11;
-    const double t15 = t8 + t9;
+    const double minus_U31_zx = minus_ww31_xz - minus_U31_xz + minus_ww31_xz;
+    const double minus_U31_zy = minus_ww31_yz + minus_wd31_x;
     MODELER_ZEROS(phi + 144, 8);
-    phi[334] = c7*t15 - s7*t14;
-    const double t16 = qd[7]*qd[7];
+    phi[334] = c7*minus_U31_zy - s7*minus_U31_zx;
+    const double ww31_zz = qd[7]*qd[7];
     MODELER_ZEROS(phi + 152, 7);
-    const double t17 = t7*t7 + t16;
-    const double t18 = t10*t10 + t16;
+    const double minus_U31_xx = minus_w31_y*minus_w31_y + ww31_zz;
+    const double minus_U31_yy = minus_w31_x*minus_w31_x + ww31_zz;
     MODELER_ZEROS(phi + 162, 8);
-    phi[387] = t18 - t17;
+    phi[387] = minus_U31_yy - minus_U31_xx;
     MODELER_ZEROS(phi + 172, 7);
-    const double t19 = qdd[7] + t12;
-    phi[335] = c7*(t2 - t17) - s7*t19;
+    const double U31_yx = qdd[7] + ww31_xy;
+    phi[335] = c7*(ww21_zz - minus_U31_xx) - s7*U31_yx;
     MODELER_ZEROS(phi + 181, 2);
-    phi[388] = -t6;
-    const double t20 = qdd[7] - t12;
+    phi[388] = -U31_yz;
+    const double minus_U31_xy = qdd[7] - ww31_xy;
     MODELER_ZEROS(phi + 184, 8);
-    phi[336] = -(s7*(t2 - t18) + c7*t20);
-    phi[389] = -t13;
+    phi[336] = -(s7*(ww21_zz - minus_U31_yy) + c7*minus_U31_xy);
+    phi[389] = -minus_U31_xz;
     MODELER_ZEROS(phi + 192, 8);
     phi[390] = qdd[7];
     MODELER_ZEROS(phi + 200, 8);
-    const double t21 = s6*c7;
-    const double t22 = s6*s7;
+    const double minus_x31_z = s6*c7;
+    const double y31_z = s6*s7;
     MODELER_ZEROS(phi + 208, 7);
-    phi[179] = t21*t17 + t22*t19 + c6*t14;
-    phi[338] = -c7*t4;
+    phi[179] = minus_x31_z*minus_U31_xx + y31_z*U31_yx + c6*minus_U31_zx;
+    phi[338] = -c7*minus_vd21_y;
     MODELER_ZEROS(phi + 218, 8);
-    phi[391] = orthoglide_2012_geo_g*c7 + s7*t5;
-    phi[180] = t21*t20 - t22*t18 + c6*t15;
+    phi[391] = orthoglide_2012_geo_g*c7 + s7*minus_vd21_x;
+    phi[180] = minus_x31_z*minus_U31_xy - y31_z*minus_U31_yy + c6*minus_U31_zy;
     MODELER_ZEROS(phi + 226, 8);
-    phi[339] = s7*t4;
+    phi[339] = s7*minus_vd21_y;
     MODELER_ZEROS(phi + 234, 4);
-    phi[392] = c7*t5 - orthoglide_2012_geo_g*s7;
+    phi[392] = c7*minus_vd21_x - orthoglide_2012_geo_g*s7;
     phi[393] = qd[7];
     MODELER_ZEROS(phi + 240, 7);
     phi[394] = modeler_sign(qd[7]);
     phi[183] = t3;
     MODELER_ZEROS(phi + 248, 2);
-    phi[342] = orthoglide_2012_geo_d4*c7*qdd[6] - (t4 + orthoglide_2012_geo_d4*t14);
-    phi[395] = orthoglide_2012_geo_d4*s7*t2;
+    phi[342] = orthoglide_2012_geo_d4*c7*qdd[6] - (minus_vd21_y +
+        orthoglide_2012_geo_d4*minus_U31_zx);
+    phi[395] = orthoglide_2012_geo_d4*s7*ww21_zz;
     MODELER_ZEROS(phi + 251, 8);
     phi[449] = qdd[8];
-    const double t23 = qd[8]*qd[8];
+    const double ww22_zz = qd[8]*qd[8];
     MODELER_ZEROS(phi + 259, 8);
-    const double t24 = s8*t23 - c8*qdd[8];
+    const double t24 = s8*ww22_zz - c8*qdd[8];
     MODELER_ZEROS(phi + 267, 4);
     phi[238] = t24;
-    const double t25 = c8*qdd[4] - orthoglide_2012_geo_g*s8;
+    /* link 22: acceleration of the origin less gravity, vd22 = R22' (vd12 + U12 p22) */
+    const double minus_vd22_y = c8*qdd[4] - orthoglide_2012_geo_g*s8;
     MODELER_ZEROS(phi + 275, 8);
-    phi[450] = -t25;
-    phi[239] = s8*qdd[8] + c8*t23;
+    phi[450] = -minus_vd22_y;
+    phi[239] = s8*qdd[8] + c8*ww22_zz;
     MODELER_ZEROS(phi + 283, 8);
-    const double t26 = orthoglide_2012_geo_g*c8 + s8*qdd[4];
-    phi[451] = t26;
+    const double minus_vd22_x = orthoglide_2012_geo_g*c8 + s8*qdd[4];
+    phi[451] = minus_vd22_x;
     MODELER_ZEROS(phi + 291, 8);
     phi[452] = qd[8];
     MODELER_ZEROS(phi + 299, 6);
     phi[453] = modeler_sign(qd[8]);
-    const double t27 = s9*qdd[8];
+    /* link 32: acceleration of points of the link, U32 = [wd32 x] + [w32 x][w32 x] */
+    const double U32_yz = s9*qdd[8];
     MODELER_ZEROS(phi + 307, 7);
-    const double t28 = c9*qd[8];
-    const double t29 = qd[9]*t28;
+    /* link 32: angular velocity, w32 = R32' w22 + qd32 z */
+    const double minus_w32_y = c9*qd[8];
+    const double minus_ww32_yz = qd[9]*minus_w32_y;
     MODELER_ZEROS(phi + 315, 2);
-    const double t30 = t27 + t29;
-    const double t31 = s9*qd[8];
+    /* link 32: angular acceleration, wd32 = R32' wd22 + (R32' w22) x qd32 z + qdd32 z */
+    const double minus_wd32_x = U32_yz + minus_ww32_yz;
+    const double minus_w32_x = s9*qd[8];
     MODELER_ZEROS(phi + 318, 8);
-    const double t32 = qd[9]*t31;
+    const double minus_ww32_xz = qd[9]*minus_w32_x;
     MODELER_ZEROS(phi + 326, 2);
-    phi[454] = s9*t30 + c9*t32;
-    const double t33 = t31*t28;
+    phi[454] = s9*minus_wd32_x + c9*minus_ww32_xz;
+    const double ww32_xy = minus_w32_x*minus_w32_y;
     MODELER_ZEROS(phi + 337, 1);
-    phi[507] = -t33;
-    const double t34 = c9*qdd[8];
+    phi[507] = -ww32_xy;
+    const double minus_U32_xz = c9*qdd[8];
     MODELER_ZEROS(phi + 340, 2);
-    const double t35 = t32 - t34 + t32;
-    const double t36 = t29 + t30;
+    const double minus_U32_zx = minus_ww32_xz - minus_U32_xz + minus_ww32_xz;
+    const double minus_U32_zy = minus_ww32_yz + minus_wd32_x;
     MODELER_ZEROS(phi + 343, 8);
-    phi[455] = c9*t36 - s9*t35;
+    phi[455] = c9*minus_U32_zy - s9*minus_U32_zx;
     MODELER_ZEROS(phi + 351, 8);
-    const double t37 = qd[9]*qd[9];
-    const double t38 = t28*t28 + t37;
+    const double ww32_zz = qd[9]*qd[9];
+    const double minus_U32_xx = minus_w32_y*minus_w32_y + ww32_zz;
     MODELER_ZEROS(phi + 359, 8);
-    const double t39 = t31*t31 + t37;
-    phi[508] = t39 - t38;
+    const double minus_U32_yy = minus_w32_x*minus_w32_x + ww32_zz;
+    phi[508] = minus_U32_yy - minus_U32_xx;
     MODELER_ZEROS(phi + 367, 8);
-    phi[456] = c9*(t23 - t38) - s9*(qdd[9] + t33);
-    phi[509] = -t27;
+    phi[456] = c9*(ww22_zz - minus_U32_xx) - s9*(qdd[9] + ww32_xy);
+    phi[509] = -U32_yz;
     MODELER_ZEROS(phi + 375, 8);
-    const double t40 = qdd[9] - t33;
-    phi[457] = -(s9*(t23 - t39) + c9*t40);
+    const double minus_U32_xy = qdd[9] - ww32_xy;
+    phi[457] = -(s9*(ww22_zz - minus_U32_yy) + c9*minus_U32_xy);
     MODELER_ZEROS(phi + 383, 3);
-    phi[510] = -t34;
+    phi[510] = -minus_U32_xz;
     MODELER_ZEROS(phi + 396, 8);
     phi[511] = qdd[9];
-    phi[247] = s8*c9*t40 - s8*s9*t39 + c8*t36;
+    phi[247] = s8*c9*minus_U32_xy - s8*s9*minus_U32_yy + c8*minus_U32_zy;
     MODELER_ZEROS(phi + 404, 8);
-    phi[459] = s9*t25;
-    phi[512] = c9*t26;
+    phi[459] = s9*minus_vd22_y;
+    phi[512] = c9*minus_vd22_x;
     MODELER_ZEROS(phi + 412, 8);
     phi[513] = qd[9];
     phi[514] = modeler_sign(qd[9]);
     MODELER_ZEROS(phi + 420, 8);
     phi[250] = t24;
     MODELER_ZEROS(phi + 428, 8);
-    phi[462] = orthoglide_2012_geo_d4*c9*qdd[8] - (t25 + orthoglide_2012_geo_d4*t35);
-    phi[515] = orthoglide_2012_geo_d4*s9*t23;
+    phi[462] = orthoglide_2012_geo_d4*c9*qdd[8] - (minus_vd22_y +
+        orthoglide_2012_geo_d4*minus_U32_zx);
+    phi[515] = orthoglide_2012_geo_d4*s9*ww22_zz;
     MODELER_ZEROS(phi + 436, 8);
     phi[569] = qdd[10];
-    const double t41 = qd[10]*qd[10];
+    const double ww23_zz = qd[10]*qd[10];
     MODELER_ZEROS(phi + 444, 5);
-    const double t42 = s10*t41 - c10*qdd[10];
+    const double t42 = s10*ww23_zz - c10*qdd[10];
     phi[305] = t42;
     MODELER_ZEROS(phi + 458, 1);
-    const double t43 = c10*t1;
+    /* link 23: acceleration of the origin less gravity, vd23 = R23' (vd13 + U13 p23) */
+    const double minus_vd23_y = c10*vd13_z;
     MODELER_ZEROS(phi + 460, 2);
-    phi[570] = -t43;
-    phi[306] = s10*qdd[10] + c10*t41;
+    phi[570] = -minus_vd23_y;
+    phi[306] = s10*qdd[10] + c10*ww23_zz;
     MODELER_ZEROS(phi + 463, 8);
-    const double t44 = s10*t1;
-    phi[571] = t44;
+    const double minus_vd23_x = s10*vd13_z;
+    phi[571] = minus_vd23_x;
     MODELER_ZEROS(phi + 471, 8);
     phi[572] = qd[10];
     phi[573] = modeler_sign(qd[10]);
     MODELER_ZEROS(phi + 479, 8);
-    const double t45 = s11*qdd[10];
+    /* link 33: acceleration of points of the link, U33 = [wd33 x] + [w33 x][w33 x] */
+    const double U33_yz = s11*qdd[10];
     MODELER_ZEROS(phi + 487, 8);
-    const double t46 = c11*qd[10];
-    const double t47 = qd[11]*t46;
+    /* link 33: angular velocity, w33 = R33' w23 + qd33 z */
+    const double minus_w33_y = c11*qd[10];
+    const double minus_ww33_yz = qd[11]*minus_w33_y;
     MODELER_ZEROS(phi + 495, 8);
-    const double t48 = t45 + t47;
-    const double t49 = s11*qd[10];
+    /* link 33: angular acceleration, wd33 = R33' wd23 + (R33' w23) x qd33 z + qdd33 z */
+    const double minus_wd33_x = U33_yz + minus_ww33_yz;
+    const double minus_w33_x = s11*qd[10];
     MODELER_ZEROS(phi + 503, 4);
-    const double t50 = qd[11]*t49;
-    phi[574] = s11*t48 + c11*t50;
+    const double minus_ww33_xz = qd[11]*minus_w33_x;
+    phi[574] = s11*minus_wd33_x + c11*minus_ww33_xz;
     MODELER_ZEROS(phi + 516, 8);
-    const double t51 = t49*t46;
-    phi[627] = -t51;
+    const double ww33_xy = minus_w33_x*minus_w33_y;
+    phi[627] = -ww33_xy;
     MODELER_ZEROS(phi + 524, 8);
-    const double t52 = c11*qdd[10];
+    const double minus_U33_xz = c11*qdd[10];
     MODELER_ZEROS(phi + 532, 8);
-    const double t53 = t50 - t52 + t50;
-    const double t54 = t47 + t48;
+    const double minus_U33_zx = minus_ww33_xz - minus_U33_xz + minus_ww33_xz;
+    const double minus_U33_zy = minus_ww33_yz + minus_wd33_x;
     MODELER_ZEROS(phi + 540, 8);
-    phi[575] = c11*t54 - s11*t53;
-    const double t55 = qd[11]*qd[11];
+    phi[575] = c11*minus_U33_zy - s11*minus_U33_zx;
+    const double ww33_zz = qd[11]*qd[11];
     MODELER_ZEROS(phi + 548, 8);
-    const double t56 = t46*t46 + t55;
-    const double t57 = t49*t49 + t55;
+    const double minus_U33_xx = minus_w33_y*minus_w33_y + ww33_zz;
+    const double minus_U33_yy = minus_w33_x*minus_w33_x + ww33_zz;
     MODELER_ZEROS(phi + 556, 8);
-    phi[628] = t57 - t56;
+    phi[628] = minus_U33_yy - minus_U33_xx;
     MODELER_ZEROS(phi + 564, 5);
-    phi[576] = c11*(t41 - t56) - s11*(qdd[11] + t51);
-    phi[629] = -t45;
+    phi[576] = c11*(ww23_zz - minus_U33_xx) - s11*(qdd[11] + ww33_xy);
+    phi[629] = -U33_yz;
     MODELER_ZEROS(phi + 578, 1);
-    const double t58 = qdd[11] - t51;
-    phi[577] = -(s11*(t41 - t57) + c11*t58);
+    const double minus_U33_xy = qdd[11] - ww33_xy;
+    phi[577] = -(s11*(ww23_zz - minus_U33_yy) + c11*minus_U33_xy);
     MODELER_ZEROS(phi + 580, 2);
-    phi[630] = -t52;
+    phi[630] = -minus_U33_xz;
     phi[631] = qdd[11];
     MODELER_ZEROS(phi + 583, 8);
-    phi[314] = s10*c11*t58 - s10*s11*t57 + c10*t54;
+    phi[314] = s10*c11*minus_U33_xy - s10*s11*minus_U33_yy + c10*minus_U33_zy;
     MODELER_ZEROS(phi + 591, 8);
-    phi[579] = s11*t43;
-    phi[632] = c11*t44;
+    phi[579] = s11*minus_vd23_y;
+    phi[632] = c11*minus_vd23_x;
     MODELER_ZEROS(phi + 599, 8);
     phi[633] = qd[11];
     phi[634] = modeler_sign(qd[11]);
     MODELER_ZEROS(phi + 607, 8);
     phi[317] = t42;
-    phi[582] = orthoglide_2012_geo_d4*c11*qdd[10] - (t43 + orthoglide_2012_geo_d4*t53);
+    phi[582] = orthoglide_2012_geo_d4*c11*qdd[10] - (minus_vd23_y +
+        orthoglide_2012_geo_d4*minus_U33_zx);
     MODELER_ZEROS(phi + 615, 8);
-    phi[635] = orthoglide_2012_geo_d4*s11*t41;
+    phi[635] = orthoglide_2012_geo_d4*s11*ww23_zz;
     MODELER_ZEROS(phi + 623, 4);
 }
 

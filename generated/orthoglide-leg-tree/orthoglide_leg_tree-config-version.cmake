@@ -1,6 +1,6 @@
 # find_package(orthoglide_leg_tree) takes any, find_package(orthoglide_leg_tree 1) any of this C interface,
-# find_package(orthoglide_leg_tree 1.315.55392.14094) only what has the signature 013bd860370eec91.
-set(PACKAGE_VERSION 1.315.55392.14094)
+# find_package(orthoglide_leg_tree 1.24181.55757.30293) only what has the signature 5e75d9cd7655b4d0.
+set(PACKAGE_VERSION 1.24181.55757.30293)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -1,6 +1,6 @@
 # find_package(orthoglide_leg_tree) gives the target orthoglide_leg_tree::orthoglide_leg_tree: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. orthoglide_leg_tree_SIGNATURE is what orthoglide_leg_tree_signature() returns.
-set(orthoglide_leg_tree_SIGNATURE 013bd860370eec91)
+set(orthoglide_leg_tree_SIGNATURE 5e75d9cd7655b4d0)
 
 if(orthoglide_leg_tree_FIND_COMPONENTS)
   set(_modeler_kinds ${orthoglide_leg_tree_FIND_COMPONENTS})
@@ -13,14 +13,14 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_leg_tree-${_modeler_kind}-013bd860370eec91.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_leg_tree-${_modeler_kind}-5e75d9cd7655b4d0.cmake")
   if(TARGET orthoglide_leg_tree::orthoglide_leg_tree OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
   include("${_modeler_file}")
   if(NOT TARGET orthoglide_leg_tree::orthoglide_leg_tree) # installed by make
     if(_modeler_kind STREQUAL "shared")
-      set(_modeler_name liborthoglide_leg_tree_model.so.013bd860370eec91)
+      set(_modeler_name liborthoglide_leg_tree_model.so.5e75d9cd7655b4d0)
     else()
       set(_modeler_name liborthoglide_leg_tree_model.a)
     endif()
@@ -39,5 +39,5 @@ endforeach()
 if(NOT TARGET orthoglide_leg_tree::orthoglide_leg_tree)
   set(orthoglide_leg_tree_FOUND FALSE)
   set(orthoglide_leg_tree_NOT_FOUND_MESSAGE
-    "no library of signature 013bd860370eec91 here that is ${_modeler_kinds}; install it again")
+    "no library of signature 5e75d9cd7655b4d0 here that is ${_modeler_kinds}; install it again")
 endif()

@@ -2,6 +2,32 @@
  *
  * Functions of orthoglide_leg_tree.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
+ *   h      angular momentum J w
+ *   f      force on the link
+ *   n      moment on the link at its origin
+ *   fc     force on the link and all that it carries
+ *   nc     moment on the link and all that it carries
+ *   MSc    first moments of the link and all that it carries
+ *   Jc     inertia of the link and all that it carries
+ *   Js     what moving the inertia to the origin of the antecedent adds
+ *   e_1    axes of the joints below, for unit speed of each
+ *   m_1    velocity of the origin, for unit speed of each joint below
+ *   lin_1  momentum of what hangs on a joint, for unit speed of it
+ *   ang_1  angular momentum of what hangs on a joint, for unit speed of it
+ *   x      axis x of the frame in frame 0
+ *   y      axis y of the frame in frame 0
+ *   o      origin of the frame in frame 0
+ *   ...a   in axes of the antecedent: ang, fc, Jc, lin, nc, vd
  */
 #include "orthoglide_leg_tree.h"
 
@@ -45,7 +71,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "013bd860370eec91";
+    return "5e75d9cd7655b4d0";
 }
 
 void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,
@@ -77,103 +103,154 @@ void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, con
     double s5, c5;
     modeler_sincos(q[5], &s5, &c5);
 
-    const double t1 = c5*qd[1];
-    const double t2 = qd[5]*qd[5];
-    const double t3 = s5*qd[1];
-    const double t4 = t3*t1;
-    const double t5 = c5*((t1*t1 + t2)*beta[30] + (qdd[5] - t4)*beta[31]);
-    const double t6 = qd[2] + qd[3];
-    const double t7 = s2*qd[1];
-    const double t8 = c2*qd[1];
-    const double t9 = c3*t7 + s3*t8;
-    const double t10 = c4*t6 + s4*t9;
-    const double t11 = c3*t8 - s3*t7;
-    const double t12 = qd[4] + t11;
-    const double t13 = t12*t12;
-    const double t14 = qd[2]*t7;
-    const double t15 = c2*qdd[1] - t14;
-    const double t16 = qd[2]*t8;
-    const double t17 = s2*qdd[1] + t16;
-    const double t18 = c3*t15 - s3*t17 - qd[3]*t9;
-    const double t19 = qdd[4] + t18;
-    const double t20 = c4*t9 - s4*t6;
-    const double t21 = t20*t10;
-    const double t22 = (t10*t10 + t13)*beta[23] + (t19 + t21)*beta[24];
-    const double t23 = (t20*t20 + t13)*beta[24] - (t19 - t21)*beta[23];
-    const double t24 = t6*t6;
-    const double t25 = qdd[2] + qdd[3];
-    const double t26 = t9*t11;
-    const double t27 = c4*t22 - s4*t23 + ((t11*t11 + t24)*beta[16] + (t25 - t26)*beta[17]);
-    const double t28 = c3*t17 + s3*t15 + qd[3]*t11;
-    const double t29 = c4*t25 + s4*t28 + qd[4]*t20;
-    const double t30 = c4*t28 - s4*t25 - qd[4]*t10;
-    const double t31 = (t29 + t20*t12)*beta[23] + (t30 - t10*t12)*beta[24];
-    const double t32 = (t25 + t26)*beta[16] - (t9*t9 + t24)*beta[17] + t31;
-    const double t33 = qd[2]*qd[2];
-    const double t34 = t8*t8 + t33;
-    const double t35 = t7*t8;
-    const double t36 = s3*t27 - c3*t32;
-    const double t37 = qdd[2] + t35;
-    const double t38 = c2*(c3*t27 + s3*t32 + (t34*beta[9] + (qdd[2] - t35)*beta[10]));
-    const double t39 = t5 - s5*((t3*t3 + t2)*beta[31] - (qdd[5] + t4)*beta[30]);
-    const double t40 = qd[1]*qd[1];
-    const double t41 = t38 - s2*((t7*t7 + t33)*beta[10] - t37*beta[9] + t36) + t39;
-    const double t42 = qd[5]*t3;
-    const double t43 = c5*qdd[1] - t42;
-    const double t44 = qd[5]*t1;
-    const double t45 = s5*qdd[1] + t44;
-    const double t46 = s4*t22 + c4*t23 + ((t28 + t11*t6)*beta[17] - (t18 - t9*t6)*beta[16]);
-    const double t47 = t14 - t15;
-    const double t48 = (t42 - t43)*beta[30] + (t44 + t45)*beta[31];
-    const double t49 = t47*beta[9] + (t16 + t17)*beta[10] + t46 + t48;
-    const double t50 = s1*(t40*beta[2] + qdd[1]*beta[3] + t41);
-    tau[0] = t50 + c1*(t40*beta[3] - qdd[1]*beta[2] + t49) + qdd[0]*beta[0];
-    const double t51 = t3*beta[27] + t1*beta[28] - qd[5]*beta[29];
-    const double t52 = t3*beta[26] - qd[5]*beta[28];
-    const double t53 = c1*qdd[0];
-    const double t54 = t1*t51 + qd[5]*t52 + (qdd[5]*beta[27] - (t45*beta[25] + t43*beta[26]));
-    const double t55 = t3*beta[25] + t1*beta[26] - qd[5]*beta[27];
-    const double t56 = c5*(qd[5]*t55 + t3*t51 + (t45*beta[26] - qdd[5]*beta[28]) - t53*beta[30]);
-    const double t57 = t20*beta[20] - t10*beta[21] - t12*beta[22];
-    const double t58 = t20*beta[19] - t12*beta[21];
-    const double t59 = s1*qdd[0];
-    const double t60 = orthoglide_leg_tree_geo_g*c2 + s2*t59;
-    const double t61 = t60 + orthoglide_leg_tree_geo_D4*t37;
-    const double t62 = c2*t59 - orthoglide_leg_tree_geo_g*s2;
-    const double t63 = t62 + orthoglide_leg_tree_geo_D4*t34;
-    const double t64 = c3*t61 + s3*t63;
-    const double t65 = t10*t57 - t12*t58 + (t30*beta[18] - t29*beta[19] - t19*beta[20]);
-    const double t66 = t65 + t64*beta[24];
-    const double t67 = t20*beta[18] - t10*beta[19] - t12*beta[20];
-    const double t68 = t12*t67 + t20*t57 + (t30*beta[19] - t19*beta[21]) - t64*beta[23];
-    const double t69 = t9*beta[13] + t11*beta[14] - t6*beta[15];
-    const double t70 = t9*beta[12] - t6*beta[14];
-    const double t71 = t53 + orthoglide_leg_tree_geo_D4*t47;
-    const double t72 = t11*t69 + t6*t70 + (t25*beta[13] - (t28*beta[11] + t18*beta[12]));
-    const double t73 = c4*t66 - s4*t68 + (t71*beta[17] - t72);
-    const double t74 = c3*t63 - s3*t61;
-    const double t75 = t20*t58 + t10*t67 + (t19*beta[22] - (t30*beta[20] - t29*beta[21]));
-    const double t76 = (c4*t74 + s4*t71)*beta[24] - (c4*t71 - s4*t74)*beta[23] + t75;
-    const double t77 = t9*beta[11] + t11*beta[12] - t6*beta[13];
-    const double t78 = t6*t77 + t9*t69 + (t28*beta[12] - t25*beta[14]) - t71*beta[16] + t76;
-    const double t79 = t7*beta[6] + t8*beta[7] - qd[2]*beta[8];
-    const double t80 = t7*beta[5] - qd[2]*beta[7];
-    const double t81 = t8*t79 + qd[2]*t80 + (qdd[2]*beta[6] - (t17*beta[4] + t15*beta[5]));
-    const double t82 = t7*beta[4] + t8*beta[5] - qd[2]*beta[6];
-    const double t83 = qd[2]*t82 + t7*t79 + (t17*beta[5] - qdd[2]*beta[7]) - t53*beta[9];
-    const double t84 = c2*(s3*t73 + c3*t78 - orthoglide_leg_tree_geo_D4*t46 + t83);
-    const double t85 = s2*(c3*t73 - s3*t78 + (t53*beta[10] - t81)) + t84;
-    const double t86 = t59*beta[3] - t53*beta[2] + qdd[1]*beta[1];
-    tau[1] = t86 - (s5*(t54 - t53*beta[31]) - t56 - t85);
-    const double t87 = t9*t70 - t11*t77 + (t25*beta[15] - (t28*beta[13] + t18*beta[14]));
-    const double t88 = s4*t66 + c4*t68 - (t64*beta[16] + t74*beta[17] + t87);
-    const double t89 = t7*t80 - t8*t82 + (qdd[2]*beta[8] - (t17*beta[6] + t15*beta[7]));
-    tau[2] = t60*beta[9] + t62*beta[10] + t89 - (t88 + orthoglide_leg_tree_geo_D4*t36);
-    tau[3] = -t88;
-    tau[4] = t76;
-    const double t90 = (orthoglide_leg_tree_geo_g*c5 + s5*t59)*beta[30];
-    const double t91 = t3*t52 - t1*t55 + (qdd[5]*beta[29] - (t45*beta[27] + t43*beta[28]));
-    tau[5] = t90 + (c5*t59 - orthoglide_leg_tree_geo_g*s5)*beta[31] + t91;
+    /* link 7: angular velocity, w7 = R7' w2 + qd7 z */
+    const double minus_w7_y = c5*qd[1];
+    const double ww7_zz = qd[5]*qd[5];
+    const double minus_w7_x = s5*qd[1];
+    const double ww7_xy = minus_w7_x*minus_w7_y;
+    const double t5 = c5*((minus_w7_y*minus_w7_y + ww7_zz)*beta[30] + (qdd[5] - ww7_xy)*beta[31]);
+    /* link 4: angular velocity, w4 = R4' w3 + qd4 z */
+    const double w4_z = qd[2] + qd[3];
+    /* link 3: angular velocity, w3 = R3' w2 + qd3 z */
+    const double minus_w3_x = s2*qd[1];
+    const double minus_w3_y = c2*qd[1];
+    const double minus_w4_x = c3*minus_w3_x + s3*minus_w3_y;
+    /* link 5: angular velocity, w5 = R5' w4 + qd5 z */
+    const double w5_y = c4*w4_z + s4*minus_w4_x;
+    const double minus_w4_y = c3*minus_w3_y - s3*minus_w3_x;
+    const double w5_z = qd[4] + minus_w4_y;
+    const double ww5_zz = w5_z*w5_z;
+    const double minus_ww3_xz = qd[2]*minus_w3_x;
+    /* link 3: angular acceleration, wd3 = R3' wd2 + (R3' w2) x qd3 z + qdd3 z */
+    const double minus_wd3_y = c2*qdd[1] - minus_ww3_xz;
+    const double minus_ww3_yz = qd[2]*minus_w3_y;
+    const double minus_wd3_x = s2*qdd[1] + minus_ww3_yz;
+    /* link 4: angular acceleration, wd4 = R4' wd3 + (R4' w3) x qd4 z + qdd4 z */
+    const double minus_wd4_y = c3*minus_wd3_y - s3*minus_wd3_x - qd[3]*minus_w4_x;
+    /* link 5: angular acceleration, wd5 = R5' wd4 + (R5' w4) x qd5 z + qdd5 z */
+    const double wd5_z = qdd[4] + minus_wd4_y;
+    const double minus_w5_x = c4*minus_w4_x - s4*w4_z;
+    const double minus_ww5_xy = minus_w5_x*w5_y;
+    /* link 5: force on the link, f5 = M5 vd5 + U5 MS5 */
+    const double minus_f5_x = (w5_y*w5_y + ww5_zz)*beta[23] + (wd5_z + minus_ww5_xy)*beta[24];
+    const double minus_f5_y = (minus_w5_x*minus_w5_x + ww5_zz)*beta[24] - (wd5_z -
+        minus_ww5_xy)*beta[23];
+    const double ww4_zz = w4_z*w4_z;
+    const double wd4_z = qdd[2] + qdd[3];
+    const double ww4_xy = minus_w4_x*minus_w4_y;
+    /* link 4: force on the link and all that it carries, fc4 = f4 + sum of R fc of what hangs on it
+        */
+    const double minus_fc4_x = c4*minus_f5_x - s4*minus_f5_y + ((minus_w4_y*minus_w4_y +
+        ww4_zz)*beta[16] + (wd4_z - ww4_xy)*beta[17]);
+    const double minus_wd4_x = c3*minus_wd3_x + s3*minus_wd3_y + qd[3]*minus_w4_y;
+    const double wd5_y = c4*wd4_z + s4*minus_wd4_x + qd[4]*minus_w5_x;
+    const double minus_wd5_x = c4*minus_wd4_x - s4*wd4_z - qd[4]*w5_y;
+    const double minus_f5_z = (wd5_y + minus_w5_x*w5_z)*beta[23] + (minus_wd5_x -
+        w5_y*w5_z)*beta[24];
+    const double fc4_y = (wd4_z + ww4_xy)*beta[16] - (minus_w4_x*minus_w4_x + ww4_zz)*beta[17] +
+        minus_f5_z;
+    const double ww3_zz = qd[2]*qd[2];
+    /* link 3: acceleration of points of the link, U3 = [wd3 x] + [w3 x][w3 x] */
+    const double minus_U3_xx = minus_w3_y*minus_w3_y + ww3_zz;
+    const double ww3_xy = minus_w3_x*minus_w3_y;
+    const double minus_fc4a_y = s3*minus_fc4_x - c3*fc4_y;
+    const double U3_yx = qdd[2] + ww3_xy;
+    const double t38 = c2*(c3*minus_fc4_x + s3*fc4_y + (minus_U3_xx*beta[9] + (qdd[2] -
+        ww3_xy)*beta[10]));
+    /* link 7: force on the link and all that it carries, fc7 = f7 + sum of R fc of what hangs on it
+        */
+    const double minus_fc7a_x = t5 - s5*((minus_w7_x*minus_w7_x + ww7_zz)*beta[31] - (qdd[5] +
+        ww7_xy)*beta[30]);
+    const double ww2_zz = qd[1]*qd[1];
+    const double t41 = t38 - s2*((minus_w3_x*minus_w3_x + ww3_zz)*beta[10] - U3_yx*beta[9] +
+        minus_fc4a_y) + minus_fc7a_x;
+    const double minus_ww7_xz = qd[5]*minus_w7_x;
+    /* link 7: angular acceleration, wd7 = R7' wd2 + (R7' w2) x qd7 z + qdd7 z */
+    const double minus_wd7_y = c5*qdd[1] - minus_ww7_xz;
+    const double minus_ww7_yz = qd[5]*minus_w7_y;
+    const double minus_wd7_x = s5*qdd[1] + minus_ww7_yz;
+    const double minus_fc4_z = s4*minus_f5_x + c4*minus_f5_y + ((minus_wd4_x +
+        minus_w4_y*w4_z)*beta[17] - (minus_wd4_y - minus_w4_x*w4_z)*beta[16]);
+    const double minus_U3_zx = minus_ww3_xz - minus_wd3_y;
+    /* link 7: force on the link, f7 = M7 vd7 + U7 MS7 */
+    const double minus_f7_z = (minus_ww7_xz - minus_wd7_y)*beta[30] + (minus_ww7_yz +
+        minus_wd7_x)*beta[31];
+    const double t49 = minus_U3_zx*beta[9] + (minus_ww3_yz + minus_wd3_x)*beta[10] + minus_fc4_z +
+        minus_f7_z;
+    const double t50 = s1*(ww2_zz*beta[2] + qdd[1]*beta[3] + t41);
+    tau[0] = t50 + c1*(ww2_zz*beta[3] - qdd[1]*beta[2] + t49) + qdd[0]*beta[0];
+    const double minus_h7_z = minus_w7_x*beta[27] + minus_w7_y*beta[28] - qd[5]*beta[29];
+    const double minus_h7_y = minus_w7_x*beta[26] - qd[5]*beta[28];
+    /* link 2: acceleration of the origin less gravity, vd2 = R2' (vd1 + U1 p2) */
+    const double minus_vd2_y = c1*qdd[0];
+    const double t54 = minus_w7_y*minus_h7_z + qd[5]*minus_h7_y + (qdd[5]*beta[27] -
+        (minus_wd7_x*beta[25] + minus_wd7_y*beta[26]));
+    const double minus_h7_x = minus_w7_x*beta[25] + minus_w7_y*beta[26] - qd[5]*beta[27];
+    const double t56 = c5*(qd[5]*minus_h7_x + minus_w7_x*minus_h7_z + (minus_wd7_x*beta[26] -
+        qdd[5]*beta[28]) - minus_vd2_y*beta[30]);
+    const double minus_h5_z = minus_w5_x*beta[20] - w5_y*beta[21] - w5_z*beta[22];
+    const double minus_h5_y = minus_w5_x*beta[19] - w5_z*beta[21];
+    const double minus_vd2_x = s1*qdd[0];
+    /* link 3: acceleration of the origin less gravity, vd3 = R3' (vd2 + U2 p3) */
+    const double vd3_y = orthoglide_leg_tree_geo_g*c2 + s2*minus_vd2_x;
+    /* link 4: acceleration of the origin less gravity, vd4 = R4' (vd3 + U3 p4) */
+    const double vd4a_y = vd3_y + orthoglide_leg_tree_geo_D4*U3_yx;
+    const double minus_vd3_x = c2*minus_vd2_x - orthoglide_leg_tree_geo_g*s2;
+    const double minus_vd4a_x = minus_vd3_x + orthoglide_leg_tree_geo_D4*minus_U3_xx;
+    const double vd4_y = c3*vd4a_y + s3*minus_vd4a_x;
+    const double t65 = w5_y*minus_h5_z - w5_z*minus_h5_y + (minus_wd5_x*beta[18] - wd5_y*beta[19] -
+        wd5_z*beta[20]);
+    /* link 5: moment on the link at its origin, n5 = J5 wd5 + w5 x J5 w5 + MS5 x vd5 */
+    const double minus_n5_x = t65 + vd4_y*beta[24];
+    const double minus_h5_x = minus_w5_x*beta[18] - w5_y*beta[19] - w5_z*beta[20];
+    const double minus_n5_y = w5_z*minus_h5_x + minus_w5_x*minus_h5_z + (minus_wd5_x*beta[19] -
+        wd5_z*beta[21]) - vd4_y*beta[23];
+    const double minus_h4_z = minus_w4_x*beta[13] + minus_w4_y*beta[14] - w4_z*beta[15];
+    const double minus_h4_y = minus_w4_x*beta[12] - w4_z*beta[14];
+    const double minus_vd4_z = minus_vd2_y + orthoglide_leg_tree_geo_D4*minus_U3_zx;
+    const double t72 = minus_w4_y*minus_h4_z + w4_z*minus_h4_y + (wd4_z*beta[13] -
+        (minus_wd4_x*beta[11] + minus_wd4_y*beta[12]));
+    /* link 4: moment on the link and all that it carries, nc4 = n4 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc4_x = c4*minus_n5_x - s4*minus_n5_y + (minus_vd4_z*beta[17] - t72);
+    const double minus_vd4_x = c3*minus_vd4a_x - s3*vd4a_y;
+    const double t75 = minus_w5_x*minus_h5_y + w5_y*minus_h5_x + (wd5_z*beta[22] -
+        (minus_wd5_x*beta[20] - wd5_y*beta[21]));
+    const double n5_z = (c4*minus_vd4_x + s4*minus_vd4_z)*beta[24] - (c4*minus_vd4_z -
+        s4*minus_vd4_x)*beta[23] + t75;
+    const double minus_h4_x = minus_w4_x*beta[11] + minus_w4_y*beta[12] - w4_z*beta[13];
+    const double minus_nc4_y = w4_z*minus_h4_x + minus_w4_x*minus_h4_z + (minus_wd4_x*beta[12] -
+        wd4_z*beta[14]) - minus_vd4_z*beta[16] + n5_z;
+    const double minus_h3_z = minus_w3_x*beta[6] + minus_w3_y*beta[7] - qd[2]*beta[8];
+    const double minus_h3_y = minus_w3_x*beta[5] - qd[2]*beta[7];
+    const double t81 = minus_w3_y*minus_h3_z + qd[2]*minus_h3_y + (qdd[2]*beta[6] -
+        (minus_wd3_x*beta[4] + minus_wd3_y*beta[5]));
+    const double minus_h3_x = minus_w3_x*beta[4] + minus_w3_y*beta[5] - qd[2]*beta[6];
+    /* link 3: moment on the link at its origin, n3 = J3 wd3 + w3 x J3 w3 + MS3 x vd3 */
+    const double minus_n3_y = qd[2]*minus_h3_x + minus_w3_x*minus_h3_z + (minus_wd3_x*beta[5] -
+        qdd[2]*beta[7]) - minus_vd2_y*beta[9];
+    const double t84 = c2*(s3*minus_nc4_x + c3*minus_nc4_y - orthoglide_leg_tree_geo_D4*minus_fc4_z
+        + minus_n3_y);
+    /* link 3: moment on the link and all that it carries, nc3 = n3 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc3a_z = s2*(c3*minus_nc4_x - s3*minus_nc4_y + (minus_vd2_y*beta[10] - t81)) + t84;
+    /* link 2: moment on the link at its origin, n2 = J2 wd2 + w2 x J2 w2 + MS2 x vd2 */
+    const double n2_z = minus_vd2_x*beta[3] - minus_vd2_y*beta[2] + qdd[1]*beta[1];
+    tau[1] = n2_z - (s5*(t54 - minus_vd2_y*beta[31]) - t56 - nc3a_z);
+    const double t87 = minus_w4_x*minus_h4_y - minus_w4_y*minus_h4_x + (wd4_z*beta[15] -
+        (minus_wd4_x*beta[13] + minus_wd4_y*beta[14]));
+    const double minus_nc4_z = s4*minus_n5_x + c4*minus_n5_y - (vd4_y*beta[16] +
+        minus_vd4_x*beta[17] + t87);
+    const double t89 = minus_w3_x*minus_h3_y - minus_w3_y*minus_h3_x + (qdd[2]*beta[8] -
+        (minus_wd3_x*beta[6] + minus_wd3_y*beta[7]));
+    tau[2] = vd3_y*beta[9] + minus_vd3_x*beta[10] + t89 - (minus_nc4_z +
+        orthoglide_leg_tree_geo_D4*minus_fc4a_y);
+    tau[3] = -minus_nc4_z;
+    tau[4] = n5_z;
+    const double t90 = (orthoglide_leg_tree_geo_g*c5 + s5*minus_vd2_x)*beta[30];
+    const double t91 = minus_w7_x*minus_h7_y - minus_w7_y*minus_h7_x + (qdd[5]*beta[29] -
+        (minus_wd7_x*beta[27] + minus_wd7_y*beta[28]));
+    tau[5] = t90 + (c5*minus_vd2_x - orthoglide_leg_tree_geo_g*s5)*beta[31] + t91;
 }
 
 /* Inertia matrix, rotor inertias included; symmetric.
@@ -202,77 +279,91 @@ void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta,
     modeler_sincos(q[5], &s5, &c5);
 
     M[0] = beta[0];
-    const double t1 = c4*beta[24] + s4*beta[23];
-    const double t2 = s4*beta[24] - c4*beta[23];
-    const double t3 = beta[16] - t2;
-    const double t4 = c3*beta[17] + s3*t3;
-    const double t5 = beta[10] + t4;
-    const double t6 = s3*beta[17] - c3*t3;
-    const double t7 = beta[9] - t6;
-    const double t8 = c1*(c5*beta[30] - s5*beta[31] + beta[2] + (c2*t7 - s2*t5));
-    const double t9 = s1*(beta[3] + t1) - t8;
-    M[1] = t9;
-    const double t10 = s1*(c2*t5 + s2*t7);
-    M[2] = t10;
-    const double t11 = s1*(c2*t4 - s2*t6);
-    M[3] = t11;
-    const double t12 = s3*t1;
-    const double t13 = s1*(c3*t1*c2 - s2*t12) + c1*t2;
-    M[4] = t13;
-    const double t14 = s1*(c5*beta[31] + s5*beta[30]);
-    M[5] = t14;
-    M[6] = t9;
+    /* link 4: first moments of the link and all that it carries, MSc4 = MS4 + sum of R MSc + Mc p
+        of what hangs on it */
+    const double MSc4_z = c4*beta[24] + s4*beta[23];
+    const double minus_lin5a_5z = s4*beta[24] - c4*beta[23];
+    const double MSc4_x = beta[16] - minus_lin5a_5z;
+    const double minus_lin4a_4x = c3*beta[17] + s3*MSc4_x;
+    /* link 3: first moments of the link and all that it carries, MSc3 = MS3 + sum of R MSc + Mc p
+        of what hangs on it */
+    const double MSc3_y = beta[10] + minus_lin4a_4x;
+    const double minus_lin4a_4y = s3*beta[17] - c3*MSc4_x;
+    const double MSc3_x = beta[9] - minus_lin4a_4y;
+    const double t8 = c1*(c5*beta[30] - s5*beta[31] + beta[2] + (c2*MSc3_x - s2*MSc3_y));
+    /* link 1: first moments of the link and all that it carries, MSc1 = MS1 + sum of R MSc + Mc p
+        of what hangs on it */
+    const double minus_MSc1_x = s1*(beta[3] + MSc4_z) - t8;
+    M[1] = minus_MSc1_x;
+    const double lin2a_3z = s1*(c2*MSc3_y + s2*MSc3_x);
+    M[2] = lin2a_3z;
+    const double lin2a_4z = s1*(c2*minus_lin4a_4x - s2*minus_lin4a_4y);
+    M[3] = lin2a_4z;
+    const double minus_lin4a_5y = s3*MSc4_z;
+    const double lin2a_5z = s1*(c3*MSc4_z*c2 - s2*minus_lin4a_5y) + c1*minus_lin5a_5z;
+    M[4] = lin2a_5z;
+    const double lin2a_7z = s1*(c5*beta[31] + s5*beta[30]);
+    M[5] = lin2a_7z;
+    M[6] = minus_MSc1_x;
     const double t15 = c5*beta[26];
     const double t16 = c4*beta[18] - s4*beta[19];
     const double t17 = c4*beta[19];
     const double t18 = s4*t17;
-    const double t19 = c4*t16 - t18 + beta[11];
-    const double t20 = c4*beta[20] - s4*beta[21];
-    const double t21 = beta[12] - t20;
-    const double t22 = s3*t21;
-    const double t23 = c3*t19 - t22;
+    /* link 4: inertia of the link and all that it carries, Jc4 = J4 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc4_xx = c4*t16 - t18 + beta[11];
+    const double ang5a_5x = c4*beta[20] - s4*beta[21];
+    const double Jc4_xy = beta[12] - ang5a_5x;
+    const double t22 = s3*Jc4_xy;
+    const double t23 = c3*Jc4_xx - t22;
     const double t24 = s3*beta[22];
-    const double t25 = c3*t21;
+    const double t25 = c3*Jc4_xy;
     const double t26 = t24 - t25;
-    const double t27 = s3*t23 - c3*t26 + beta[5] - orthoglide_leg_tree_geo_D4*t4;
+    /* link 3: inertia of the link and all that it carries, Jc3 = J3 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc3_xy = s3*t23 - c3*t26 + beta[5] - orthoglide_leg_tree_geo_D4*minus_lin4a_4x;
     const double t28 = c3*beta[22];
-    const double t29 = k1*t6;
-    const double t30 = c2*(s2*t27 + c2*(s3*(s3*t19 + t25) + c3*(t28 + t22) - t29));
-    const double t31 = s2*(s2*(c3*t23 + s3*t26 + beta[4]) + c2*t27) + t30;
-    M[7] = s5*t15 + s5*(s5*beta[25] + t15) + beta[1] + t31;
-    const double t32 = s4*t16 + c4*t17 + beta[13];
-    const double t33 = s4*beta[20] + c4*beta[21];
-    const double t34 = beta[14] - t33;
-    const double t35 = c3*t32 - s3*t34;
-    const double t36 = s3*t32 + c3*t34;
-    const double t37 = s2*(beta[6] + t35 - orthoglide_leg_tree_geo_D4*t1) + c2*(beta[7] + t36);
-    M[8] = -t37;
-    const double t38 = s2*t35 + c2*t36;
-    M[9] = -t38;
-    const double t39 = s2*(c3*t20 + t24) + c2*(s3*t20 - t28 + orthoglide_leg_tree_geo_D4*t2);
-    M[10] = -t39;
-    const double t40 = s5*beta[27] + c5*beta[28];
-    M[11] = -t40;
-    M[12] = t10;
-    M[13] = -t37;
-    const double t41 = t18 + s4*(s4*beta[18] + t17) + beta[15];
-    M[14] = beta[8] + t41 - t29;
-    const double t42 = t41 - orthoglide_leg_tree_geo_D4*t6;
-    M[15] = t42;
-    const double t43 = t33 - orthoglide_leg_tree_geo_D4*t12;
-    M[16] = t43;
-    M[18] = t11;
-    M[19] = -t38;
-    M[20] = t42;
-    M[21] = t41;
-    M[22] = t33;
-    M[24] = t13;
-    M[25] = -t39;
-    M[26] = t43;
-    M[27] = t33;
+    const double minus_Js4_yy = k1*minus_lin4a_4y;
+    const double t30 = c2*(s2*Jc3_xy + c2*(s3*(s3*Jc4_xx + t25) + c3*(t28 + t22) - minus_Js4_yy));
+    const double Jc3a_zz = s2*(s2*(c3*t23 + s3*t26 + beta[4]) + c2*Jc3_xy) + t30;
+    M[7] = s5*t15 + s5*(s5*beta[25] + t15) + beta[1] + Jc3a_zz;
+    const double Jc4_xz = s4*t16 + c4*t17 + beta[13];
+    const double ang5a_5z = s4*beta[20] + c4*beta[21];
+    const double Jc4_yz = beta[14] - ang5a_5z;
+    const double ang4a_4x = c3*Jc4_xz - s3*Jc4_yz;
+    const double ang4a_4y = s3*Jc4_xz + c3*Jc4_yz;
+    const double minus_ang3a_3z = s2*(beta[6] + ang4a_4x - orthoglide_leg_tree_geo_D4*MSc4_z) +
+        c2*(beta[7] + ang4a_4y);
+    M[8] = -minus_ang3a_3z;
+    const double minus_ang3a_4z = s2*ang4a_4x + c2*ang4a_4y;
+    M[9] = -minus_ang3a_4z;
+    const double minus_ang3a_5z = s2*(c3*ang5a_5x + t24) + c2*(s3*ang5a_5x - t28 +
+        orthoglide_leg_tree_geo_D4*minus_lin5a_5z);
+    M[10] = -minus_ang3a_5z;
+    /* link 2: inertia of the link and all that it carries, Jc2 = J2 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double minus_Jc2_yz = s5*beta[27] + c5*beta[28];
+    M[11] = -minus_Jc2_yz;
+    M[12] = lin2a_3z;
+    M[13] = -minus_ang3a_3z;
+    const double Jc4_zz = t18 + s4*(s4*beta[18] + t17) + beta[15];
+    M[14] = beta[8] + Jc4_zz - minus_Js4_yy;
+    const double ang4a_4z = Jc4_zz - orthoglide_leg_tree_geo_D4*minus_lin4a_4y;
+    M[15] = ang4a_4z;
+    const double ang4a_5z = ang5a_5z - orthoglide_leg_tree_geo_D4*minus_lin4a_5y;
+    M[16] = ang4a_5z;
+    M[18] = lin2a_4z;
+    M[19] = -minus_ang3a_4z;
+    M[20] = ang4a_4z;
+    M[21] = Jc4_zz;
+    M[22] = ang5a_5z;
+    M[24] = lin2a_5z;
+    M[25] = -minus_ang3a_5z;
+    M[26] = ang4a_5z;
+    M[27] = ang5a_5z;
     M[28] = beta[22];
-    M[30] = t14;
-    M[31] = -t40;
+    M[30] = lin2a_7z;
+    M[31] = -minus_Jc2_yz;
     M[35] = beta[29];
 }
 
@@ -292,14 +383,19 @@ void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *MO
     double s5, c5;
     modeler_sincos(q[5], &s5, &c5);
 
-    const double t1 = orthoglide_leg_tree_geo_g*c2;
-    const double t2 = orthoglide_leg_tree_geo_g*s2;
-    const double t3 = c3*t1 - s3*t2;
-    const double t4 = c3*t2 + s3*t1;
-    const double t5 = beta[24]*t3*s4 - beta[23]*t3*c4 + (beta[17]*t4 - beta[16]*t3);
-    tau[2] = t1*beta[9] - t2*beta[10] - t5;
-    tau[3] = -t5;
-    tau[4] = -(s4*t4*beta[23] + c4*t4*beta[24]);
+    /* link 3: acceleration of the origin less gravity, vd3 = R3' (vd2 + U2 p3) */
+    const double vd3_y = orthoglide_leg_tree_geo_g*c2;
+    const double vd3_x = orthoglide_leg_tree_geo_g*s2;
+    /* link 4: acceleration of the origin less gravity, vd4 = R4' (vd3 + U3 p4) */
+    const double vd4_y = c3*vd3_y - s3*vd3_x;
+    const double vd4_x = c3*vd3_x + s3*vd3_y;
+    /* link 4: moment on the link and all that it carries, nc4 = n4 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc4_z = beta[24]*vd4_y*s4 - beta[23]*vd4_y*c4 + (beta[17]*vd4_x -
+        beta[16]*vd4_y);
+    tau[2] = vd3_y*beta[9] - vd3_x*beta[10] - minus_nc4_z;
+    tau[3] = -minus_nc4_z;
+    tau[4] = -(s4*vd4_x*beta[23] + c4*vd4_x*beta[24]);
     const double t6 = orthoglide_leg_tree_geo_g*c5*beta[30];
     tau[5] = t6 - orthoglide_leg_tree_geo_g*s5*beta[31];
 }
@@ -322,84 +418,123 @@ void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const doubl
     double s5, c5;
     modeler_sincos(q[5], &s5, &c5);
 
-    const double t1 = c5*qd[1];
-    const double t2 = qd[5]*qd[5];
-    const double t3 = s5*qd[1];
-    const double t4 = t3*t1;
-    const double t5 = c5*((t1*t1 + t2)*beta[30] - t4*beta[31]);
-    const double t6 = qd[2] + qd[3];
-    const double t7 = s2*qd[1];
-    const double t8 = c2*qd[1];
-    const double t9 = c3*t7 + s3*t8;
-    const double t10 = c4*t6 + s4*t9;
-    const double t11 = c3*t8 - s3*t7;
-    const double t12 = qd[4] + t11;
-    const double t13 = t12*t12;
-    const double t14 = t9*t6;
-    const double t15 = c4*t9 - s4*t6;
-    const double t16 = t15*t10;
-    const double t17 = (t10*t10 + t13)*beta[23] - beta[24]*(t14 - t16);
-    const double t18 = beta[23]*(t14 + t16) + (t15*t15 + t13)*beta[24];
-    const double t19 = t6*t6;
-    const double t20 = t9*t11;
-    const double t21 = c4*t17 - s4*t18 + ((t11*t11 + t19)*beta[16] - t20*beta[17]);
-    const double t22 = t11*t6;
-    const double t23 = qd[4]*t15 + s4*t22;
-    const double t24 = qd[4]*t10 - c4*t22;
-    const double t25 = beta[23]*(t15*t12 + t23) - beta[24]*(t10*t12 + t24);
-    const double t26 = t20*beta[16] - (t9*t9 + t19)*beta[17] + t25;
-    const double t27 = qd[2]*qd[2];
-    const double t28 = t8*t8 + t27;
-    const double t29 = t7*t8;
-    const double t30 = s3*t21 - c3*t26;
-    const double t31 = c2*(c3*t21 + s3*t26 + (t28*beta[9] - t29*beta[10]));
-    const double t32 = t31 - s2*((t7*t7 + t27)*beta[10] - t29*beta[9] + t30);
-    const double t33 = qd[1]*qd[1];
-    const double t34 = qd[5]*t3;
-    const double t35 = qd[5]*t1;
-    const double t36 = s4*t17 + c4*t18 + (2.0*t14*beta[16] + 2.0*t22*beta[17]);
-    const double t37 = qd[2]*t7;
-    const double t38 = qd[2]*t8;
-    const double t39 = 2.0*t37*beta[9] + 2.0*t38*beta[10] + t36;
-    const double t40 = s1*(t5 + s5*(t4*beta[30] - (t3*t3 + t2)*beta[31]) + t32 + t33*beta[2]);
-    tau[0] = t40 + c1*(2.0*t34*beta[30] + 2.0*t35*beta[31] + t39 + t33*beta[3]);
-    const double t41 = t3*beta[27] + t1*beta[28] - qd[5]*beta[29];
-    const double t42 = t3*beta[26] - qd[5]*beta[28];
-    const double t43 = t3*beta[25] + t1*beta[26] - qd[5]*beta[27];
-    const double t44 = s5*(t35*beta[25] - t34*beta[26] - (t1*t41 + qd[5]*t42));
-    const double t45 = t15*beta[20] - t10*beta[21] - t12*beta[22];
-    const double t46 = t15*beta[19] - t12*beta[21];
-    const double t47 = orthoglide_leg_tree_geo_D4*t29;
-    const double t48 = orthoglide_leg_tree_geo_D4*t28;
-    const double t49 = c3*t47 + s3*t48;
-    const double t50 = beta[18]*t24 + beta[19]*t23 - t14*beta[20] + (t12*t46 - t10*t45);
-    const double t51 = t50 - beta[24]*t49;
-    const double t52 = t15*beta[18] - t10*beta[19] - t12*beta[20];
-    const double t53 = beta[19]*t24 - t14*beta[21] - (t12*t52 + t15*t45) + beta[23]*t49;
-    const double t54 = t9*beta[13] + t11*beta[14] - t6*beta[15];
-    const double t55 = t9*beta[12] - t6*beta[14];
-    const double t56 = k1*t37;
-    const double t57 = t22*beta[11] - t14*beta[12] - (t11*t54 + t6*t55) + beta[17]*t56;
-    const double t58 = c4*t51 - s4*t53 - t57;
-    const double t59 = c3*t48 - s3*t47;
-    const double t60 = beta[20]*t24 + beta[21]*t23 - t14*beta[22] + (t15*t46 + t10*t52);
-    const double t61 = beta[24]*(c4*t59 + s4*t56) - beta[23]*(c4*t56 - s4*t59) + t60;
-    const double t62 = t9*beta[11] + t11*beta[12] - t6*beta[13];
-    const double t63 = t6*t62 + t9*t54 + t22*beta[12] - beta[16]*t56 + t61;
-    const double t64 = t7*beta[6] + t8*beta[7] - qd[2]*beta[8];
-    const double t65 = t7*beta[5] - qd[2]*beta[7];
-    const double t66 = t7*beta[4] + t8*beta[5] - qd[2]*beta[6];
-    const double t67 = s3*t58 - c3*t63 + orthoglide_leg_tree_geo_D4*t36;
-    const double t68 = s2*(c3*t58 + s3*t63 + (t8*t64 + qd[2]*t65 - (t38*beta[4] - t37*beta[5])));
-    const double t69 = t68 + c2*(t67 - (qd[2]*t66 + t7*t64 + t38*beta[5]));
-    tau[1] = t44 + c5*(qd[5]*t43 + t3*t41 + t35*beta[26]) - t69;
-    const double t70 = t22*beta[13] - t14*beta[14] + (t11*t62 - t9*t55);
-    const double t71 = s4*t51 + c4*t53 + (beta[16]*t49 + beta[17]*t59 - t70);
-    const double t72 = t38*beta[6] - t37*beta[7] + (t8*t66 - t7*t65);
-    tau[2] = t71 - orthoglide_leg_tree_geo_D4*t30 - t72;
-    tau[3] = t71;
-    tau[4] = t61;
-    tau[5] = t3*t42 - t1*t43 - (t35*beta[27] - t34*beta[28]);
+    /* link 7: angular velocity, w7 = R7' w2 + qd7 z */
+    const double minus_w7_y = c5*qd[1];
+    const double ww7_zz = qd[5]*qd[5];
+    const double minus_w7_x = s5*qd[1];
+    const double ww7_xy = minus_w7_x*minus_w7_y;
+    const double t5 = c5*((minus_w7_y*minus_w7_y + ww7_zz)*beta[30] - ww7_xy*beta[31]);
+    /* link 4: angular velocity, w4 = R4' w3 + qd4 z */
+    const double w4_z = qd[2] + qd[3];
+    /* link 3: angular velocity, w3 = R3' w2 + qd3 z */
+    const double minus_w3_x = s2*qd[1];
+    const double minus_w3_y = c2*qd[1];
+    const double minus_w4_x = c3*minus_w3_x + s3*minus_w3_y;
+    /* link 5: angular velocity, w5 = R5' w4 + qd5 z */
+    const double w5_y = c4*w4_z + s4*minus_w4_x;
+    const double minus_w4_y = c3*minus_w3_y - s3*minus_w3_x;
+    const double w5_z = qd[4] + minus_w4_y;
+    const double ww5_zz = w5_z*w5_z;
+    const double minus_ww4_xz = minus_w4_x*w4_z;
+    const double minus_w5_x = c4*minus_w4_x - s4*w4_z;
+    const double minus_ww5_xy = minus_w5_x*w5_y;
+    /* link 5: force on the link, f5 = M5 vd5 + U5 MS5 */
+    const double minus_f5_x = (w5_y*w5_y + ww5_zz)*beta[23] - beta[24]*(minus_ww4_xz -
+        minus_ww5_xy);
+    const double minus_f5_y = beta[23]*(minus_ww4_xz + minus_ww5_xy) + (minus_w5_x*minus_w5_x +
+        ww5_zz)*beta[24];
+    const double ww4_zz = w4_z*w4_z;
+    const double ww4_xy = minus_w4_x*minus_w4_y;
+    /* link 4: force on the link and all that it carries, fc4 = f4 + sum of R fc of what hangs on it
+        */
+    const double minus_fc4_x = c4*minus_f5_x - s4*minus_f5_y + ((minus_w4_y*minus_w4_y +
+        ww4_zz)*beta[16] - ww4_xy*beta[17]);
+    const double minus_ww4_yz = minus_w4_y*w4_z;
+    /* link 5: angular acceleration, wd5 = R5' wd4 + (R5' w4) x qd5 z + qdd5 z */
+    const double wd5_y = qd[4]*minus_w5_x + s4*minus_ww4_yz;
+    const double wd5_x = qd[4]*w5_y - c4*minus_ww4_yz;
+    const double minus_f5_z = beta[23]*(minus_w5_x*w5_z + wd5_y) - beta[24]*(w5_y*w5_z + wd5_x);
+    const double fc4_y = ww4_xy*beta[16] - (minus_w4_x*minus_w4_x + ww4_zz)*beta[17] + minus_f5_z;
+    const double ww3_zz = qd[2]*qd[2];
+    /* link 3: acceleration of points of the link, U3 = [wd3 x] + [w3 x][w3 x] */
+    const double minus_U3_xx = minus_w3_y*minus_w3_y + ww3_zz;
+    const double ww3_xy = minus_w3_x*minus_w3_y;
+    const double minus_fc4a_y = s3*minus_fc4_x - c3*fc4_y;
+    const double t31 = c2*(c3*minus_fc4_x + s3*fc4_y + (minus_U3_xx*beta[9] - ww3_xy*beta[10]));
+    /* link 3: force on the link and all that it carries, fc3 = f3 + sum of R fc of what hangs on it
+        */
+    const double minus_fc3a_x = t31 - s2*((minus_w3_x*minus_w3_x + ww3_zz)*beta[10] - ww3_xy*beta[9]
+        + minus_fc4a_y);
+    const double ww2_zz = qd[1]*qd[1];
+    const double minus_ww7_xz = qd[5]*minus_w7_x;
+    const double minus_ww7_yz = qd[5]*minus_w7_y;
+    const double minus_fc4_z = s4*minus_f5_x + c4*minus_f5_y + (2.0*minus_ww4_xz*beta[16] +
+        2.0*minus_ww4_yz*beta[17]);
+    const double minus_ww3_xz = qd[2]*minus_w3_x;
+    const double minus_ww3_yz = qd[2]*minus_w3_y;
+    const double minus_fc3_z = 2.0*minus_ww3_xz*beta[9] + 2.0*minus_ww3_yz*beta[10] + minus_fc4_z;
+    const double t40 = s1*(t5 + s5*(ww7_xy*beta[30] - (minus_w7_x*minus_w7_x + ww7_zz)*beta[31]) +
+        minus_fc3a_x + ww2_zz*beta[2]);
+    tau[0] = t40 + c1*(2.0*minus_ww7_xz*beta[30] + 2.0*minus_ww7_yz*beta[31] + minus_fc3_z +
+        ww2_zz*beta[3]);
+    const double minus_h7_z = minus_w7_x*beta[27] + minus_w7_y*beta[28] - qd[5]*beta[29];
+    const double minus_h7_y = minus_w7_x*beta[26] - qd[5]*beta[28];
+    const double minus_h7_x = minus_w7_x*beta[25] + minus_w7_y*beta[26] - qd[5]*beta[27];
+    const double t44 = s5*(minus_ww7_yz*beta[25] - minus_ww7_xz*beta[26] - (minus_w7_y*minus_h7_z +
+        qd[5]*minus_h7_y));
+    const double minus_h5_z = minus_w5_x*beta[20] - w5_y*beta[21] - w5_z*beta[22];
+    const double minus_h5_y = minus_w5_x*beta[19] - w5_z*beta[21];
+    /* link 4: acceleration of the origin less gravity, vd4 = R4' (vd3 + U3 p4) */
+    const double vd4a_y = orthoglide_leg_tree_geo_D4*ww3_xy;
+    const double minus_vd4a_x = orthoglide_leg_tree_geo_D4*minus_U3_xx;
+    const double vd4_y = c3*vd4a_y + s3*minus_vd4a_x;
+    const double t50 = beta[18]*wd5_x + beta[19]*wd5_y - minus_ww4_xz*beta[20] + (w5_z*minus_h5_y -
+        w5_y*minus_h5_z);
+    /* link 5: moment on the link at its origin, n5 = J5 wd5 + w5 x J5 w5 + MS5 x vd5 */
+    const double n5_x = t50 - beta[24]*vd4_y;
+    const double minus_h5_x = minus_w5_x*beta[18] - w5_y*beta[19] - w5_z*beta[20];
+    const double n5_y = beta[19]*wd5_x - minus_ww4_xz*beta[21] - (w5_z*minus_h5_x +
+        minus_w5_x*minus_h5_z) + beta[23]*vd4_y;
+    const double minus_h4_z = minus_w4_x*beta[13] + minus_w4_y*beta[14] - w4_z*beta[15];
+    const double minus_h4_y = minus_w4_x*beta[12] - w4_z*beta[14];
+    const double minus_vd4_z = k1*minus_ww3_xz;
+    /* link 4: moment on the link at its origin, n4 = J4 wd4 + w4 x J4 w4 + MS4 x vd4 */
+    const double minus_n4_x = minus_ww4_yz*beta[11] - minus_ww4_xz*beta[12] - (minus_w4_y*minus_h4_z
+        + w4_z*minus_h4_y) + beta[17]*minus_vd4_z;
+    /* link 4: moment on the link and all that it carries, nc4 = n4 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc4_x = c4*n5_x - s4*n5_y - minus_n4_x;
+    const double minus_vd4_x = c3*minus_vd4a_x - s3*vd4a_y;
+    const double t60 = beta[20]*wd5_x + beta[21]*wd5_y - minus_ww4_xz*beta[22] +
+        (minus_w5_x*minus_h5_y + w5_y*minus_h5_x);
+    const double n5_z = beta[24]*(c4*minus_vd4_x + s4*minus_vd4_z) - beta[23]*(c4*minus_vd4_z -
+        s4*minus_vd4_x) + t60;
+    const double minus_h4_x = minus_w4_x*beta[11] + minus_w4_y*beta[12] - w4_z*beta[13];
+    const double minus_nc4_y = w4_z*minus_h4_x + minus_w4_x*minus_h4_z + minus_ww4_yz*beta[12] -
+        beta[16]*minus_vd4_z + n5_z;
+    const double minus_h3_z = minus_w3_x*beta[6] + minus_w3_y*beta[7] - qd[2]*beta[8];
+    const double minus_h3_y = minus_w3_x*beta[5] - qd[2]*beta[7];
+    const double minus_h3_x = minus_w3_x*beta[4] + minus_w3_y*beta[5] - qd[2]*beta[6];
+    const double nc4a_y = s3*nc4_x - c3*minus_nc4_y + orthoglide_leg_tree_geo_D4*minus_fc4_z;
+    const double t68 = s2*(c3*nc4_x + s3*minus_nc4_y + (minus_w3_y*minus_h3_z + qd[2]*minus_h3_y -
+        (minus_ww3_yz*beta[4] - minus_ww3_xz*beta[5])));
+    /* link 3: moment on the link and all that it carries, nc3 = n3 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc3a_z = t68 + c2*(nc4a_y - (qd[2]*minus_h3_x + minus_w3_x*minus_h3_z +
+        minus_ww3_yz*beta[5]));
+    tau[1] = t44 + c5*(qd[5]*minus_h7_x + minus_w7_x*minus_h7_z + minus_ww7_yz*beta[26]) -
+        minus_nc3a_z;
+    const double t70 = minus_ww4_yz*beta[13] - minus_ww4_xz*beta[14] + (minus_w4_y*minus_h4_x -
+        minus_w4_x*minus_h4_y);
+    const double nc4_z = s4*n5_x + c4*n5_y + (beta[16]*vd4_y + beta[17]*minus_vd4_x - t70);
+    /* link 3: moment on the link at its origin, n3 = J3 wd3 + w3 x J3 w3 + MS3 x vd3 */
+    const double minus_n3_z = minus_ww3_yz*beta[6] - minus_ww3_xz*beta[7] + (minus_w3_y*minus_h3_x -
+        minus_w3_x*minus_h3_y);
+    tau[2] = nc4_z - orthoglide_leg_tree_geo_D4*minus_fc4a_y - minus_n3_z;
+    tau[3] = nc4_z;
+    tau[4] = n5_z;
+    tau[5] = minus_w7_x*minus_h7_y - minus_w7_y*minus_h7_x - (minus_ww7_yz*beta[27] -
+        minus_ww7_xz*beta[28]);
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets.
@@ -488,59 +623,65 @@ void orthoglide_leg_tree_forward_kinematics(const double *q, double *MODELER_RES
     T[20] = -s1;
     T[21] = -c1;
     T[23] = q[0];
-    const double t1 = c1*c2;
-    T[24] = t1;
-    const double t2 = c1*s2;
-    T[25] = -t2;
+    const double x3_x = c1*c2;
+    T[24] = x3_x;
+    const double minus_y3_x = c1*s2;
+    T[25] = -minus_y3_x;
     MODELER_ZEROS(T + 6, 4);
     T[26] = -s1;
     T[28] = -s2;
     T[29] = -c2;
     T[31] = orthoglide_leg_tree_geo_b3;
-    const double t3 = s1*c2;
-    T[32] = -t3;
+    /* link 3: velocity of the origin, for unit speed of each joint below, m3 = R3' (m2 + e2 x p3)
+        */
+    const double minus_m3_1x = s1*c2;
+    T[32] = -minus_m3_1x;
     MODELER_ZEROS(T + 14, 4);
-    const double t4 = s1*s2;
-    T[33] = t4;
+    const double m3_1y = s1*s2;
+    T[33] = m3_1y;
     T[34] = -c1;
     T[35] = q[0];
-    const double t5 = c3*t1 - s3*t2;
-    T[36] = t5;
-    const double t6 = c3*t2 + s3*t1;
+    const double x4_x = c3*x3_x - s3*minus_y3_x;
+    T[36] = x4_x;
+    const double minus_y4_x = c3*minus_y3_x + s3*x3_x;
     MODELER_ZEROS(T + 19, 1);
-    T[37] = -t6;
+    T[37] = -minus_y4_x;
     T[38] = -s1;
-    const double t7 = orthoglide_leg_tree_geo_D4*t1;
-    T[39] = t7;
-    const double t8 = s2*c3 + c2*s3;
-    T[40] = -t8;
+    /* link 4: origin of the frame in frame 0, o4 = o3 + [x3 y3 z3] p4 */
+    const double o4_x = orthoglide_leg_tree_geo_D4*x3_x;
+    T[39] = o4_x;
+    /* link 4: axes of the joints below, for unit speed of each, e4 = R4' e3 */
+    const double minus_e4_2x = s2*c3 + c2*s3;
+    T[40] = -minus_e4_2x;
     MODELER_ZEROS(T + 22, 1);
-    const double t9 = c2*c3 - s2*s3;
-    T[41] = -t9;
-    const double t10 = orthoglide_leg_tree_geo_b3 - orthoglide_leg_tree_geo_D4*s2;
-    T[43] = t10;
-    const double t11 = c3*t3 - s3*t4;
-    T[44] = -t11;
-    const double t12 = c3*t4 + s3*t3;
+    const double minus_e4_2y = c2*c3 - s2*s3;
+    T[41] = -minus_e4_2y;
+    const double o4_y = orthoglide_leg_tree_geo_b3 - orthoglide_leg_tree_geo_D4*s2;
+    T[43] = o4_y;
+    /* link 4: velocity of the origin, for unit speed of each joint below, m4 = R4' (m3 + e3 x p4)
+        */
+    const double minus_m4_1x = c3*minus_m3_1x - s3*m3_1y;
+    T[44] = -minus_m4_1x;
+    const double m4_1y = c3*m3_1y + s3*minus_m3_1x;
     MODELER_ZEROS(T + 27, 1);
-    T[45] = t12;
+    T[45] = m4_1y;
     T[46] = -c1;
-    const double t13 = q[0] - orthoglide_leg_tree_geo_D4*t3;
-    T[47] = t13;
-    T[48] = c4*t5 - s1*s4;
-    T[49] = -(s1*c4 + s4*t5);
-    T[50] = t6;
+    const double o4_z = q[0] - orthoglide_leg_tree_geo_D4*minus_m3_1x;
+    T[47] = o4_z;
+    T[48] = c4*x4_x - s1*s4;
+    T[49] = -(s1*c4 + s4*x4_x);
+    T[50] = minus_y4_x;
     MODELER_ZEROS(T + 30, 1);
-    T[51] = t7;
-    T[52] = -c4*t8;
-    T[53] = s4*t8;
-    T[54] = t9;
-    T[55] = t10;
-    T[56] = -(c4*t11 + c1*s4);
+    T[51] = o4_x;
+    T[52] = -c4*minus_e4_2x;
+    T[53] = s4*minus_e4_2x;
+    T[54] = minus_e4_2y;
+    T[55] = o4_y;
+    T[56] = -(c4*minus_m4_1x + c1*s4);
     MODELER_ZEROS(T + 42, 1);
-    T[57] = s4*t11 - c1*c4;
-    T[58] = -t12;
-    T[59] = t13;
+    T[57] = s4*minus_m4_1x - c1*c4;
+    T[58] = -m4_1y;
+    T[59] = o4_z;
     T[60] = c1*c5;
     T[61] = -c1*s5;
     T[62] = -s1;

@@ -18,7 +18,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_leg_tree_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE "013bd860370eec91"
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE "5e75d9cd7655b4d0"
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x5e75d9cdu
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x7655b4d0u
 
 #define ORTHOGLIDE_LEG_TREE_JOINTS 6
 #define ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS 60

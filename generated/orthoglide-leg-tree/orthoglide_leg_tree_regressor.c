@@ -2,6 +2,20 @@
  *
  * Functions of orthoglide_leg_tree.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
+ *   n_1    moment on the link at its origin for one unit of a parameter
+ *   e_1    axes of the joints below, for unit speed of each
+ *   m_1    velocity of the origin, for unit speed of each joint below
+ *   ...a   in axes of the antecedent: vd
  */
 #include "orthoglide_leg_tree.h"
 
@@ -48,288 +62,319 @@ void orthoglide_leg_tree_regressor(const double *q, const double *qd, const doub
 
     phi[9] = qdd[0];
     phi[75] = qdd[1];
-    const double t1 = qd[1]*qd[1];
-    phi[16] = s1*t1 - c1*qdd[1];
-    const double t2 = c1*qdd[0];
-    phi[76] = -t2;
+    const double ww2_zz = qd[1]*qd[1];
+    phi[16] = s1*ww2_zz - c1*qdd[1];
+    /* link 2: acceleration of the origin less gravity, vd2 = R2' (vd1 + U1 p2) */
+    const double minus_vd2_y = c1*qdd[0];
+    phi[76] = -minus_vd2_y;
     MODELER_ZEROS(phi + 0, 8);
-    const double t3 = s1*qdd[1] + c1*t1;
+    const double t3 = s1*qdd[1] + c1*ww2_zz;
     phi[17] = t3;
-    const double t4 = s1*qdd[0];
-    phi[77] = t4;
+    const double minus_vd2_x = s1*qdd[0];
+    phi[77] = minus_vd2_x;
     phi[19] = qdd[0];
-    const double t5 = s2*qdd[1];
+    /* link 3: acceleration of points of the link, U3 = [wd3 x] + [w3 x][w3 x] */
+    const double U3_yz = s2*qdd[1];
     MODELER_ZEROS(phi + 8, 1);
-    const double t6 = c2*qd[1];
-    const double t7 = qd[2]*t6;
-    const double t8 = t5 + t7;
-    const double t9 = s2*qd[1];
-    const double t10 = qd[2]*t9;
-    const double t11 = c2*t10;
+    /* link 3: angular velocity, w3 = R3' w2 + qd3 z */
+    const double minus_w3_y = c2*qd[1];
+    const double minus_ww3_yz = qd[2]*minus_w3_y;
+    /* link 3: angular acceleration, wd3 = R3' wd2 + (R3' w2) x qd3 z + qdd3 z */
+    const double minus_wd3_x = U3_yz + minus_ww3_yz;
+    const double minus_w3_x = s2*qd[1];
+    const double minus_ww3_xz = qd[2]*minus_w3_x;
+    const double t11 = c2*minus_ww3_xz;
     MODELER_ZEROS(phi + 10, 6);
-    phi[80] = s2*t8 + t11;
-    const double t12 = t9*t6;
-    phi[140] = -t12;
-    const double t13 = c2*qdd[1];
-    const double t14 = t13 - t10;
-    const double t15 = t10 - t14;
+    phi[80] = s2*minus_wd3_x + t11;
+    const double ww3_xy = minus_w3_x*minus_w3_y;
+    phi[140] = -ww3_xy;
+    const double minus_U3_xz = c2*qdd[1];
+    const double minus_wd3_y = minus_U3_xz - minus_ww3_xz;
+    const double minus_U3_zx = minus_ww3_xz - minus_wd3_y;
     MODELER_ZEROS(phi + 18, 1);
-    const double t16 = t7 + t8;
-    phi[81] = c2*t16 - s2*t15;
-    const double t17 = qd[2]*qd[2];
-    const double t18 = t6*t6 + t17;
-    const double t19 = t9*t9 + t17;
-    phi[141] = t19 - t18;
+    const double minus_U3_zy = minus_ww3_yz + minus_wd3_x;
+    phi[81] = c2*minus_U3_zy - s2*minus_U3_zx;
+    const double ww3_zz = qd[2]*qd[2];
+    const double minus_U3_xx = minus_w3_y*minus_w3_y + ww3_zz;
+    const double minus_U3_yy = minus_w3_x*minus_w3_x + ww3_zz;
+    phi[141] = minus_U3_yy - minus_U3_xx;
     MODELER_ZEROS(phi + 20, 6);
-    const double t20 = qdd[2] + t12;
-    phi[82] = c2*(t1 - t18) - s2*t20;
-    phi[142] = -t5;
-    phi[83] = c2*t14 - t11;
-    phi[143] = t12;
-    const double t21 = qdd[2] - t12;
+    const double U3_yx = qdd[2] + ww3_xy;
+    phi[82] = c2*(ww2_zz - minus_U3_xx) - s2*U3_yx;
+    phi[142] = -U3_yz;
+    phi[83] = c2*minus_wd3_y - t11;
+    phi[143] = ww3_xy;
+    const double minus_U3_xy = qdd[2] - ww3_xy;
     MODELER_ZEROS(phi + 30, 6);
-    phi[84] = -(s2*(t1 - t19) + c2*t21);
-    phi[144] = -t13;
+    phi[84] = -(s2*(ww2_zz - minus_U3_yy) + c2*minus_U3_xy);
+    phi[144] = -minus_U3_xz;
     phi[145] = qdd[2];
-    const double t22 = s1*c2;
-    const double t23 = s1*s2;
-    phi[26] = t18*t22 + t20*t23 + c1*t15;
+    /* link 3: velocity of the origin, for unit speed of each joint below, m3 = R3' (m2 + e2 x p3)
+        */
+    const double minus_m3_1x = s1*c2;
+    const double m3_1y = s1*s2;
+    phi[26] = minus_U3_xx*minus_m3_1x + U3_yx*m3_1y + c1*minus_U3_zx;
     MODELER_ZEROS(phi + 40, 6);
-    phi[86] = -c2*t2;
-    const double t24 = orthoglide_leg_tree_geo_g*c2 + s2*t4;
-    phi[146] = t24;
-    phi[27] = t21*t22 - t19*t23 + c1*t16;
-    phi[87] = s2*t2;
-    const double t25 = c2*t4 - orthoglide_leg_tree_geo_g*s2;
+    phi[86] = -c2*minus_vd2_y;
+    /* link 3: acceleration of the origin less gravity, vd3 = R3' (vd2 + U2 p3) */
+    const double vd3_y = orthoglide_leg_tree_geo_g*c2 + s2*minus_vd2_x;
+    phi[146] = vd3_y;
+    phi[27] = minus_U3_xy*minus_m3_1x - minus_U3_yy*m3_1y + c1*minus_U3_zy;
+    phi[87] = s2*minus_vd2_y;
+    const double minus_vd3_x = c2*minus_vd2_x - orthoglide_leg_tree_geo_g*s2;
     MODELER_ZEROS(phi + 50, 6);
-    phi[147] = t25;
+    phi[147] = minus_vd3_x;
     phi[28] = t3;
-    phi[88] = t4;
+    phi[88] = minus_vd2_x;
     phi[29] = qdd[0];
-    const double t26 = c3*t6 - s3*t9;
-    const double t27 = c3*t8 + s3*t14 + qd[3]*t26;
+    /* link 4: angular velocity, w4 = R4' w3 + qd4 z */
+    const double minus_w4_y = c3*minus_w3_y - s3*minus_w3_x;
+    /* link 4: angular acceleration, wd4 = R4' wd3 + (R4' w3) x qd4 z + qdd4 z */
+    const double minus_wd4_x = c3*minus_wd3_x + s3*minus_wd3_y + qd[3]*minus_w4_y;
     MODELER_ZEROS(phi + 60, 8);
-    const double t28 = s2*c3 + c2*s3;
-    const double t29 = c3*t9 + s3*t6;
-    const double t30 = qd[2] + qd[3];
-    const double t31 = t29*t30;
-    const double t32 = c2*c3 - s2*s3;
-    const double t33 = t31*t32;
+    /* link 4: axes of the joints below, for unit speed of each, e4 = R4' e3 */
+    const double minus_e4_2x = s2*c3 + c2*s3;
+    const double minus_w4_x = c3*minus_w3_x + s3*minus_w3_y;
+    const double w4_z = qd[2] + qd[3];
+    const double minus_ww4_xz = minus_w4_x*w4_z;
+    const double minus_e4_2y = c2*c3 - s2*s3;
+    const double t33 = minus_ww4_xz*minus_e4_2y;
     MODELER_ZEROS(phi + 68, 7);
-    phi[90] = t27*t28 + t33;
-    const double t34 = t29*t26;
-    phi[150] = -t34;
-    phi[210] = -t34;
-    const double t35 = c3*t14 - s3*t8 - qd[3]*t29;
-    const double t36 = t35 - t31;
+    phi[90] = minus_wd4_x*minus_e4_2x + t33;
+    const double ww4_xy = minus_w4_x*minus_w4_y;
+    phi[150] = -ww4_xy;
+    phi[210] = -ww4_xy;
+    const double minus_wd4_y = c3*minus_wd3_y - s3*minus_wd3_x - qd[3]*minus_w4_x;
+    /* link 4: acceleration of points of the link, U4 = [wd4 x] + [w4 x][w4 x] */
+    const double U4_zx = minus_wd4_y - minus_ww4_xz;
     MODELER_ZEROS(phi + 78, 2);
-    const double t37 = t26*t30;
-    const double t38 = t27 + t37;
-    phi[91] = t36*t28 + t38*t32;
-    const double t39 = t30*t30;
-    const double t40 = t26*t26 + t39;
-    const double t41 = t29*t29 + t39;
+    const double minus_ww4_yz = minus_w4_y*w4_z;
+    const double minus_U4_zy = minus_wd4_x + minus_ww4_yz;
+    phi[91] = U4_zx*minus_e4_2x + minus_U4_zy*minus_e4_2y;
+    const double ww4_zz = w4_z*w4_z;
+    const double minus_U4_xx = minus_w4_y*minus_w4_y + ww4_zz;
+    const double minus_U4_yy = minus_w4_x*minus_w4_x + ww4_zz;
     MODELER_ZEROS(phi + 85, 1);
-    const double t42 = t40 - t41;
-    phi[151] = -t42;
-    phi[211] = -t42;
-    const double t43 = qdd[2] + qdd[3];
-    const double t44 = t43 + t34;
-    phi[92] = t32*(t1 - t40) - t44*t28;
+    /* link 4: moment on the link at its origin for one unit of a parameter, n4 = J4 wd4 + w4 x J4
+        w4 + MS4 x vd4 */
+    const double minus_n4_XYz = minus_U4_xx - minus_U4_yy;
+    phi[151] = -minus_n4_XYz;
+    phi[211] = -minus_n4_XYz;
+    const double wd4_z = qdd[2] + qdd[3];
+    const double U4_yx = wd4_z + ww4_xy;
+    phi[92] = minus_e4_2y*(ww2_zz - minus_U4_xx) - U4_yx*minus_e4_2x;
     MODELER_ZEROS(phi + 89, 1);
-    const double t45 = t27 - t37;
-    phi[152] = -t45;
-    phi[212] = -t45;
-    phi[93] = t35*t32 - t33;
-    phi[153] = t34;
-    phi[213] = t34;
+    const double U4_yz = minus_wd4_x - minus_ww4_yz;
+    phi[152] = -U4_yz;
+    phi[212] = -U4_yz;
+    phi[93] = minus_wd4_y*minus_e4_2y - t33;
+    phi[153] = ww4_xy;
+    phi[213] = ww4_xy;
     MODELER_ZEROS(phi + 95, 1);
-    const double t46 = t43 - t34;
-    phi[94] = -(t28*(t1 - t41) + t46*t32);
-    const double t47 = t35 + t31;
-    phi[154] = -t47;
-    phi[214] = -t47;
-    phi[155] = t43;
+    const double minus_U4_xy = wd4_z - ww4_xy;
+    phi[94] = -(minus_e4_2x*(ww2_zz - minus_U4_yy) + minus_U4_xy*minus_e4_2y);
+    const double minus_U4_xz = minus_wd4_y + minus_ww4_xz;
+    phi[154] = -minus_U4_xz;
+    phi[214] = -minus_U4_xz;
+    phi[155] = wd4_z;
     MODELER_ZEROS(phi + 115, 1);
-    phi[215] = t43;
-    const double t48 = c3*t22 - s3*t23;
-    const double t49 = c3*t23 + s3*t22;
-    phi[36] = t40*t48 + t44*t49 - c1*t36;
-    const double t50 = t2 + orthoglide_leg_tree_geo_D4*t15;
-    const double t51 = orthoglide_leg_tree_geo_D4*c2;
+    phi[215] = wd4_z;
+    /* link 4: velocity of the origin, for unit speed of each joint below, m4 = R4' (m3 + e3 x p4)
+        */
+    const double minus_m4_1x = c3*minus_m3_1x - s3*m3_1y;
+    const double m4_1y = c3*m3_1y + s3*minus_m3_1x;
+    phi[36] = minus_U4_xx*minus_m4_1x + U4_yx*m4_1y - c1*U4_zx;
+    /* link 4: acceleration of the origin less gravity, vd4 = R4' (vd3 + U3 p4) */
+    const double minus_vd4_z = minus_vd2_y + orthoglide_leg_tree_geo_D4*minus_U3_zx;
+    const double m4_2z = orthoglide_leg_tree_geo_D4*c2;
     MODELER_ZEROS(phi + 119, 8);
-    phi[96] = t36*t51 - t50*t32;
-    const double t52 = t24 + orthoglide_leg_tree_geo_D4*t20;
-    const double t53 = t25 + orthoglide_leg_tree_geo_D4*t18;
-    const double t54 = c3*t52 + s3*t53;
-    const double t55 = orthoglide_leg_tree_geo_D4*s3;
-    const double t56 = orthoglide_leg_tree_geo_D4*c3;
+    phi[96] = U4_zx*m4_2z - minus_vd4_z*minus_e4_2y;
+    const double vd4a_y = vd3_y + orthoglide_leg_tree_geo_D4*U3_yx;
+    const double minus_vd4a_x = minus_vd3_x + orthoglide_leg_tree_geo_D4*minus_U3_xx;
+    const double vd4_y = c3*vd4a_y + s3*minus_vd4a_x;
+    const double m4_3x = orthoglide_leg_tree_geo_D4*s3;
+    const double m4_3y = orthoglide_leg_tree_geo_D4*c3;
     MODELER_ZEROS(phi + 127, 8);
-    phi[156] = t44*t56 - t40*t55 + t54;
-    phi[216] = t54;
-    const double t57 = t46*t48 - t41*t49 + c1*t38;
+    phi[156] = U4_yx*m4_3y - minus_U4_xx*m4_3x + vd4_y;
+    phi[216] = vd4_y;
+    const double t57 = minus_U4_xy*minus_m4_1x - minus_U4_yy*m4_1y + c1*minus_U4_zy;
     phi[37] = t57;
-    const double t58 = t50*t28 - t38*t51;
+    const double t58 = minus_vd4_z*minus_e4_2x - minus_U4_zy*m4_2z;
     phi[97] = t58;
     MODELER_ZEROS(phi + 135, 5);
-    const double t59 = c3*t53 - s3*t52;
-    const double t60 = t59 - (t46*t55 + t41*t56);
+    const double minus_vd4_x = c3*minus_vd4a_x - s3*vd4a_y;
+    const double t60 = minus_vd4_x - (minus_U4_xy*m4_3x + minus_U4_yy*m4_3y);
     phi[157] = t60;
-    phi[217] = t59;
+    phi[217] = minus_vd4_x;
     phi[38] = t3;
-    phi[98] = t54*t28 + t59*t32 - t1*t51;
+    phi[98] = vd4_y*minus_e4_2x + minus_vd4_x*minus_e4_2y - ww2_zz*m4_2z;
     MODELER_ZEROS(phi + 148, 2);
-    phi[158] = t45*t56 - t47*t55;
-    const double t61 = t59*t48 + t54*t49 + c1*t50;
+    phi[158] = U4_yz*m4_3y - minus_U4_xz*m4_3x;
+    const double t61 = minus_vd4_x*minus_m4_1x + vd4_y*m4_1y + c1*minus_vd4_z;
     phi[39] = t61;
-    const double t62 = t50*t51;
+    const double t62 = minus_vd4_z*m4_2z;
     phi[99] = -t62;
-    const double t63 = t59*t55 - t54*t56;
+    const double t63 = minus_vd4_x*m4_3x - vd4_y*m4_3y;
     MODELER_ZEROS(phi + 170, 8);
     phi[159] = -t63;
-    const double t64 = c4*t30 + s4*t29;
-    const double t65 = c4*t27 - s4*t43 - qd[4]*t64;
-    const double t66 = c4*t28;
-    const double t67 = c4*t29 - s4*t30;
-    const double t68 = qd[4] + t26;
+    /* link 5: angular velocity, w5 = R5' w4 + qd5 z */
+    const double w5_y = c4*w4_z + s4*minus_w4_x;
+    /* link 5: angular acceleration, wd5 = R5' wd4 + (R5' w4) x qd5 z + qdd5 z */
+    const double minus_wd5_x = c4*minus_wd4_x - s4*wd4_z - qd[4]*w5_y;
+    /* link 5: axes of the joints below, for unit speed of each, e5 = R5' e4 */
+    const double minus_e5_2x = c4*minus_e4_2x;
+    const double minus_w5_x = c4*minus_w4_x - s4*w4_z;
+    const double w5_z = qd[4] + minus_w4_y;
     MODELER_ZEROS(phi + 178, 8);
-    const double t69 = t67*t68;
-    const double t70 = s4*t28;
-    const double t71 = t69*t70;
-    const double t72 = t67*t64;
-    const double t73 = t72*t32;
-    phi[100] = t65*t66 - t71 + t73;
+    const double minus_ww5_xz = minus_w5_x*w5_z;
+    const double e5_2y = s4*minus_e4_2x;
+    const double t71 = minus_ww5_xz*e5_2y;
+    const double minus_ww5_xy = minus_w5_x*w5_y;
+    const double t73 = minus_ww5_xy*minus_e4_2y;
+    phi[100] = minus_wd5_x*minus_e5_2x - t71 + t73;
     MODELER_ZEROS(phi + 186, 8);
-    const double t74 = c4*t69;
-    const double t75 = s4*t65 + t74;
+    const double t74 = c4*minus_ww5_xz;
+    const double t75 = s4*minus_wd5_x + t74;
     phi[160] = -t75;
     phi[220] = -t75;
-    phi[280] = t72;
-    const double t76 = c4*t43 + s4*t27 + qd[4]*t67;
+    phi[280] = minus_ww5_xy;
+    const double wd5_y = c4*wd4_z + s4*minus_wd4_x + qd[4]*minus_w5_x;
     MODELER_ZEROS(phi + 194, 8);
-    const double t77 = t76 + t69;
-    const double t78 = t64*t68;
-    const double t79 = t65 - t78;
-    const double t80 = t68*t68;
-    const double t81 = t64*t64 + t80;
-    const double t82 = t67*t67 + t80;
+    /* link 5: acceleration of points of the link, U5 = [wd5 x] + [w5 x][w5 x] */
+    const double minus_U5_zx = wd5_y + minus_ww5_xz;
+    const double ww5_yz = w5_y*w5_z;
+    const double minus_U5_zy = minus_wd5_x - ww5_yz;
+    const double ww5_zz = w5_z*w5_z;
+    const double minus_U5_xx = w5_y*w5_y + ww5_zz;
+    const double minus_U5_yy = minus_w5_x*minus_w5_x + ww5_zz;
     MODELER_ZEROS(phi + 202, 8);
-    const double t83 = t81 - t82;
-    phi[101] = -(t77*t66 + t79*t70 + t32*t83);
-    const double t84 = s4*t77 - c4*t79;
+    /* link 5: moment on the link at its origin for one unit of a parameter, n5 = J5 wd5 + w5 x J5
+        w5 + MS5 x vd5 */
+    const double minus_n5_XYz = minus_U5_xx - minus_U5_yy;
+    phi[101] = -(minus_U5_zx*minus_e5_2x + minus_U5_zy*e5_2y + minus_e4_2y*minus_n5_XYz);
+    const double t84 = s4*minus_U5_zx - c4*minus_U5_zy;
     phi[161] = t84;
     phi[221] = t84;
-    phi[281] = -t83;
+    phi[281] = -minus_n5_XYz;
     MODELER_ZEROS(phi + 218, 2);
-    const double t85 = qdd[4] + t35;
-    const double t86 = t85 - t72;
-    const double t87 = t41 - t81;
-    const double t88 = t65 + t78;
-    phi[102] = -(t86*t66 + t70*t87 + t88*t32);
-    const double t89 = s4*t86 - c4*t87;
+    const double wd5_z = qdd[4] + minus_wd4_y;
+    const double U5_yx = wd5_z - minus_ww5_xy;
+    const double minus_n5_XZy = minus_U4_yy - minus_U5_xx;
+    const double U5_yz = minus_wd5_x + ww5_yz;
+    phi[102] = -(U5_yx*minus_e5_2x + e5_2y*minus_n5_XZy + U5_yz*minus_e4_2y);
+    const double t89 = s4*U5_yx - c4*minus_n5_XZy;
     MODELER_ZEROS(phi + 229, 8);
     phi[162] = t89;
     phi[222] = t89;
-    phi[282] = -t88;
-    const double t90 = t78*t66;
-    phi[103] = t90 + t76*t70 - t73;
-    const double t91 = s4*t78;
+    phi[282] = -U5_yz;
+    const double t90 = ww5_yz*minus_e5_2x;
+    phi[103] = t90 + wd5_y*e5_2y - t73;
+    const double t91 = s4*ww5_yz;
     MODELER_ZEROS(phi + 237, 8);
-    const double t92 = t91 - c4*t76;
+    const double t92 = t91 - c4*wd5_y;
     phi[163] = -t92;
     phi[223] = -t92;
-    phi[283] = -t72;
-    const double t93 = t41 - t82;
-    const double t94 = t85 + t72;
+    phi[283] = -minus_ww5_xy;
+    const double n5_YZx = minus_U4_yy - minus_U5_yy;
+    const double minus_U5_xy = wd5_z + minus_ww5_xy;
     MODELER_ZEROS(phi + 245, 8);
-    const double t95 = t76 - t69;
-    phi[104] = t95*t32 - (t66*t93 - t94*t70);
-    const double t96 = s4*t93 + c4*t94;
+    const double U5_xz = wd5_y - minus_ww5_xz;
+    phi[104] = U5_xz*minus_e4_2y - (minus_e5_2x*n5_YZx - minus_U5_xy*e5_2y);
+    const double t96 = s4*n5_YZx + c4*minus_U5_xy;
     phi[164] = t96;
     phi[224] = t96;
-    phi[284] = t95;
+    phi[284] = U5_xz;
     MODELER_ZEROS(phi + 253, 8);
-    phi[105] = t71 - t90 + t85*t32;
+    phi[105] = t71 - t90 + wd5_z*minus_e4_2y;
     const double t97 = t74 + t91;
     phi[165] = t97;
     phi[225] = t97;
-    phi[285] = t85;
-    const double t98 = c4*t48 + c1*s4;
+    phi[285] = wd5_z;
+    /* link 5: velocity of the origin, for unit speed of each joint below, m5 = R5' (m4 + e4 x p5)
+        */
+    const double minus_m5_1x = c4*minus_m4_1x + c1*s4;
     MODELER_ZEROS(phi + 261, 8);
-    const double t99 = c1*c4 - s4*t48;
-    phi[46] = t81*t98 - t86*t99 + t77*t49;
-    const double t100 = c4*t50 - s4*t59;
-    const double t101 = s4*t51;
-    const double t102 = c4*t51;
-    phi[106] = t54*t70 - t100*t32 + (t86*t102 - t81*t101);
+    const double minus_m5_1y = c1*c4 - s4*minus_m4_1x;
+    phi[46] = minus_U5_xx*minus_m5_1x - U5_yx*minus_m5_1y + minus_U5_zx*m4_1y;
+    /* link 5: acceleration of the origin less gravity, vd5 = R5' (vd4 + U4 p5) */
+    const double minus_vd5_y = c4*minus_vd4_z - s4*minus_vd4_x;
+    const double m5_2x = s4*m4_2z;
+    const double m5_2y = c4*m4_2z;
+    phi[106] = vd4_y*e5_2y - minus_vd5_y*minus_e4_2y + (U5_yx*m5_2y - minus_U5_xx*m5_2x);
     MODELER_ZEROS(phi + 269, 8);
-    const double t103 = c4*t54;
-    const double t104 = c4*t55;
-    const double t105 = s4*t55;
-    phi[166] = t77*t56 - (t81*t104 + t86*t105) + t103;
+    const double t103 = c4*vd4_y;
+    const double m5_3x = c4*m4_3x;
+    const double minus_m5_3y = s4*m4_3x;
+    phi[166] = minus_U5_zx*m4_3y - (minus_U5_xx*m5_3x + U5_yx*minus_m5_3y) + t103;
     phi[226] = t103;
-    phi[286] = -t100;
+    phi[286] = -minus_vd5_y;
     MODELER_ZEROS(phi + 277, 3);
-    phi[47] = t94*t98 + t82*t99 + t79*t49;
-    const double t106 = c4*t59 + s4*t50;
-    phi[107] = t54*t66 + t106*t32 - (t94*t101 + t82*t102);
-    const double t107 = s4*t54;
-    phi[167] = -(t94*t104 - t82*t105 - t79*t56 + t107);
+    phi[47] = minus_U5_xy*minus_m5_1x + minus_U5_yy*minus_m5_1y + minus_U5_zy*m4_1y;
+    const double minus_vd5_x = c4*minus_vd4_x + s4*minus_vd4_z;
+    phi[107] = vd4_y*minus_e5_2x + minus_vd5_x*minus_e4_2y - (minus_U5_xy*m5_2x +
+        minus_U5_yy*m5_2y);
+    const double t107 = s4*vd4_y;
+    phi[167] = -(minus_U5_xy*m5_3x - minus_U5_yy*minus_m5_3y - minus_U5_zy*m4_3y + t107);
     phi[227] = -t107;
     MODELER_ZEROS(phi + 288, 8);
-    phi[287] = t106;
+    phi[287] = minus_vd5_x;
     phi[48] = -t57;
     phi[108] = -t58;
     phi[168] = -t60;
-    phi[228] = -t59;
+    phi[228] = -minus_vd4_x;
     phi[49] = t61;
     MODELER_ZEROS(phi + 296, 8);
     phi[109] = -t62;
     phi[169] = -t63;
-    const double t108 = s5*qdd[1];
-    const double t109 = c5*qd[1];
-    const double t110 = qd[5]*t109;
-    const double t111 = t108 + t110;
+    /* link 7: acceleration of points of the link, U7 = [wd7 x] + [w7 x][w7 x] */
+    const double U7_yz = s5*qdd[1];
+    /* link 7: angular velocity, w7 = R7' w2 + qd7 z */
+    const double minus_w7_y = c5*qd[1];
+    const double minus_ww7_yz = qd[5]*minus_w7_y;
+    /* link 7: angular acceleration, wd7 = R7' wd2 + (R7' w2) x qd7 z + qdd7 z */
+    const double minus_wd7_x = U7_yz + minus_ww7_yz;
     MODELER_ZEROS(phi + 304, 8);
-    const double t112 = s5*qd[1];
-    const double t113 = qd[5]*t112;
-    const double t114 = c5*t113;
-    phi[110] = s5*t111 + t114;
-    const double t115 = t112*t109;
-    phi[350] = -t115;
+    const double minus_w7_x = s5*qd[1];
+    const double minus_ww7_xz = qd[5]*minus_w7_x;
+    const double t114 = c5*minus_ww7_xz;
+    phi[110] = s5*minus_wd7_x + t114;
+    const double ww7_xy = minus_w7_x*minus_w7_y;
+    phi[350] = -ww7_xy;
     MODELER_ZEROS(phi + 312, 8);
-    const double t116 = c5*qdd[1];
-    const double t117 = t116 - t113;
-    const double t118 = t113 - t117;
-    const double t119 = t110 + t111;
-    phi[111] = c5*t119 - s5*t118;
-    const double t120 = qd[5]*qd[5];
+    const double minus_U7_xz = c5*qdd[1];
+    const double minus_wd7_y = minus_U7_xz - minus_ww7_xz;
+    const double minus_U7_zx = minus_ww7_xz - minus_wd7_y;
+    const double minus_U7_zy = minus_ww7_yz + minus_wd7_x;
+    phi[111] = c5*minus_U7_zy - s5*minus_U7_zx;
+    const double ww7_zz = qd[5]*qd[5];
     MODELER_ZEROS(phi + 320, 8);
-    const double t121 = t109*t109 + t120;
-    const double t122 = t112*t112 + t120;
-    phi[351] = t122 - t121;
-    const double t123 = qdd[5] + t115;
-    phi[112] = c5*(t1 - t121) - s5*t123;
-    phi[352] = -t108;
+    const double minus_U7_xx = minus_w7_y*minus_w7_y + ww7_zz;
+    const double minus_U7_yy = minus_w7_x*minus_w7_x + ww7_zz;
+    phi[351] = minus_U7_yy - minus_U7_xx;
+    const double U7_yx = qdd[5] + ww7_xy;
+    phi[112] = c5*(ww2_zz - minus_U7_xx) - s5*U7_yx;
+    phi[352] = -U7_yz;
     MODELER_ZEROS(phi + 328, 8);
-    phi[113] = c5*t117 - t114;
-    phi[353] = t115;
-    const double t124 = qdd[5] - t115;
-    phi[114] = -(s5*(t1 - t122) + c5*t124);
-    phi[354] = -t116;
+    phi[113] = c5*minus_wd7_y - t114;
+    phi[353] = ww7_xy;
+    const double minus_U7_xy = qdd[5] - ww7_xy;
+    phi[114] = -(s5*(ww2_zz - minus_U7_yy) + c5*minus_U7_xy);
+    phi[354] = -minus_U7_xz;
     phi[355] = qdd[5];
     MODELER_ZEROS(phi + 336, 8);
-    const double t125 = s1*c5;
-    const double t126 = s1*s5;
-    phi[56] = t121*t125 + t123*t126 + c1*t118;
-    phi[116] = -c5*t2;
-    phi[356] = orthoglide_leg_tree_geo_g*c5 + s5*t4;
-    phi[57] = t124*t125 - t122*t126 + c1*t119;
+    /* link 7: velocity of the origin, for unit speed of each joint below, m7 = R7' (m2 + e2 x p7)
+        */
+    const double minus_m7_1x = s1*c5;
+    const double m7_1y = s1*s5;
+    phi[56] = minus_U7_xx*minus_m7_1x + U7_yx*m7_1y + c1*minus_U7_zx;
+    phi[116] = -c5*minus_vd2_y;
+    phi[356] = orthoglide_leg_tree_geo_g*c5 + s5*minus_vd2_x;
+    phi[57] = minus_U7_xy*minus_m7_1x - minus_U7_yy*m7_1y + c1*minus_U7_zy;
     MODELER_ZEROS(phi + 344, 6);
-    phi[117] = s5*t2;
-    phi[357] = c5*t4 - orthoglide_leg_tree_geo_g*s5;
+    phi[117] = s5*minus_vd2_y;
+    phi[357] = c5*minus_vd2_x - orthoglide_leg_tree_geo_g*s5;
     phi[58] = t3;
-    phi[118] = t4;
+    phi[118] = minus_vd2_x;
     phi[59] = qdd[0];
     MODELER_ZEROS(phi + 358, 2);
 }

@@ -1,6 +1,6 @@
 # find_package(sr400_tree) takes any, find_package(sr400_tree 1) any of this C interface,
-# find_package(sr400_tree 1.48590.35183.40048) only what has the signature bdce896f9c70e246.
-set(PACKAGE_VERSION 1.48590.35183.40048)
+# find_package(sr400_tree 1.51717.28385.36015) only what has the signature ca056ee18caf4cfe.
+set(PACKAGE_VERSION 1.51717.28385.36015)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

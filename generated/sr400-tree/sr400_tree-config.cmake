@@ -1,6 +1,6 @@
 # find_package(sr400_tree) gives the target sr400_tree::sr400_tree: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. sr400_tree_SIGNATURE is what sr400_tree_signature() returns.
-set(sr400_tree_SIGNATURE bdce896f9c70e246)
+set(sr400_tree_SIGNATURE ca056ee18caf4cfe)
 
 if(sr400_tree_FIND_COMPONENTS)
   set(_modeler_kinds ${sr400_tree_FIND_COMPONENTS})
@@ -13,14 +13,14 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/sr400_tree-${_modeler_kind}-bdce896f9c70e246.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/sr400_tree-${_modeler_kind}-ca056ee18caf4cfe.cmake")
   if(TARGET sr400_tree::sr400_tree OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
   include("${_modeler_file}")
   if(NOT TARGET sr400_tree::sr400_tree) # installed by make
     if(_modeler_kind STREQUAL "shared")
-      set(_modeler_name libsr400_tree_model.so.bdce896f9c70e246)
+      set(_modeler_name libsr400_tree_model.so.ca056ee18caf4cfe)
     else()
       set(_modeler_name libsr400_tree_model.a)
     endif()
@@ -39,5 +39,5 @@ endforeach()
 if(NOT TARGET sr400_tree::sr400_tree)
   set(sr400_tree_FOUND FALSE)
   set(sr400_tree_NOT_FOUND_MESSAGE
-    "no library of signature bdce896f9c70e246 here that is ${_modeler_kinds}; install it again")
+    "no library of signature ca056ee18caf4cfe here that is ${_modeler_kinds}; install it again")
 endif()

@@ -2,6 +2,31 @@
  *
  * Functions of sr400_tree.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
+ *   h      angular momentum J w
+ *   f      force on the link
+ *   n      moment on the link at its origin
+ *   fc     force on the link and all that it carries
+ *   nc     moment on the link and all that it carries
+ *   MSc    first moments of the link and all that it carries
+ *   Jc     inertia of the link and all that it carries
+ *   Js     what moving the inertia to the origin of the antecedent adds
+ *   e_1    axes of the joints below, for unit speed of each
+ *   lin_1  momentum of what hangs on a joint, for unit speed of it
+ *   ang_1  angular momentum of what hangs on a joint, for unit speed of it
+ *   x      axis x of the frame in frame 0
+ *   y      axis y of the frame in frame 0
+ *   o      origin of the frame in frame 0
+ *   ...a   in axes of the antecedent: ang, fc, Jc, lin, nc, vd
  */
 #include "sr400_tree.h"
 
@@ -59,7 +84,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "bdce896f9c70e246";
+    return "ca056ee18caf4cfe";
 }
 
 void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,
@@ -95,172 +120,261 @@ void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double
     double s7, c7;
     modeler_sincos(q[7], &s7, &c7);
 
-    const double t1 = c6*qd[0];
-    const double t2 = s6*qd[0];
-    const double t3 = c7*t1 - s7*t2;
-    const double t4 = c7*t2 + s7*t1;
-    const double t5 = qd[6] + qd[7];
-    const double t6 = t4*beta[45] + t3*beta[46] - t5*beta[47];
-    const double t7 = t4*beta[44] - t5*beta[46];
-    const double t8 = qd[6]*t1;
-    const double t9 = s6*qdd[0] + t8;
-    const double t10 = qd[6]*t2;
-    const double t11 = c6*qdd[0] - t10;
-    const double t12 = c7*t9 + s7*t11 + qd[7]*t3;
-    const double t13 = c7*t11 - s7*t9 - qd[7]*t4;
-    const double t14 = qdd[6] + qdd[7];
-    const double t15 = sr400_tree_geo_D2*qdd[0];
-    const double t16 = t10 - t11;
-    const double t17 = t15 - sr400_tree_geo_D8*t16;
-    const double t18 = t3*t6 + t5*t7 + (t14*beta[45] - (t12*beta[43] + t13*beta[44]));
-    const double t19 = t18 + t17*beta[49];
-    const double t20 = t4*beta[43] + t3*beta[44] - t5*beta[45];
-    const double t21 = t5*t20 + t4*t6 + (t12*beta[44] - t14*beta[46]) + t17*beta[48];
-    const double t22 = t2*beta[38] + t1*beta[39] - qd[6]*beta[40];
-    const double t23 = t2*beta[37] - qd[6]*beta[39];
-    const double t24 = t1*t22 + qd[6]*t23 + (qdd[6]*beta[38] - (t9*beta[36] + t11*beta[37]));
-    const double t25 = (t13 - t4*t5)*beta[48] - (t12 + t3*t5)*beta[49];
-    const double t26 = t2*beta[36] + t1*beta[37] - qd[6]*beta[38];
-    const double t27 = qd[6]*t26 + t2*t22 + (t9*beta[37] - qdd[6]*beta[39]) + t15*beta[41];
-    const double t28 = c6*(s7*t19 - c7*t21 - sr400_tree_geo_D8*t25 - t27);
-    const double t29 = sr400_tree_geo_D2*(t25 - (t16*beta[41] + (t8 + t9)*beta[42]));
-    const double t30 = qd[1] + qd[2];
-    const double t31 = s1*qd[0];
-    const double t32 = c1*qd[0];
-    const double t33 = c2*t31 + s2*t32;
-    const double t34 = c3*t30 - s3*t33;
-    const double t35 = qd[4] + t34;
-    const double t36 = c3*t33 + s3*t30;
-    const double t37 = c2*t32 - s2*t31;
-    const double t38 = qd[3] - t37;
-    const double t39 = c4*t36 - s4*t38;
-    const double t40 = c5*t35 - s5*t39;
-    const double t41 = c5*t39 + s5*t35;
-    const double t42 = c4*t38 + s4*t36;
-    const double t43 = qd[5] + t42;
-    const double t44 = t41*beta[31] + t40*beta[32] - t43*beta[33];
-    const double t45 = t41*beta[30] - t43*beta[32];
-    const double t46 = qd[1]*t32;
-    const double t47 = s1*qdd[0] + t46;
-    const double t48 = qd[1]*t31;
-    const double t49 = c1*qdd[0] - t48;
-    const double t50 = c2*t47 + s2*t49 + qd[2]*t37;
-    const double t51 = qdd[1] + qdd[2];
-    const double t52 = c3*t50 + s3*t51 + qd[3]*t34;
-    const double t53 = c2*t49 - s2*t47 - qd[2]*t33;
-    const double t54 = qdd[3] - t53;
-    const double t55 = c4*t52 - s4*t54 - qd[4]*t42;
-    const double t56 = c3*t51 - s3*t50 - qd[3]*t36;
-    const double t57 = qdd[4] + t56;
-    const double t58 = c5*t55 + s5*t57 + qd[5]*t40;
-    const double t59 = c5*t57 - s5*t55 - qd[5]*t41;
-    const double t60 = c4*t54 + s4*t52 + qd[4]*t39;
-    const double t61 = qdd[5] + t60;
-    const double t62 = qd[0]*qd[0]*sr400_tree_geo_D2;
-    const double t63 = sr400_tree_geo_g*c1 - s1*t62;
-    const double t64 = t63 - sr400_tree_geo_D3*(qdd[1] + t31*t32);
-    const double t65 = c1*t62 + sr400_tree_geo_g*s1;
-    const double t66 = t65 + sr400_tree_geo_D3*(t32*t32 + qd[1]*qd[1]);
-    const double t67 = c2*t64 - s2*t66;
-    const double t68 = t33*t37;
-    const double t69 = t51 + t68;
-    const double t70 = t30*t30;
-    const double t71 = t33*t33 + t70;
-    const double t72 = sr400_tree_geo_RL4*t71 - sr400_tree_geo_D4*t69 + t67;
-    const double t73 = c2*t66 + s2*t64;
-    const double t74 = t37*t37 + t70;
-    const double t75 = t51 - t68;
-    const double t76 = sr400_tree_geo_D4*t74 + sr400_tree_geo_RL4*t75 + t73;
-    const double t77 = t48 - t49;
-    const double t78 = t15 - sr400_tree_geo_D3*t77;
-    const double t79 = t53 - t33*t30;
-    const double t80 = t50 + t37*t30;
-    const double t81 = sr400_tree_geo_D4*t79 - sr400_tree_geo_RL4*t80 + t78;
-    const double t82 = c3*t76 + s3*t81;
-    const double t83 = c4*t72 - s4*t82;
-    const double t84 = t40*t44 + t43*t45 + (t61*beta[31] - (t58*beta[29] + t59*beta[30]));
-    const double t85 = t84 - t83*beta[35];
-    const double t86 = t41*beta[29] + t40*beta[30] - t43*beta[31];
-    const double t87 = t43*t86 + t41*t44 + (t58*beta[30] - t61*beta[32]) - t83*beta[34];
-    const double t88 = t39*beta[24] - t42*beta[25] - t35*beta[26];
-    const double t89 = t39*beta[23] - t35*beta[25];
-    const double t90 = c3*t81 - s3*t76;
-    const double t91 = t42*t88 - t35*t89 + (t55*beta[22] - t60*beta[23] - t57*beta[24]);
-    const double t92 = c5*t85 + s5*t87 + (t90*beta[28] - t91);
-    const double t93 = c4*t82 + s4*t72;
-    const double t94 = t41*t45 - t40*t86 + (t61*beta[33] - (t58*beta[31] + t59*beta[32]));
-    const double t95 = (c5*t93 + s5*t90)*beta[35] - (c5*t90 - s5*t93)*beta[34] + t94;
-    const double t96 = t39*beta[22] - t42*beta[23] - t35*beta[24];
-    const double t97 = t95 - (t35*t96 + t39*t88 + (t55*beta[23] - t57*beta[25]) + t90*beta[27]);
-    const double t98 = t36*beta[17] + t34*beta[18] - t38*beta[19];
-    const double t99 = t36*beta[16] - t38*beta[18];
-    const double t100 = t34*t98 + t38*t99 + (t54*beta[17] - (t52*beta[15] + t56*beta[16]));
-    const double t101 = c4*t92 - s4*t97 + (t100 - t72*beta[21]);
-    const double t102 = t39*t89 + t42*t96 + (t57*beta[26] - (t55*beta[24] - t60*beta[25]));
-    const double t103 = s5*t85 - c5*t87 + (t83*beta[27] - t93*beta[28] - t102);
-    const double t104 = t36*beta[15] + t34*beta[16] - t38*beta[17];
-    const double t105 = t72*beta[20] - (t38*t104 + t36*t98 + (t52*beta[16] - t54*beta[18])) + t103;
-    const double t106 = t43*t43;
-    const double t107 = t41*t40;
-    const double t108 = (t40*t40 + t106)*beta[34] + (t61 - t107)*beta[35];
-    const double t109 = (t41*t41 + t106)*beta[35] - (t61 + t107)*beta[34];
-    const double t110 = t35*t35;
-    const double t111 = t39*t42;
-    const double t112 = c5*t108 - s5*t109 + ((t42*t42 + t110)*beta[27] + (t57 + t111)*beta[28]);
-    const double t113 = (t59 - t41*t43)*beta[34] - (t58 + t40*t43)*beta[35];
-    const double t114 = (t57 - t111)*beta[27] - (t39*t39 + t110)*beta[28] + t113;
-    const double t115 = t38*t38;
-    const double t116 = t36*t34;
-    const double t117 = c4*t112 + s4*t114 + ((t34*t34 + t115)*beta[20] + (t54 - t116)*beta[21]);
-    const double t118 = s5*t108 + c5*t109 - ((t60 + t39*t35)*beta[27] + (t55 - t42*t35)*beta[28]);
-    const double t119 = (t36*t36 + t115)*beta[21] - (t54 + t116)*beta[20] + t118;
-    const double t120 = s3*t117 + c3*t119;
-    const double t121 = t33*beta[10] + t37*beta[11] - t30*beta[12];
-    const double t122 = t33*beta[9] - t30*beta[11];
-    const double t123 = t37*t121 + t30*t122 + (t51*beta[10] - (t50*beta[8] + t53*beta[9]));
-    const double t124 = c3*t101 - s3*t105 + sr400_tree_geo_RL4*t120 + (t123 + t78*beta[14]);
-    const double t125 = t36*t99 - t34*t104 + (t54*beta[19] - (t52*beta[17] + t56*beta[18]));
-    const double t126 = s4*t92 + c4*t97 + (t82*beta[21] - t90*beta[20] + t125);
-    const double t127 = t33*beta[8] + t37*beta[9] - t30*beta[10];
-    const double t128 = t30*t127 + t33*t121 + (t50*beta[9] - t51*beta[11]) + t78*beta[13];
-    const double t129 = t126 - sr400_tree_geo_D4*t120 - t128;
-    const double t130 = t31*beta[3] + t32*beta[4] - qd[1]*beta[5];
-    const double t131 = t31*beta[2] - qd[1]*beta[4];
-    const double t132 = t32*t130 + qd[1]*t131 + (qdd[1]*beta[3] - (t47*beta[1] + t49*beta[2]));
-    const double t133 = t79*beta[13] - t80*beta[14] + t120;
-    const double t134 = t31*beta[1] + t32*beta[2] - qd[1]*beta[3];
-    const double t135 = qd[1]*t134 + t31*t130 + (t47*beta[2] - qdd[1]*beta[4]) + t15*beta[6];
-    const double t136 = c1*(s2*t124 + c2*t129 - sr400_tree_geo_D3*t133 - t135);
-    const double t137 = sr400_tree_geo_D2*(t133 - (t77*beta[6] + (t46 + t47)*beta[7]));
-    const double t138 = s1*(c2*t124 - s2*t129 + (t132 + t15*beta[7])) + t136 - t137;
-    const double t139 = s6*(c7*t19 + s7*t21 + (t24 + t15*beta[42])) + t28 - t29 + t138;
+    /* link 7: angular velocity, w7 = R7' w1 + qd7 z */
+    const double minus_w7_y = c6*qd[0];
+    const double minus_w7_x = s6*qd[0];
+    /* link 8: angular velocity, w8 = R8' w7 + qd8 z */
+    const double minus_w8_y = c7*minus_w7_y - s7*minus_w7_x;
+    const double minus_w8_x = c7*minus_w7_x + s7*minus_w7_y;
+    const double w8_z = qd[6] + qd[7];
+    const double minus_h8_z = minus_w8_x*beta[45] + minus_w8_y*beta[46] - w8_z*beta[47];
+    const double minus_h8_y = minus_w8_x*beta[44] - w8_z*beta[46];
+    const double minus_ww7_yz = qd[6]*minus_w7_y;
+    /* link 7: angular acceleration, wd7 = R7' wd1 + (R7' w1) x qd7 z + qdd7 z */
+    const double minus_wd7_x = s6*qdd[0] + minus_ww7_yz;
+    const double minus_ww7_xz = qd[6]*minus_w7_x;
+    const double minus_wd7_y = c6*qdd[0] - minus_ww7_xz;
+    /* link 8: angular acceleration, wd8 = R8' wd7 + (R8' w7) x qd8 z + qdd8 z */
+    const double minus_wd8_x = c7*minus_wd7_x + s7*minus_wd7_y + qd[7]*minus_w8_y;
+    const double minus_wd8_y = c7*minus_wd7_y - s7*minus_wd7_x - qd[7]*minus_w8_x;
+    const double wd8_z = qdd[6] + qdd[7];
+    /* link 2: acceleration of the origin less gravity, vd2 = R2' (vd1 + U1 p2) */
+    const double vd2_z = sr400_tree_geo_D2*qdd[0];
+    /* link 7: acceleration of points of the link, U7 = [wd7 x] + [w7 x][w7 x] */
+    const double minus_U7_zx = minus_ww7_xz - minus_wd7_y;
+    /* link 8: acceleration of the origin less gravity, vd8 = R8' (vd7 + U7 p8) */
+    const double vd8_z = vd2_z - sr400_tree_geo_D8*minus_U7_zx;
+    const double t18 = minus_w8_y*minus_h8_z + w8_z*minus_h8_y + (wd8_z*beta[45] -
+        (minus_wd8_x*beta[43] + minus_wd8_y*beta[44]));
+    /* link 8: moment on the link at its origin, n8 = J8 wd8 + w8 x J8 w8 + MS8 x vd8 */
+    const double n8_x = t18 + vd8_z*beta[49];
+    const double minus_h8_x = minus_w8_x*beta[43] + minus_w8_y*beta[44] - w8_z*beta[45];
+    const double minus_n8_y = w8_z*minus_h8_x + minus_w8_x*minus_h8_z + (minus_wd8_x*beta[44] -
+        wd8_z*beta[46]) + vd8_z*beta[48];
+    const double minus_h7_z = minus_w7_x*beta[38] + minus_w7_y*beta[39] - qd[6]*beta[40];
+    const double minus_h7_y = minus_w7_x*beta[37] - qd[6]*beta[39];
+    const double t24 = minus_w7_y*minus_h7_z + qd[6]*minus_h7_y + (qdd[6]*beta[38] -
+        (minus_wd7_x*beta[36] + minus_wd7_y*beta[37]));
+    /* link 8: force on the link, f8 = M8 vd8 + U8 MS8 */
+    const double f8_z = (minus_wd8_y - minus_w8_x*w8_z)*beta[48] - (minus_wd8_x +
+        minus_w8_y*w8_z)*beta[49];
+    const double minus_h7_x = minus_w7_x*beta[36] + minus_w7_y*beta[37] - qd[6]*beta[38];
+    /* link 7: moment on the link at its origin, n7 = J7 wd7 + w7 x J7 w7 + MS7 x vd7 */
+    const double minus_n7_y = qd[6]*minus_h7_x + minus_w7_x*minus_h7_z + (minus_wd7_x*beta[37] -
+        qdd[6]*beta[39]) + vd2_z*beta[41];
+    const double t28 = c6*(s7*n8_x - c7*minus_n8_y - sr400_tree_geo_D8*f8_z - minus_n7_y);
+    const double t29 = sr400_tree_geo_D2*(f8_z - (minus_U7_zx*beta[41] + (minus_ww7_yz +
+        minus_wd7_x)*beta[42]));
+    /* link 3: angular velocity, w3 = R3' w2 + qd3 z */
+    const double w3_z = qd[1] + qd[2];
+    /* link 2: angular velocity, w2 = R2' w1 + qd2 z */
+    const double minus_w2_x = s1*qd[0];
+    const double minus_w2_y = c1*qd[0];
+    const double minus_w3_x = c2*minus_w2_x + s2*minus_w2_y;
+    /* link 4: angular velocity, w4 = R4' w3 + qd4 z */
+    const double minus_w4_y = c3*w3_z - s3*minus_w3_x;
+    /* link 5: angular velocity, w5 = R5' w4 + qd5 z */
+    const double w5_z = qd[4] + minus_w4_y;
+    const double minus_w4_x = c3*minus_w3_x + s3*w3_z;
+    const double minus_w3_y = c2*minus_w2_y - s2*minus_w2_x;
+    const double w4_z = qd[3] - minus_w3_y;
+    const double minus_w5_x = c4*minus_w4_x - s4*w4_z;
+    /* link 6: angular velocity, w6 = R6' w5 + qd6 z */
+    const double minus_w6_y = c5*w5_z - s5*minus_w5_x;
+    const double minus_w6_x = c5*minus_w5_x + s5*w5_z;
+    const double w5_y = c4*w4_z + s4*minus_w4_x;
+    const double w6_z = qd[5] + w5_y;
+    const double minus_h6_z = minus_w6_x*beta[31] + minus_w6_y*beta[32] - w6_z*beta[33];
+    const double minus_h6_y = minus_w6_x*beta[30] - w6_z*beta[32];
+    const double minus_ww2_yz = qd[1]*minus_w2_y;
+    /* link 2: angular acceleration, wd2 = R2' wd1 + (R2' w1) x qd2 z + qdd2 z */
+    const double minus_wd2_x = s1*qdd[0] + minus_ww2_yz;
+    const double minus_ww2_xz = qd[1]*minus_w2_x;
+    const double minus_wd2_y = c1*qdd[0] - minus_ww2_xz;
+    /* link 3: angular acceleration, wd3 = R3' wd2 + (R3' w2) x qd3 z + qdd3 z */
+    const double minus_wd3_x = c2*minus_wd2_x + s2*minus_wd2_y + qd[2]*minus_w3_y;
+    const double wd3_z = qdd[1] + qdd[2];
+    /* link 4: angular acceleration, wd4 = R4' wd3 + (R4' w3) x qd4 z + qdd4 z */
+    const double minus_wd4_x = c3*minus_wd3_x + s3*wd3_z + qd[3]*minus_w4_y;
+    const double minus_wd3_y = c2*minus_wd2_y - s2*minus_wd2_x - qd[2]*minus_w3_x;
+    const double wd4_z = qdd[3] - minus_wd3_y;
+    /* link 5: angular acceleration, wd5 = R5' wd4 + (R5' w4) x qd5 z + qdd5 z */
+    const double minus_wd5_x = c4*minus_wd4_x - s4*wd4_z - qd[4]*w5_y;
+    const double minus_wd4_y = c3*wd3_z - s3*minus_wd3_x - qd[3]*minus_w4_x;
+    const double wd5_z = qdd[4] + minus_wd4_y;
+    /* link 6: angular acceleration, wd6 = R6' wd5 + (R6' w5) x qd6 z + qdd6 z */
+    const double minus_wd6_x = c5*minus_wd5_x + s5*wd5_z + qd[5]*minus_w6_y;
+    const double minus_wd6_y = c5*wd5_z - s5*minus_wd5_x - qd[5]*minus_w6_x;
+    const double wd5_y = c4*wd4_z + s4*minus_wd4_x + qd[4]*minus_w5_x;
+    const double wd6_z = qdd[5] + wd5_y;
+    const double minus_vd2a_x = qd[0]*qd[0]*sr400_tree_geo_D2;
+    const double minus_vd2_y = sr400_tree_geo_g*c1 - s1*minus_vd2a_x;
+    /* link 3: acceleration of the origin less gravity, vd3 = R3' (vd2 + U2 p3) */
+    const double minus_vd3a_y = minus_vd2_y - sr400_tree_geo_D3*(qdd[1] + minus_w2_x*minus_w2_y);
+    const double minus_vd2_x = c1*minus_vd2a_x + sr400_tree_geo_g*s1;
+    const double minus_vd3a_x = minus_vd2_x + sr400_tree_geo_D3*(minus_w2_y*minus_w2_y +
+        qd[1]*qd[1]);
+    const double minus_vd3_y = c2*minus_vd3a_y - s2*minus_vd3a_x;
+    const double ww3_xy = minus_w3_x*minus_w3_y;
+    /* link 3: acceleration of points of the link, U3 = [wd3 x] + [w3 x][w3 x] */
+    const double U3_yx = wd3_z + ww3_xy;
+    const double ww3_zz = w3_z*w3_z;
+    const double minus_U3_yy = minus_w3_x*minus_w3_x + ww3_zz;
+    /* link 4: acceleration of the origin less gravity, vd4 = R4' (vd3 + U3 p4) */
+    const double minus_vd4_z = sr400_tree_geo_RL4*minus_U3_yy - sr400_tree_geo_D4*U3_yx +
+        minus_vd3_y;
+    const double minus_vd3_x = c2*minus_vd3a_x + s2*minus_vd3a_y;
+    const double minus_U3_xx = minus_w3_y*minus_w3_y + ww3_zz;
+    const double minus_U3_xy = wd3_z - ww3_xy;
+    const double minus_vd4a_x = sr400_tree_geo_D4*minus_U3_xx + sr400_tree_geo_RL4*minus_U3_xy +
+        minus_vd3_x;
+    /* link 2: acceleration of points of the link, U2 = [wd2 x] + [w2 x][w2 x] */
+    const double minus_U2_zx = minus_ww2_xz - minus_wd2_y;
+    const double vd3_z = vd2_z - sr400_tree_geo_D3*minus_U2_zx;
+    const double U3_zx = minus_wd3_y - minus_w3_x*w3_z;
+    const double minus_U3_zy = minus_wd3_x + minus_w3_y*w3_z;
+    const double vd4a_z = sr400_tree_geo_D4*U3_zx - sr400_tree_geo_RL4*minus_U3_zy + vd3_z;
+    const double minus_vd4_x = c3*minus_vd4a_x + s3*vd4a_z;
+    /* link 5: acceleration of the origin less gravity, vd5 = R5' (vd4 + U4 p5) */
+    const double minus_vd5_y = c4*minus_vd4_z - s4*minus_vd4_x;
+    const double t84 = minus_w6_y*minus_h6_z + w6_z*minus_h6_y + (wd6_z*beta[31] -
+        (minus_wd6_x*beta[29] + minus_wd6_y*beta[30]));
+    /* link 6: moment on the link at its origin, n6 = J6 wd6 + w6 x J6 w6 + MS6 x vd6 */
+    const double n6_x = t84 - minus_vd5_y*beta[35];
+    const double minus_h6_x = minus_w6_x*beta[29] + minus_w6_y*beta[30] - w6_z*beta[31];
+    const double minus_n6_y = w6_z*minus_h6_x + minus_w6_x*minus_h6_z + (minus_wd6_x*beta[30] -
+        wd6_z*beta[32]) - minus_vd5_y*beta[34];
+    const double minus_h5_z = minus_w5_x*beta[24] - w5_y*beta[25] - w5_z*beta[26];
+    const double minus_h5_y = minus_w5_x*beta[23] - w5_z*beta[25];
+    const double minus_vd4_y = c3*vd4a_z - s3*minus_vd4a_x;
+    const double t91 = w5_y*minus_h5_z - w5_z*minus_h5_y + (minus_wd5_x*beta[22] - wd5_y*beta[23] -
+        wd5_z*beta[24]);
+    /* link 5: moment on the link and all that it carries, nc5 = n5 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc5_x = c5*n6_x + s5*minus_n6_y + (minus_vd4_y*beta[28] - t91);
+    const double minus_vd5_x = c4*minus_vd4_x + s4*minus_vd4_z;
+    const double t94 = minus_w6_x*minus_h6_y - minus_w6_y*minus_h6_x + (wd6_z*beta[33] -
+        (minus_wd6_x*beta[31] + minus_wd6_y*beta[32]));
+    const double n6_z = (c5*minus_vd5_x + s5*minus_vd4_y)*beta[35] - (c5*minus_vd4_y -
+        s5*minus_vd5_x)*beta[34] + t94;
+    const double minus_h5_x = minus_w5_x*beta[22] - w5_y*beta[23] - w5_z*beta[24];
+    const double nc5_y = n6_z - (w5_z*minus_h5_x + minus_w5_x*minus_h5_z + (minus_wd5_x*beta[23] -
+        wd5_z*beta[25]) + minus_vd4_y*beta[27]);
+    const double minus_h4_z = minus_w4_x*beta[17] + minus_w4_y*beta[18] - w4_z*beta[19];
+    const double minus_h4_y = minus_w4_x*beta[16] - w4_z*beta[18];
+    const double t100 = minus_w4_y*minus_h4_z + w4_z*minus_h4_y + (wd4_z*beta[17] -
+        (minus_wd4_x*beta[15] + minus_wd4_y*beta[16]));
+    /* link 4: moment on the link and all that it carries, nc4 = n4 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc4_x = c4*nc5_x - s4*nc5_y + (t100 - minus_vd4_z*beta[21]);
+    const double t102 = minus_w5_x*minus_h5_y + w5_y*minus_h5_x + (wd5_z*beta[26] -
+        (minus_wd5_x*beta[24] - wd5_y*beta[25]));
+    const double minus_nc5_z = s5*n6_x - c5*minus_n6_y + (minus_vd5_y*beta[27] -
+        minus_vd5_x*beta[28] - t102);
+    const double minus_h4_x = minus_w4_x*beta[15] + minus_w4_y*beta[16] - w4_z*beta[17];
+    const double nc4_y = minus_vd4_z*beta[20] - (w4_z*minus_h4_x + minus_w4_x*minus_h4_z +
+        (minus_wd4_x*beta[16] - wd4_z*beta[18])) + minus_nc5_z;
+    const double ww6_zz = w6_z*w6_z;
+    const double ww6_xy = minus_w6_x*minus_w6_y;
+    /* link 6: force on the link, f6 = M6 vd6 + U6 MS6 */
+    const double minus_f6_x = (minus_w6_y*minus_w6_y + ww6_zz)*beta[34] + (wd6_z - ww6_xy)*beta[35];
+    const double minus_f6_y = (minus_w6_x*minus_w6_x + ww6_zz)*beta[35] - (wd6_z + ww6_xy)*beta[34];
+    const double ww5_zz = w5_z*w5_z;
+    const double minus_ww5_xy = minus_w5_x*w5_y;
+    /* link 5: force on the link and all that it carries, fc5 = f5 + sum of R fc of what hangs on it
+        */
+    const double minus_fc5_x = c5*minus_f6_x - s5*minus_f6_y + ((w5_y*w5_y + ww5_zz)*beta[27] +
+        (wd5_z + minus_ww5_xy)*beta[28]);
+    const double f6_z = (minus_wd6_y - minus_w6_x*w6_z)*beta[34] - (minus_wd6_x +
+        minus_w6_y*w6_z)*beta[35];
+    const double fc5_y = (wd5_z - minus_ww5_xy)*beta[27] - (minus_w5_x*minus_w5_x + ww5_zz)*beta[28]
+        + f6_z;
+    const double ww4_zz = w4_z*w4_z;
+    const double ww4_xy = minus_w4_x*minus_w4_y;
+    /* link 4: force on the link and all that it carries, fc4 = f4 + sum of R fc of what hangs on it
+        */
+    const double minus_fc4_x = c4*minus_fc5_x + s4*fc5_y + ((minus_w4_y*minus_w4_y +
+        ww4_zz)*beta[20] + (wd4_z - ww4_xy)*beta[21]);
+    const double fc5_z = s5*minus_f6_x + c5*minus_f6_y - ((wd5_y + minus_w5_x*w5_z)*beta[27] +
+        (minus_wd5_x - w5_y*w5_z)*beta[28]);
+    const double minus_fc4_y = (minus_w4_x*minus_w4_x + ww4_zz)*beta[21] - (wd4_z + ww4_xy)*beta[20]
+        + fc5_z;
+    const double fc4a_z = s3*minus_fc4_x + c3*minus_fc4_y;
+    const double minus_h3_z = minus_w3_x*beta[10] + minus_w3_y*beta[11] - w3_z*beta[12];
+    const double minus_h3_y = minus_w3_x*beta[9] - w3_z*beta[11];
+    const double t123 = minus_w3_y*minus_h3_z + w3_z*minus_h3_y + (wd3_z*beta[10] -
+        (minus_wd3_x*beta[8] + minus_wd3_y*beta[9]));
+    /* link 3: moment on the link and all that it carries, nc3 = n3 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc3_x = c3*nc4_x - s3*nc4_y + sr400_tree_geo_RL4*fc4a_z + (t123 + vd3_z*beta[14]);
+    const double t125 = minus_w4_x*minus_h4_y - minus_w4_y*minus_h4_x + (wd4_z*beta[19] -
+        (minus_wd4_x*beta[17] + minus_wd4_y*beta[18]));
+    const double nc4_z = s4*nc5_x + c4*nc5_y + (minus_vd4_x*beta[21] - minus_vd4_y*beta[20] + t125);
+    const double minus_h3_x = minus_w3_x*beta[8] + minus_w3_y*beta[9] - w3_z*beta[10];
+    /* link 3: moment on the link at its origin, n3 = J3 wd3 + w3 x J3 w3 + MS3 x vd3 */
+    const double minus_n3_y = w3_z*minus_h3_x + minus_w3_x*minus_h3_z + (minus_wd3_x*beta[9] -
+        wd3_z*beta[11]) + vd3_z*beta[13];
+    const double nc3_y = nc4_z - sr400_tree_geo_D4*fc4a_z - minus_n3_y;
+    const double minus_h2_z = minus_w2_x*beta[3] + minus_w2_y*beta[4] - qd[1]*beta[5];
+    const double minus_h2_y = minus_w2_x*beta[2] - qd[1]*beta[4];
+    const double t132 = minus_w2_y*minus_h2_z + qd[1]*minus_h2_y + (qdd[1]*beta[3] -
+        (minus_wd2_x*beta[1] + minus_wd2_y*beta[2]));
+    /* link 3: force on the link and all that it carries, fc3 = f3 + sum of R fc of what hangs on it
+        */
+    const double fc3_z = U3_zx*beta[13] - minus_U3_zy*beta[14] + fc4a_z;
+    const double minus_h2_x = minus_w2_x*beta[1] + minus_w2_y*beta[2] - qd[1]*beta[3];
+    /* link 2: moment on the link at its origin, n2 = J2 wd2 + w2 x J2 w2 + MS2 x vd2 */
+    const double minus_n2_y = qd[1]*minus_h2_x + minus_w2_x*minus_h2_z + (minus_wd2_x*beta[2] -
+        qdd[1]*beta[4]) + vd2_z*beta[6];
+    const double t136 = c1*(s2*nc3_x + c2*nc3_y - sr400_tree_geo_D3*fc3_z - minus_n2_y);
+    const double t137 = sr400_tree_geo_D2*(fc3_z - (minus_U2_zx*beta[6] + (minus_ww2_yz +
+        minus_wd2_x)*beta[7]));
+    /* link 2: moment on the link and all that it carries, nc2 = n2 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc2a_z = s1*(c2*nc3_x - s2*nc3_y + (t132 + vd2_z*beta[7])) + t136 - t137;
+    const double t139 = s6*(c7*n8_x + s7*minus_n8_y + (t24 + vd2_z*beta[42])) + t28 - t29 +
+        minus_nc2a_z;
     tau[0] = qdd[0]*beta[0] - t139;
-    const double t140 = s4*t112 - c4*t114 + ((t52 + t34*t38)*beta[21] - (t56 - t36*t38)*beta[20]);
-    const double t141 = c3*t117 - s3*t119;
-    const double t142 = t33*t122 - t37*t127 + (t51*beta[12] - (t50*beta[10] + t53*beta[11]));
-    const double t143 = s3*t101 + c3*t105 + (sr400_tree_geo_D4*t140 - sr400_tree_geo_RL4*t141);
-    const double t144 = t67*beta[13] - t73*beta[14] - t142 + t143;
-    const double t145 = s2*(t74*beta[13] + t75*beta[14] + t141);
-    const double t146 = t31*t131 - t32*t134 + (qdd[1]*beta[5] - (t47*beta[3] + t49*beta[4]));
-    const double t147 = t144 + sr400_tree_geo_D3*(t145 + c2*(t71*beta[14] - t69*beta[13] + t140));
-    tau[1] = t65*beta[7] - t63*beta[6] + t146 - t147;
-    tau[2] = -t144;
-    tau[3] = t126;
-    tau[4] = -t103;
-    tau[5] = t95;
-    const double t148 = sr400_tree_geo_g*c6 - s6*t62;
-    const double t149 = t148 - sr400_tree_geo_D8*(qdd[6] + t2*t1);
-    const double t150 = c6*t62 + sr400_tree_geo_g*s6;
-    const double t151 = t150 + sr400_tree_geo_D8*(t1*t1 + qd[6]*qd[6]);
-    const double t152 = t4*t7 - t3*t20 + (t14*beta[47] - (t12*beta[45] + t13*beta[46]));
-    const double t153 = (c7*t151 + s7*t149)*beta[49] - (c7*t149 - s7*t151)*beta[48] + t152;
-    const double t154 = t5*t5;
-    const double t155 = t4*t3;
-    const double t156 = s7*((t3*t3 + t154)*beta[48] + (t14 - t155)*beta[49]);
-    const double t157 = t156 + c7*((t4*t4 + t154)*beta[49] - (t14 + t155)*beta[48]);
-    const double t158 = t2*t23 - t1*t26 + (qdd[6]*beta[40] - (t9*beta[38] + t11*beta[39]));
-    tau[6] = t153 - sr400_tree_geo_D8*t157 + (t150*beta[42] - t148*beta[41] + t158);
-    tau[7] = t153;
+    const double minus_fc4_z = s4*minus_fc5_x - c4*fc5_y + ((minus_wd4_x + minus_w4_y*w4_z)*beta[21]
+        - (minus_wd4_y - minus_w4_x*w4_z)*beta[20]);
+    const double minus_fc4a_x = c3*minus_fc4_x - s3*minus_fc4_y;
+    const double t142 = minus_w3_x*minus_h3_y - minus_w3_y*minus_h3_x + (wd3_z*beta[12] -
+        (minus_wd3_x*beta[10] + minus_wd3_y*beta[11]));
+    const double minus_nc4a_z = s3*nc4_x + c3*nc4_y + (sr400_tree_geo_D4*minus_fc4_z -
+        sr400_tree_geo_RL4*minus_fc4a_x);
+    const double minus_nc3_z = minus_vd3_y*beta[13] - minus_vd3_x*beta[14] - t142 + minus_nc4a_z;
+    const double t145 = s2*(minus_U3_xx*beta[13] + minus_U3_xy*beta[14] + minus_fc4a_x);
+    const double t146 = minus_w2_x*minus_h2_y - minus_w2_y*minus_h2_x + (qdd[1]*beta[5] -
+        (minus_wd2_x*beta[3] + minus_wd2_y*beta[4]));
+    const double minus_nc3a_z = minus_nc3_z + sr400_tree_geo_D3*(t145 + c2*(minus_U3_yy*beta[14] -
+        U3_yx*beta[13] + minus_fc4_z));
+    tau[1] = minus_vd2_x*beta[7] - minus_vd2_y*beta[6] + t146 - minus_nc3a_z;
+    tau[2] = -minus_nc3_z;
+    tau[3] = nc4_z;
+    tau[4] = -minus_nc5_z;
+    tau[5] = n6_z;
+    /* link 7: acceleration of the origin less gravity, vd7 = R7' (vd1 + U1 p7) */
+    const double minus_vd7_y = sr400_tree_geo_g*c6 - s6*minus_vd2a_x;
+    const double minus_vd8a_y = minus_vd7_y - sr400_tree_geo_D8*(qdd[6] + minus_w7_x*minus_w7_y);
+    const double minus_vd7_x = c6*minus_vd2a_x + sr400_tree_geo_g*s6;
+    const double minus_vd8a_x = minus_vd7_x + sr400_tree_geo_D8*(minus_w7_y*minus_w7_y +
+        qd[6]*qd[6]);
+    const double t152 = minus_w8_x*minus_h8_y - minus_w8_y*minus_h8_x + (wd8_z*beta[47] -
+        (minus_wd8_x*beta[45] + minus_wd8_y*beta[46]));
+    const double n8_z = (c7*minus_vd8a_x + s7*minus_vd8a_y)*beta[49] - (c7*minus_vd8a_y -
+        s7*minus_vd8a_x)*beta[48] + t152;
+    const double ww8_zz = w8_z*w8_z;
+    const double ww8_xy = minus_w8_x*minus_w8_y;
+    const double t156 = s7*((minus_w8_y*minus_w8_y + ww8_zz)*beta[48] + (wd8_z - ww8_xy)*beta[49]);
+    /* link 8: force on the link and all that it carries, fc8 = f8 + sum of R fc of what hangs on it
+        */
+    const double minus_fc8a_y = t156 + c7*((minus_w8_x*minus_w8_x + ww8_zz)*beta[49] - (wd8_z +
+        ww8_xy)*beta[48]);
+    const double t158 = minus_w7_x*minus_h7_y - minus_w7_y*minus_h7_x + (qdd[6]*beta[40] -
+        (minus_wd7_x*beta[38] + minus_wd7_y*beta[39]));
+    tau[6] = n8_z - sr400_tree_geo_D8*minus_fc8a_y + (minus_vd7_x*beta[42] - minus_vd7_y*beta[41] +
+        t158);
+    tau[7] = n8_z;
 }
 
 /* Inertia matrix, rotor inertias included; symmetric.
@@ -290,163 +404,192 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODE
     double s7, c7;
     modeler_sincos(q[7], &s7, &c7);
 
-    const double t1 = s5*beta[35] - c5*beta[34];
-    const double t2 = beta[27] - t1;
-    const double t3 = c4*beta[28] + s4*t2;
-    const double t4 = beta[14] + t3;
-    const double t5 = c5*beta[35] + s5*beta[34];
-    const double t6 = beta[21] + t5;
-    const double t7 = s4*beta[28] - c4*t2;
-    const double t8 = beta[20] - t7;
-    const double t9 = s3*t6 - c3*t8;
-    const double t10 = beta[13] - t9;
-    const double t11 = c2*t4 + s2*t10;
-    const double t12 = s2*t4 - c2*t10;
-    const double t13 = c7*beta[49] + s7*beta[48];
-    const double t14 = s7*beta[49] - c7*beta[48];
+    const double lin6a_6z = s5*beta[35] - c5*beta[34];
+    /* link 5: first moments of the link and all that it carries, MSc5 = MS5 + sum of R MSc + Mc p
+        of what hangs on it */
+    const double MSc5_x = beta[27] - lin6a_6z;
+    /* link 4: first moments of the link and all that it carries, MSc4 = MS4 + sum of R MSc + Mc p
+        of what hangs on it */
+    const double MSc4_z = c4*beta[28] + s4*MSc5_x;
+    /* link 3: first moments of the link and all that it carries, MSc3 = MS3 + sum of R MSc + Mc p
+        of what hangs on it */
+    const double MSc3_y = beta[14] + MSc4_z;
+    const double minus_MSc5_z = c5*beta[35] + s5*beta[34];
+    const double MSc4_y = beta[21] + minus_MSc5_z;
+    const double minus_lin5a_5z = s4*beta[28] - c4*MSc5_x;
+    const double MSc4_x = beta[20] - minus_lin5a_5z;
+    const double lin4a_4z = s3*MSc4_y - c3*MSc4_x;
+    const double MSc3_x = beta[13] - lin4a_4z;
+    const double minus_lin3a_3x = c2*MSc3_y + s2*MSc3_x;
+    const double minus_lin3a_3y = s2*MSc3_y - c2*MSc3_x;
+    const double minus_lin8a_8x = c7*beta[49] + s7*beta[48];
+    const double minus_lin8a_8y = s7*beta[49] - c7*beta[48];
     const double t15 = c7*beta[43] - s7*beta[44];
     const double t16 = c7*beta[44];
     const double t17 = s7*t16;
-    const double t18 = s7*t15 + c7*t16 + beta[37] - sr400_tree_geo_D8*t13;
-    const double t19 = k1*t14;
-    const double t20 = c6*(s6*t18 + c6*(t17 + s7*(s7*beta[43] + t16) - t19));
-    const double t21 = s6*(s6*(c7*t15 - t17 + beta[36]) + c6*t18) + t20 + beta[0];
+    /* link 7: inertia of the link and all that it carries, Jc7 = J7 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc7_xy = s7*t15 + c7*t16 + beta[37] - sr400_tree_geo_D8*minus_lin8a_8x;
+    const double minus_Js8_yy = k1*minus_lin8a_8y;
+    const double t20 = c6*(s6*Jc7_xy + c6*(t17 + s7*(s7*beta[43] + t16) - minus_Js8_yy));
+    const double t21 = s6*(s6*(c7*t15 - t17 + beta[36]) + c6*Jc7_xy) + t20 + beta[0];
     const double t22 = c5*beta[29] - s5*beta[30];
     MODELER_ZEROS(M + 14, 2);
     const double t23 = c5*beta[30];
     const double t24 = s5*t23;
-    const double t25 = c5*t22 - t24 + beta[22];
-    const double t26 = c5*beta[31] - s5*beta[32];
-    const double t27 = beta[23] + t26;
-    const double t28 = s4*t27;
-    const double t29 = c4*t25 - t28;
+    /* link 5: inertia of the link and all that it carries, Jc5 = J5 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc5_xx = c5*t22 - t24 + beta[22];
+    const double ang6a_6x = c5*beta[31] - s5*beta[32];
+    const double Jc5_xy = beta[23] + ang6a_6x;
+    const double t28 = s4*Jc5_xy;
+    const double t29 = c4*Jc5_xx - t28;
     const double t30 = s4*beta[33];
-    const double t31 = c4*t27;
+    const double t31 = c4*Jc5_xy;
     const double t32 = t30 - t31;
-    const double t33 = c4*t29 + s4*t32 + beta[15];
-    const double t34 = beta[24] - (s5*t22 + c5*t23);
-    const double t35 = s5*beta[31] + c5*beta[32];
-    const double t36 = beta[25] - t35;
-    const double t37 = c4*t34 - s4*t36;
-    const double t38 = beta[16] - t37;
-    const double t39 = s3*t38;
-    const double t40 = c3*t33 - t39;
-    const double t41 = t24 + s5*(s5*beta[29] + t23) + beta[26];
-    const double t42 = s3*t41;
-    const double t43 = c3*t38;
+    /* link 4: inertia of the link and all that it carries, Jc4 = J4 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc4_xx = c4*t29 + s4*t32 + beta[15];
+    const double Jc5_xz = beta[24] - (s5*t22 + c5*t23);
+    const double minus_ang6a_6z = s5*beta[31] + c5*beta[32];
+    const double Jc5_yz = beta[25] - minus_ang6a_6z;
+    const double ang5a_5x = c4*Jc5_xz - s4*Jc5_yz;
+    const double Jc4_xy = beta[16] - ang5a_5x;
+    const double t39 = s3*Jc4_xy;
+    const double t40 = c3*Jc4_xx - t39;
+    const double Jc5_zz = t24 + s5*(s5*beta[29] + t23) + beta[26];
+    const double t42 = s3*Jc5_zz;
+    const double t43 = c3*Jc4_xy;
     const double t44 = t42 - t43;
     MODELER_ZEROS(M + 22, 2);
-    const double t45 = k4*t3;
-    const double t46 = c3*t40 + s3*t44 + beta[8] + t45;
-    const double t47 = s4*t29 - c4*t32 + beta[17];
-    const double t48 = s4*t34 + c4*t36;
-    const double t49 = beta[18] - t48;
-    const double t50 = c3*t47 - s3*t49;
-    const double t51 = sr400_tree_geo_RL4*t9;
-    const double t52 = beta[9] + t50 + (t51 - sr400_tree_geo_D4*t3);
-    const double t53 = s2*t52;
-    const double t54 = c2*t46 - t53;
-    const double t55 = c2*t52;
+    const double Js4_xx = k4*MSc4_z;
+    /* link 3: inertia of the link and all that it carries, Jc3 = J3 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc3_xx = c3*t40 + s3*t44 + beta[8] + Js4_xx;
+    const double Jc4_xz = s4*t29 - c4*t32 + beta[17];
+    const double ang5a_5z = s4*Jc5_xz + c4*Jc5_yz;
+    const double Jc4_yz = beta[18] - ang5a_5z;
+    const double Jc4a_xy = c3*Jc4_xz - s3*Jc4_yz;
+    const double t51 = sr400_tree_geo_RL4*lin4a_4z;
+    const double Jc3_xy = beta[9] + Jc4a_xy + (t51 - sr400_tree_geo_D4*MSc4_z);
+    const double t53 = s2*Jc3_xy;
+    const double t54 = c2*Jc3_xx - t53;
+    const double t55 = c2*Jc3_xy;
     const double t56 = c4*beta[33];
-    const double t57 = s4*(s4*t25 + t31) + c4*(t56 + t28) + beta[19];
-    const double t58 = k3*t9;
-    const double t59 = t57 - t58;
-    const double t60 = t55 - s2*t59;
-    const double t61 = s2*t54 + c2*t60 + beta[2] - sr400_tree_geo_D3*t11;
-    const double t62 = k5*t12;
-    const double t63 = c1*(s1*t61 + c1*(s2*(s2*t46 + t55) + c2*(t53 + c2*t59) - t62));
-    const double t64 = k2*(s6*(beta[42] + t13) - c6*(beta[41] - t14)) - t21;
-    const double t65 = t64 - (s1*(s1*(c2*t54 - s2*t60 + beta[1]) + c1*t61) + t63);
-    M[0] = -(k2*(s1*(beta[7] + t11) - c1*(beta[6] - t12)) + t65);
+    const double Jc4_zz = s4*(s4*Jc5_xx + t31) + c4*(t56 + t28) + beta[19];
+    const double minus_Js4_yy = k3*lin4a_4z;
+    const double Jc3_yy = Jc4_zz - minus_Js4_yy;
+    const double t60 = t55 - s2*Jc3_yy;
+    /* link 2: inertia of the link and all that it carries, Jc2 = J2 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc2_xy = s2*t54 + c2*t60 + beta[2] - sr400_tree_geo_D3*minus_lin3a_3x;
+    const double minus_Js3_yy = k5*minus_lin3a_3y;
+    const double t63 = c1*(s1*Jc2_xy + c1*(s2*(s2*Jc3_xx + t55) + c2*(t53 + c2*Jc3_yy) -
+        minus_Js3_yy));
+    /* link 1: inertia of the link and all that it carries, Jc1 = J1 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double minus_Jc1_zz = k2*(s6*(beta[42] + minus_lin8a_8x) - c6*(beta[41] - minus_lin8a_8y))
+        - t21;
+    const double t65 = minus_Jc1_zz - (s1*(s1*(c2*t54 - s2*t60 + beta[1]) + c1*Jc2_xy) + t63);
+    M[0] = -(k2*(s1*(beta[7] + minus_lin3a_3x) - c1*(beta[6] - minus_lin3a_3y)) + t65);
     MODELER_ZEROS(M + 30, 2);
-    const double t66 = c3*t6 + s3*t8;
-    const double t67 = c3*t44 - s3*t40 + beta[10] + sr400_tree_geo_D4*t66;
-    const double t68 = sr400_tree_geo_RL4*t66;
-    const double t69 = s3*t47 + c3*t49;
-    const double t70 = beta[11] - t69 + t68;
-    const double t71 = c2*t67 - s2*t70;
-    const double t72 = s2*t67 + c2*t70;
-    const double t73 = s1*(beta[3] + t71 + sr400_tree_geo_D3*t66) + c1*(beta[4] + t72);
-    M[1] = -t73;
-    const double t74 = s1*t71 + c1*t72;
-    M[2] = -t74;
-    const double t75 = t50 + t51;
-    const double t76 = t57 - sr400_tree_geo_D4*t9;
-    const double t77 = s1*(c2*t75 - s2*t76) + c1*(s2*t75 + c2*t76 - sr400_tree_geo_D3*t9);
-    const double t78 = t77 - sr400_tree_geo_D2*t9;
-    M[3] = -t78;
-    const double t79 = s3*t3;
-    const double t80 = c3*t37 + t42 + sr400_tree_geo_RL4*t79;
-    const double t81 = t48 - sr400_tree_geo_D4*t79;
-    const double t82 = s1*(c2*t80 - s2*t81) + c1*(s2*t80 + c2*t81 - sr400_tree_geo_D3*t79);
-    const double t83 = t82 - sr400_tree_geo_D2*t79;
+    const double minus_MSc3_z = c3*MSc4_y + s3*MSc4_x;
+    const double Jc3_xz = c3*t44 - s3*t40 + beta[10] + sr400_tree_geo_D4*minus_MSc3_z;
+    const double Js4_yz = sr400_tree_geo_RL4*minus_MSc3_z;
+    const double minus_Jc4a_yz = s3*Jc4_xz + c3*Jc4_yz;
+    const double Jc3_yz = beta[11] - minus_Jc4a_yz + Js4_yz;
+    const double ang3a_3x = c2*Jc3_xz - s2*Jc3_yz;
+    const double ang3a_3y = s2*Jc3_xz + c2*Jc3_yz;
+    const double minus_ang2a_2z = s1*(beta[3] + ang3a_3x + sr400_tree_geo_D3*minus_MSc3_z) +
+        c1*(beta[4] + ang3a_3y);
+    M[1] = -minus_ang2a_2z;
+    const double minus_ang2a_3z = s1*ang3a_3x + c1*ang3a_3y;
+    M[2] = -minus_ang2a_3z;
+    const double ang4a_4x = Jc4a_xy + t51;
+    const double ang4a_4y = Jc4_zz - sr400_tree_geo_D4*lin4a_4z;
+    const double t77 = s1*(c2*ang4a_4x - s2*ang4a_4y) + c1*(s2*ang4a_4x + c2*ang4a_4y -
+        sr400_tree_geo_D3*lin4a_4z);
+    const double minus_ang2a_4z = t77 - sr400_tree_geo_D2*lin4a_4z;
+    M[3] = -minus_ang2a_4z;
+    const double lin4a_5z = s3*MSc4_z;
+    const double ang4a_5x = c3*ang5a_5x + t42 + sr400_tree_geo_RL4*lin4a_5z;
+    const double ang4a_5y = ang5a_5z - sr400_tree_geo_D4*lin4a_5z;
+    const double t82 = s1*(c2*ang4a_5x - s2*ang4a_5y) + c1*(s2*ang4a_5x + c2*ang4a_5y -
+        sr400_tree_geo_D3*lin4a_5z);
+    const double minus_ang2a_5z = t82 - sr400_tree_geo_D2*lin4a_5z;
     MODELER_ZEROS(M + 38, 2);
-    M[4] = -t83;
-    const double t84 = c4*t26 - t30;
-    const double t85 = c4*t5;
-    const double t86 = s3*t85 + c3*t1;
-    const double t87 = c3*t84 - s3*t35 + sr400_tree_geo_RL4*t86;
-    const double t88 = s4*t26 + t56;
-    const double t89 = t88 - sr400_tree_geo_D4*t86;
-    const double t90 = s1*(c2*t87 - s2*t89) + c1*(s2*t87 + c2*t89 - sr400_tree_geo_D3*t86);
-    const double t91 = t90 - sr400_tree_geo_D2*t86;
-    M[5] = -t91;
-    const double t92 = c7*beta[45] - s7*beta[46];
-    const double t93 = s7*beta[45] + c7*beta[46];
-    const double t94 = s6*(beta[38] + t92) + c6*(beta[39] + t93);
-    M[6] = -t94;
-    const double t95 = s6*t92 + c6*t93;
-    M[7] = -t95;
-    M[8] = -t73;
-    const double t96 = c3*t41;
-    const double t97 = s3*(s3*t33 + t43) + c3*(t96 + t39) + beta[12] + (t45 - t58);
-    M[9] = beta[5] + t97 - t62;
-    const double t98 = t97 - sr400_tree_geo_D3*t12;
-    M[10] = t98;
+    M[4] = -minus_ang2a_5z;
+    const double ang5a_6x = c4*ang6a_6x - t30;
+    const double minus_lin5a_6x = c4*minus_MSc5_z;
+    const double lin4a_6z = s3*minus_lin5a_6x + c3*lin6a_6z;
+    const double ang4a_6x = c3*ang5a_6x - s3*minus_ang6a_6z + sr400_tree_geo_RL4*lin4a_6z;
+    const double ang5a_6z = s4*ang6a_6x + t56;
+    const double ang4a_6y = ang5a_6z - sr400_tree_geo_D4*lin4a_6z;
+    const double t90 = s1*(c2*ang4a_6x - s2*ang4a_6y) + c1*(s2*ang4a_6x + c2*ang4a_6y -
+        sr400_tree_geo_D3*lin4a_6z);
+    const double minus_ang2a_6z = t90 - sr400_tree_geo_D2*lin4a_6z;
+    M[5] = -minus_ang2a_6z;
+    const double ang8a_8x = c7*beta[45] - s7*beta[46];
+    const double ang8a_8y = s7*beta[45] + c7*beta[46];
+    const double minus_Jc1_yz = s6*(beta[38] + ang8a_8x) + c6*(beta[39] + ang8a_8y);
+    M[6] = -minus_Jc1_yz;
+    const double minus_ang7a_8z = s6*ang8a_8x + c6*ang8a_8y;
+    M[7] = -minus_ang7a_8z;
+    M[8] = -minus_ang2a_2z;
+    const double t96 = c3*Jc5_zz;
+    const double Jc3_zz = s3*(s3*Jc4_xx + t43) + c3*(t96 + t39) + beta[12] + (Js4_xx -
+        minus_Js4_yy);
+    M[9] = beta[5] + Jc3_zz - minus_Js3_yy;
+    const double ang3a_3z = Jc3_zz - sr400_tree_geo_D3*minus_lin3a_3y;
+    M[10] = ang3a_3z;
     MODELER_ZEROS(M + 46, 2);
-    const double t99 = t69 - t68;
-    const double t100 = t99 + s2*t66*sr400_tree_geo_D3;
-    M[11] = -t100;
-    const double t101 = c3*t3;
-    const double t102 = s3*t37 - t96 + (sr400_tree_geo_D4*t7 - sr400_tree_geo_RL4*t101);
-    const double t103 = t102 + sr400_tree_geo_D3*(s2*t101 + c2*t7);
-    M[12] = -t103;
-    const double t104 = s4*t5;
-    const double t105 = c3*t85 - s3*t1;
-    const double t106 = s3*t84 + c3*t35 + (sr400_tree_geo_D4*t104 - sr400_tree_geo_RL4*t105);
-    const double t107 = t106 + sr400_tree_geo_D3*(s2*t105 + c2*t104);
-    M[13] = -t107;
-    M[16] = -t74;
-    M[17] = t98;
-    M[18] = t97;
-    M[19] = -t99;
-    M[20] = -t102;
-    M[21] = -t106;
-    M[24] = -t78;
-    M[25] = -t100;
-    M[26] = -t99;
-    M[27] = t57;
+    const double minus_ang4a_4z = minus_Jc4a_yz - Js4_yz;
+    const double minus_ang3a_4z = minus_ang4a_4z + s2*minus_MSc3_z*sr400_tree_geo_D3;
+    M[11] = -minus_ang3a_4z;
+    const double minus_lin4a_5x = c3*MSc4_z;
+    const double minus_ang4a_5z = s3*ang5a_5x - t96 + (sr400_tree_geo_D4*minus_lin5a_5z -
+        sr400_tree_geo_RL4*minus_lin4a_5x);
+    const double minus_ang3a_5z = minus_ang4a_5z + sr400_tree_geo_D3*(s2*minus_lin4a_5x +
+        c2*minus_lin5a_5z);
+    M[12] = -minus_ang3a_5z;
+    const double minus_lin5a_6z = s4*minus_MSc5_z;
+    const double minus_lin4a_6x = c3*minus_lin5a_6x - s3*lin6a_6z;
+    const double minus_ang4a_6z = s3*ang5a_6x + c3*minus_ang6a_6z +
+        (sr400_tree_geo_D4*minus_lin5a_6z - sr400_tree_geo_RL4*minus_lin4a_6x);
+    const double minus_ang3a_6z = minus_ang4a_6z + sr400_tree_geo_D3*(s2*minus_lin4a_6x +
+        c2*minus_lin5a_6z);
+    M[13] = -minus_ang3a_6z;
+    M[16] = -minus_ang2a_3z;
+    M[17] = ang3a_3z;
+    M[18] = Jc3_zz;
+    M[19] = -minus_ang4a_4z;
+    M[20] = -minus_ang4a_5z;
+    M[21] = -minus_ang4a_6z;
+    M[24] = -minus_ang2a_4z;
+    M[25] = -minus_ang3a_4z;
+    M[26] = -minus_ang4a_4z;
+    M[27] = Jc4_zz;
     MODELER_ZEROS(M + 49, 5);
-    M[28] = t48;
-    M[29] = t88;
-    M[32] = -t83;
-    M[33] = -t103;
-    M[34] = -t102;
-    M[35] = t48;
-    M[36] = t41;
-    M[37] = -t35;
-    M[40] = -t91;
-    M[41] = -t107;
-    M[42] = -t106;
-    M[43] = t88;
-    M[44] = -t35;
+    M[28] = ang5a_5z;
+    M[29] = ang5a_6z;
+    M[32] = -minus_ang2a_5z;
+    M[33] = -minus_ang3a_5z;
+    M[34] = -minus_ang4a_5z;
+    M[35] = ang5a_5z;
+    M[36] = Jc5_zz;
+    M[37] = -minus_ang6a_6z;
+    M[40] = -minus_ang2a_6z;
+    M[41] = -minus_ang3a_6z;
+    M[42] = -minus_ang4a_6z;
+    M[43] = ang5a_6z;
+    M[44] = -minus_ang6a_6z;
     M[45] = beta[33];
-    M[48] = -t94;
-    M[54] = beta[40] + beta[47] - t19;
-    const double t108 = beta[47] - sr400_tree_geo_D8*t14;
-    M[55] = t108;
-    M[56] = -t95;
-    M[62] = t108;
+    M[48] = -minus_Jc1_yz;
+    M[54] = beta[40] + beta[47] - minus_Js8_yy;
+    const double ang8a_8z = beta[47] - sr400_tree_geo_D8*minus_lin8a_8y;
+    M[55] = ang8a_8z;
+    M[56] = -minus_ang7a_8z;
+    M[62] = ang8a_8z;
     M[63] = beta[47];
     MODELER_ZEROS(M + 57, 5);
 }
@@ -472,32 +615,47 @@ void sr400_tree_gravity(const double *q, const double *beta, double *MODELER_RES
     double s7, c7;
     modeler_sincos(q[7], &s7, &c7);
 
-    const double t1 = sr400_tree_geo_g*c1;
-    const double t2 = sr400_tree_geo_g*s1;
-    const double t3 = c2*t1 - s2*t2;
-    const double t4 = c2*t2 + s2*t1;
-    const double t5 = c3*t4;
-    const double t6 = c4*t3 - s4*t5;
-    const double t7 = beta[35]*t6;
-    const double t8 = beta[34]*t6;
-    const double t9 = s3*t4;
-    const double t10 = c5*t7 + s5*t8 + beta[28]*t9;
-    const double t11 = c4*t5 + s4*t3;
-    const double t12 = beta[34]*(c5*t9 + s5*t11) + beta[35]*(c5*t11 - s5*t9);
-    const double t13 = t12 + beta[27]*t9;
-    const double t14 = s5*t7 - c5*t8 + (beta[28]*t11 - beta[27]*t6);
-    const double t15 = s3*(c4*t10 + s4*t13 + beta[21]*t3) + c3*(t14 - beta[20]*t3);
-    const double t16 = beta[14]*t4 - beta[13]*t3 + t15;
-    tau[1] = t2*beta[7] - t1*beta[6] + t16;
-    tau[2] = t16;
-    tau[3] = beta[20]*t9 + beta[21]*t5 - (s4*t10 - c4*t13);
-    tau[4] = t14;
-    tau[5] = t12;
-    const double t17 = sr400_tree_geo_g*c6;
-    const double t18 = sr400_tree_geo_g*s6;
-    const double t19 = beta[48]*(c7*t17 - s7*t18) - beta[49]*(c7*t18 + s7*t17);
-    tau[6] = -(t17*beta[41] - t18*beta[42] + t19);
-    tau[7] = -t19;
+    /* link 2: acceleration of the origin less gravity, vd2 = R2' (vd1 + U1 p2) */
+    const double minus_vd2_y = sr400_tree_geo_g*c1;
+    const double minus_vd2_x = sr400_tree_geo_g*s1;
+    /* link 3: acceleration of the origin less gravity, vd3 = R3' (vd2 + U2 p3) */
+    const double minus_vd3_y = c2*minus_vd2_y - s2*minus_vd2_x;
+    const double minus_vd3_x = c2*minus_vd2_x + s2*minus_vd2_y;
+    /* link 4: acceleration of the origin less gravity, vd4 = R4' (vd3 + U3 p4) */
+    const double minus_vd4_x = c3*minus_vd3_x;
+    /* link 5: acceleration of the origin less gravity, vd5 = R5' (vd4 + U4 p5) */
+    const double minus_vd5_y = c4*minus_vd3_y - s4*minus_vd4_x;
+    /* link 6: moment on the link at its origin, n6 = J6 wd6 + w6 x J6 w6 + MS6 x vd6 */
+    const double minus_n6_x = beta[35]*minus_vd5_y;
+    const double n6_y = beta[34]*minus_vd5_y;
+    const double vd4_y = s3*minus_vd3_x;
+    /* link 5: moment on the link and all that it carries, nc5 = n5 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc5_x = c5*minus_n6_x + s5*n6_y + beta[28]*vd4_y;
+    const double minus_vd5_x = c4*minus_vd4_x + s4*minus_vd3_y;
+    const double n6_z = beta[34]*(c5*vd4_y + s5*minus_vd5_x) + beta[35]*(c5*minus_vd5_x - s5*vd4_y);
+    const double nc5_y = n6_z + beta[27]*vd4_y;
+    const double nc5_z = s5*minus_n6_x - c5*n6_y + (beta[28]*minus_vd5_x - beta[27]*minus_vd5_y);
+    /* link 4: moment on the link and all that it carries, nc4 = n4 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc4a_z = s3*(c4*minus_nc5_x + s4*nc5_y + beta[21]*minus_vd3_y) + c3*(nc5_z -
+        beta[20]*minus_vd3_y);
+    /* link 3: moment on the link and all that it carries, nc3 = n3 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc3_z = beta[14]*minus_vd3_x - beta[13]*minus_vd3_y + nc4a_z;
+    tau[1] = minus_vd2_x*beta[7] - minus_vd2_y*beta[6] + nc3_z;
+    tau[2] = nc3_z;
+    tau[3] = beta[20]*vd4_y + beta[21]*minus_vd4_x - (s4*minus_nc5_x - c4*nc5_y);
+    tau[4] = nc5_z;
+    tau[5] = n6_z;
+    /* link 7: acceleration of the origin less gravity, vd7 = R7' (vd1 + U1 p7) */
+    const double minus_vd7_y = sr400_tree_geo_g*c6;
+    const double minus_vd7_x = sr400_tree_geo_g*s6;
+    /* link 8: moment on the link at its origin, n8 = J8 wd8 + w8 x J8 w8 + MS8 x vd8 */
+    const double minus_n8_z = beta[48]*(c7*minus_vd7_y - s7*minus_vd7_x) - beta[49]*(c7*minus_vd7_x
+        + s7*minus_vd7_y);
+    tau[6] = -(minus_vd7_y*beta[41] - minus_vd7_x*beta[42] + minus_n8_z);
+    tau[7] = -minus_n8_z;
 }
 
 /* Coriolis and centripetal torques.
@@ -525,152 +683,233 @@ void sr400_tree_coriolis(const double *q, const double *qd, const double *beta,
     double s7, c7;
     modeler_sincos(q[7], &s7, &c7);
 
-    const double t1 = c6*qd[0];
-    const double t2 = s6*qd[0];
-    const double t3 = c7*t1 - s7*t2;
-    const double t4 = qd[6] + qd[7];
-    const double t5 = t3*t4;
-    const double t6 = c7*t2 + s7*t1;
-    const double t7 = t6*t4;
-    const double t8 = t6*beta[45] + t3*beta[46] - t4*beta[47];
-    const double t9 = t6*beta[44] - t4*beta[46];
-    const double t10 = qd[6]*t2;
-    const double t11 = k1*t10;
-    const double t12 = t5*beta[43] - t7*beta[44] - (t3*t8 + t4*t9) + beta[49]*t11;
-    const double t13 = t6*beta[43] + t3*beta[44] - t4*beta[45];
-    const double t14 = t4*t13 + t6*t8 + t5*beta[44] - beta[48]*t11;
-    const double t15 = qd[6]*t1;
-    const double t16 = t2*beta[38] + t1*beta[39] - qd[6]*beta[40];
-    const double t17 = t2*beta[37] - qd[6]*beta[39];
-    const double t18 = c7*t12 - s7*t14 + (t15*beta[36] - t10*beta[37] - (t1*t16 + qd[6]*t17));
-    const double t19 = 2.0*t7*beta[48] + 2.0*t5*beta[49];
-    const double t20 = t2*beta[36] + t1*beta[37] - qd[6]*beta[38];
-    const double t21 = s7*t12 + c7*t14 - sr400_tree_geo_D8*t19;
-    const double t22 = sr400_tree_geo_D2*(2.0*t10*beta[41] + 2.0*t15*beta[42] + t19);
-    const double t23 = qd[1] + qd[2];
-    const double t24 = s1*qd[0];
-    const double t25 = c1*qd[0];
-    const double t26 = c2*t24 + s2*t25;
-    const double t27 = c3*t23 - s3*t26;
-    const double t28 = qd[4] + t27;
-    const double t29 = c3*t26 + s3*t23;
-    const double t30 = c2*t25 - s2*t24;
-    const double t31 = qd[3] - t30;
-    const double t32 = c4*t29 - s4*t31;
-    const double t33 = c5*t28 - s5*t32;
-    const double t34 = c4*t31 + s4*t29;
-    const double t35 = t30*t23;
-    const double t36 = qd[3]*t27 + c3*t35;
-    const double t37 = t26*t23;
-    const double t38 = s4*t37 - c4*t36 + qd[4]*t34;
-    const double t39 = qd[3]*t29 + s3*t35;
-    const double t40 = qd[5]*t33 - (c5*t38 + s5*t39);
-    const double t41 = c5*t32 + s5*t28;
-    const double t42 = c5*t39 - s5*t38 + qd[5]*t41;
-    const double t43 = c4*t37 + s4*t36 + qd[4]*t32;
-    const double t44 = qd[5] + t34;
-    const double t45 = t41*beta[31] + t33*beta[32] - t44*beta[33];
-    const double t46 = t41*beta[30] - t44*beta[32];
-    const double t47 = qd[0]*qd[0]*sr400_tree_geo_D2;
-    const double t48 = s1*t47;
-    const double t49 = t48 + t24*t25*sr400_tree_geo_D3;
-    const double t50 = c1*t47;
-    const double t51 = t50 + sr400_tree_geo_D3*(t25*t25 + qd[1]*qd[1]);
-    const double t52 = c2*t49 + s2*t51;
-    const double t53 = t23*t23;
-    const double t54 = t26*t26 + t53;
-    const double t55 = t26*t30;
-    const double t56 = sr400_tree_geo_D4*t55 - sr400_tree_geo_RL4*t54 + t52;
-    const double t57 = c2*t51 - s2*t49;
-    const double t58 = t30*t30 + t53;
-    const double t59 = sr400_tree_geo_D4*t58 - sr400_tree_geo_RL4*t55 + t57;
-    const double t60 = qd[1]*t24;
-    const double t61 = k4*t60;
-    const double t62 = k2*t37 + k3*t35 + t61;
-    const double t63 = c3*t59 - s3*t62;
-    const double t64 = c4*t56 + s4*t63;
-    const double t65 = beta[29]*t40 - beta[30]*t42 - beta[31]*t43 - (t33*t45 + t44*t46);
-    const double t66 = t65 - beta[35]*t64;
-    const double t67 = t41*beta[29] + t33*beta[30] - t44*beta[31];
-    const double t68 = beta[30]*t40 - beta[32]*t43 + (t44*t67 + t41*t45) + beta[34]*t64;
-    const double t69 = t32*beta[24] - t34*beta[25] - t28*beta[26];
-    const double t70 = t32*beta[23] - t28*beta[25];
-    const double t71 = c3*t62 + s3*t59;
-    const double t72 = beta[22]*t38 + beta[23]*t43 - beta[24]*t39 + (t28*t70 - t34*t69);
-    const double t73 = c5*t66 - s5*t68 + (beta[28]*t71 - t72);
-    const double t74 = c4*t63 - s4*t56;
-    const double t75 = beta[31]*t40 - beta[32]*t42 - beta[33]*t43 + (t33*t67 - t41*t46);
-    const double t76 = t75 - (beta[34]*(c5*t71 + s5*t74) + beta[35]*(c5*t74 - s5*t71));
-    const double t77 = t32*beta[22] - t34*beta[23] - t28*beta[24];
-    const double t78 = t76 - (beta[23]*t38 - beta[25]*t39 - (t28*t77 + t32*t69) + beta[27]*t71);
-    const double t79 = t29*beta[17] + t27*beta[18] - t31*beta[19];
-    const double t80 = t29*beta[16] - t31*beta[18];
-    const double t81 = beta[15]*t36 - beta[16]*t39 - t37*beta[17] - (t27*t79 + t31*t80);
-    const double t82 = c4*t73 - s4*t78 + (t81 - beta[21]*t56);
-    const double t83 = beta[24]*t38 + beta[25]*t43 - beta[26]*t39 + (t32*t70 + t34*t77);
-    const double t84 = s5*t66 + c5*t68 + (beta[27]*t64 + beta[28]*t74 + t83);
-    const double t85 = t29*beta[15] + t27*beta[16] - t31*beta[17];
-    const double t86 = beta[16]*t36 - t37*beta[18] + (t31*t85 + t29*t79) + beta[20]*t56 + t84;
-    const double t87 = t44*t44;
-    const double t88 = t41*t33;
-    const double t89 = (t33*t33 + t87)*beta[34] - beta[35]*(t88 - t43);
-    const double t90 = beta[34]*(t88 + t43) - (t41*t41 + t87)*beta[35];
-    const double t91 = t28*t28;
-    const double t92 = t32*t34;
-    const double t93 = c5*t89 + s5*t90 + ((t34*t34 + t91)*beta[27] + beta[28]*(t92 - t39));
-    const double t94 = beta[34]*(t41*t44 + t42) + beta[35]*(t33*t44 + t40);
-    const double t95 = beta[27]*(t92 + t39) + (t32*t32 + t91)*beta[28] + t94;
-    const double t96 = t31*t31;
-    const double t97 = t29*t27;
-    const double t98 = c4*t93 - s4*t95 + ((t27*t27 + t96)*beta[20] + beta[21]*(t37 - t97));
-    const double t99 = s5*t89 - c5*t90 + (beta[28]*(t34*t28 + t38) - beta[27]*(t32*t28 + t43));
-    const double t100 = (t29*t29 + t96)*beta[21] - beta[20]*(t37 + t97) + t99;
-    const double t101 = s3*t98 + c3*t100;
-    const double t102 = t26*beta[10] + t30*beta[11] - t23*beta[12];
-    const double t103 = t26*beta[9] - t23*beta[11];
-    const double t104 = t35*beta[8] - t37*beta[9] - (t30*t102 + t23*t103) + beta[14]*t61;
-    const double t105 = c3*t82 - s3*t86 - sr400_tree_geo_RL4*t101 + t104;
-    const double t106 = beta[17]*t36 - beta[18]*t39 - t37*beta[19] + (t27*t85 - t29*t80);
-    const double t107 = s4*t73 + c4*t78 + (t106 - (beta[20]*t71 + beta[21]*t63));
-    const double t108 = t26*beta[8] + t30*beta[9] - t23*beta[10];
-    const double t109 = t23*t108 + t26*t102 + t35*beta[9] - beta[13]*t61;
-    const double t110 = t107 + sr400_tree_geo_D4*t101 + t109;
-    const double t111 = qd[1]*t25;
-    const double t112 = t24*beta[3] + t25*beta[4] - qd[1]*beta[5];
-    const double t113 = t24*beta[2] - qd[1]*beta[4];
-    const double t114 = c2*t105 - s2*t110 + (t111*beta[1] - t60*beta[2] - (t25*t112 + qd[1]*t113));
-    const double t115 = t101 - (2.0*t37*beta[13] + 2.0*t35*beta[14]);
-    const double t116 = t24*beta[1] + t25*beta[2] - qd[1]*beta[3];
-    const double t117 = s2*t105 + c2*t110 + sr400_tree_geo_D3*t115;
-    const double t118 = sr400_tree_geo_D2*(t115 - (2.0*t60*beta[6] + 2.0*t111*beta[7]));
-    const double t119 = s1*t114 + c1*(qd[1]*t116 + t24*t112 + t111*beta[2] + t117) + t118;
-    tau[0] = s6*t18 + c6*(qd[6]*t20 + t2*t16 + t15*beta[37] + t21) - t22 + t119;
-    const double t120 = s4*t93 + c4*t95 + (beta[20]*(t29*t31 + t39) + beta[21]*(t27*t31 + t36));
-    const double t121 = c3*t98 - s3*t100;
-    const double t122 = t35*beta[10] - t37*beta[11] + (t30*t108 - t26*t103);
-    const double t123 = s3*t82 + c3*t86 + (sr400_tree_geo_RL4*t121 - sr400_tree_geo_D4*t120);
-    const double t124 = beta[13]*t52 + beta[14]*t57 - t122 + t123;
-    const double t125 = s2*(t58*beta[13] - t55*beta[14] + t121);
-    const double t126 = t111*beta[3] - t60*beta[4] + (t25*t116 - t24*t113);
-    const double t127 = t124 - sr400_tree_geo_D3*(t125 + c2*(t54*beta[14] - t55*beta[13] + t120));
-    tau[1] = t48*beta[6] + t50*beta[7] - t126 + t127;
-    tau[2] = t124;
-    tau[3] = -t107;
-    tau[4] = t84;
-    tau[5] = -t76;
-    const double t128 = s6*t47;
-    const double t129 = t128 + t2*t1*sr400_tree_geo_D8;
-    const double t130 = c6*t47;
-    const double t131 = t130 + sr400_tree_geo_D8*(t1*t1 + qd[6]*qd[6]);
-    const double t132 = beta[48]*(c7*t129 + s7*t131) + beta[49]*(c7*t131 - s7*t129);
-    const double t133 = t5*beta[45] - t7*beta[46] + (t3*t13 - t6*t9) - t132;
-    const double t134 = t4*t4;
-    const double t135 = t6*t3;
-    const double t136 = s7*((t3*t3 + t134)*beta[48] - t135*beta[49]);
-    const double t137 = sr400_tree_geo_D8*(t136 - c7*(t135*beta[48] - (t6*t6 + t134)*beta[49]));
-    const double t138 = t15*beta[38] - t10*beta[39] + (t1*t20 - t2*t17);
-    tau[6] = -(t133 + t137 + (t138 - (t128*beta[41] + t130*beta[42])));
-    tau[7] = -t133;
+    /* link 7: angular velocity, w7 = R7' w1 + qd7 z */
+    const double minus_w7_y = c6*qd[0];
+    const double minus_w7_x = s6*qd[0];
+    /* link 8: angular velocity, w8 = R8' w7 + qd8 z */
+    const double minus_w8_y = c7*minus_w7_y - s7*minus_w7_x;
+    const double w8_z = qd[6] + qd[7];
+    const double minus_ww8_yz = minus_w8_y*w8_z;
+    const double minus_w8_x = c7*minus_w7_x + s7*minus_w7_y;
+    const double minus_ww8_xz = minus_w8_x*w8_z;
+    const double minus_h8_z = minus_w8_x*beta[45] + minus_w8_y*beta[46] - w8_z*beta[47];
+    const double minus_h8_y = minus_w8_x*beta[44] - w8_z*beta[46];
+    const double minus_ww7_xz = qd[6]*minus_w7_x;
+    /* link 8: acceleration of the origin less gravity, vd8 = R8' (vd7 + U7 p8) */
+    const double minus_vd8_z = k1*minus_ww7_xz;
+    /* link 8: moment on the link at its origin, n8 = J8 wd8 + w8 x J8 w8 + MS8 x vd8 */
+    const double minus_n8_x = minus_ww8_yz*beta[43] - minus_ww8_xz*beta[44] - (minus_w8_y*minus_h8_z
+        + w8_z*minus_h8_y) + beta[49]*minus_vd8_z;
+    const double minus_h8_x = minus_w8_x*beta[43] + minus_w8_y*beta[44] - w8_z*beta[45];
+    const double minus_n8_y = w8_z*minus_h8_x + minus_w8_x*minus_h8_z + minus_ww8_yz*beta[44] -
+        beta[48]*minus_vd8_z;
+    const double minus_ww7_yz = qd[6]*minus_w7_y;
+    const double minus_h7_z = minus_w7_x*beta[38] + minus_w7_y*beta[39] - qd[6]*beta[40];
+    const double minus_h7_y = minus_w7_x*beta[37] - qd[6]*beta[39];
+    /* link 7: moment on the link and all that it carries, nc7 = n7 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc7_x = c7*minus_n8_x - s7*minus_n8_y + (minus_ww7_yz*beta[36] -
+        minus_ww7_xz*beta[37] - (minus_w7_y*minus_h7_z + qd[6]*minus_h7_y));
+    /* link 8: force on the link, f8 = M8 vd8 + U8 MS8 */
+    const double minus_f8_z = 2.0*minus_ww8_xz*beta[48] + 2.0*minus_ww8_yz*beta[49];
+    const double minus_h7_x = minus_w7_x*beta[36] + minus_w7_y*beta[37] - qd[6]*beta[38];
+    /* link 8: moment on the link and all that it carries, nc8 = n8 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc8a_y = s7*minus_n8_x + c7*minus_n8_y - sr400_tree_geo_D8*minus_f8_z;
+    const double t22 = sr400_tree_geo_D2*(2.0*minus_ww7_xz*beta[41] + 2.0*minus_ww7_yz*beta[42] +
+        minus_f8_z);
+    /* link 3: angular velocity, w3 = R3' w2 + qd3 z */
+    const double w3_z = qd[1] + qd[2];
+    /* link 2: angular velocity, w2 = R2' w1 + qd2 z */
+    const double minus_w2_x = s1*qd[0];
+    const double minus_w2_y = c1*qd[0];
+    const double minus_w3_x = c2*minus_w2_x + s2*minus_w2_y;
+    /* link 4: angular velocity, w4 = R4' w3 + qd4 z */
+    const double minus_w4_y = c3*w3_z - s3*minus_w3_x;
+    /* link 5: angular velocity, w5 = R5' w4 + qd5 z */
+    const double w5_z = qd[4] + minus_w4_y;
+    const double minus_w4_x = c3*minus_w3_x + s3*w3_z;
+    const double minus_w3_y = c2*minus_w2_y - s2*minus_w2_x;
+    const double w4_z = qd[3] - minus_w3_y;
+    const double minus_w5_x = c4*minus_w4_x - s4*w4_z;
+    /* link 6: angular velocity, w6 = R6' w5 + qd6 z */
+    const double minus_w6_y = c5*w5_z - s5*minus_w5_x;
+    const double w5_y = c4*w4_z + s4*minus_w4_x;
+    const double minus_ww3_yz = minus_w3_y*w3_z;
+    /* link 4: angular acceleration, wd4 = R4' wd3 + (R4' w3) x qd4 z + qdd4 z */
+    const double minus_wd4_x = qd[3]*minus_w4_y + c3*minus_ww3_yz;
+    const double minus_ww3_xz = minus_w3_x*w3_z;
+    /* link 5: angular acceleration, wd5 = R5' wd4 + (R5' w4) x qd5 z + qdd5 z */
+    const double wd5_x = s4*minus_ww3_xz - c4*minus_wd4_x + qd[4]*w5_y;
+    const double wd4_y = qd[3]*minus_w4_x + s3*minus_ww3_yz;
+    /* link 6: angular acceleration, wd6 = R6' wd5 + (R6' w5) x qd6 z + qdd6 z */
+    const double minus_wd6_x = qd[5]*minus_w6_y - (c5*wd5_x + s5*wd4_y);
+    const double minus_w6_x = c5*minus_w5_x + s5*w5_z;
+    const double wd6_y = c5*wd4_y - s5*wd5_x + qd[5]*minus_w6_x;
+    const double wd5_y = c4*minus_ww3_xz + s4*minus_wd4_x + qd[4]*minus_w5_x;
+    const double w6_z = qd[5] + w5_y;
+    const double minus_h6_z = minus_w6_x*beta[31] + minus_w6_y*beta[32] - w6_z*beta[33];
+    const double minus_h6_y = minus_w6_x*beta[30] - w6_z*beta[32];
+    /* link 2: acceleration of the origin less gravity, vd2 = R2' (vd1 + U1 p2) */
+    const double minus_vd2a_x = qd[0]*qd[0]*sr400_tree_geo_D2;
+    const double vd2_y = s1*minus_vd2a_x;
+    /* link 3: acceleration of the origin less gravity, vd3 = R3' (vd2 + U2 p3) */
+    const double vd3a_y = vd2_y + minus_w2_x*minus_w2_y*sr400_tree_geo_D3;
+    const double minus_vd2_x = c1*minus_vd2a_x;
+    const double minus_vd3a_x = minus_vd2_x + sr400_tree_geo_D3*(minus_w2_y*minus_w2_y +
+        qd[1]*qd[1]);
+    const double vd3_y = c2*vd3a_y + s2*minus_vd3a_x;
+    const double ww3_zz = w3_z*w3_z;
+    /* link 3: acceleration of points of the link, U3 = [wd3 x] + [w3 x][w3 x] */
+    const double minus_U3_yy = minus_w3_x*minus_w3_x + ww3_zz;
+    const double ww3_xy = minus_w3_x*minus_w3_y;
+    /* link 4: acceleration of the origin less gravity, vd4 = R4' (vd3 + U3 p4) */
+    const double vd4_z = sr400_tree_geo_D4*ww3_xy - sr400_tree_geo_RL4*minus_U3_yy + vd3_y;
+    const double minus_vd3_x = c2*minus_vd3a_x - s2*vd3a_y;
+    const double minus_U3_xx = minus_w3_y*minus_w3_y + ww3_zz;
+    const double minus_vd4a_x = sr400_tree_geo_D4*minus_U3_xx - sr400_tree_geo_RL4*ww3_xy +
+        minus_vd3_x;
+    const double minus_ww2_xz = qd[1]*minus_w2_x;
+    const double minus_vd3_z = k4*minus_ww2_xz;
+    const double minus_vd4a_z = k2*minus_ww3_xz + k3*minus_ww3_yz + minus_vd3_z;
+    const double minus_vd4_x = c3*minus_vd4a_x - s3*minus_vd4a_z;
+    /* link 5: acceleration of the origin less gravity, vd5 = R5' (vd4 + U4 p5) */
+    const double vd5_y = c4*vd4_z + s4*minus_vd4_x;
+    const double t65 = beta[29]*minus_wd6_x - beta[30]*wd6_y - beta[31]*wd5_y -
+        (minus_w6_y*minus_h6_z + w6_z*minus_h6_y);
+    /* link 6: moment on the link at its origin, n6 = J6 wd6 + w6 x J6 w6 + MS6 x vd6 */
+    const double minus_n6_x = t65 - beta[35]*vd5_y;
+    const double minus_h6_x = minus_w6_x*beta[29] + minus_w6_y*beta[30] - w6_z*beta[31];
+    const double minus_n6_y = beta[30]*minus_wd6_x - beta[32]*wd5_y + (w6_z*minus_h6_x +
+        minus_w6_x*minus_h6_z) + beta[34]*vd5_y;
+    const double minus_h5_z = minus_w5_x*beta[24] - w5_y*beta[25] - w5_z*beta[26];
+    const double minus_h5_y = minus_w5_x*beta[23] - w5_z*beta[25];
+    const double vd4_y = c3*minus_vd4a_z + s3*minus_vd4a_x;
+    const double t72 = beta[22]*wd5_x + beta[23]*wd5_y - beta[24]*wd4_y + (w5_z*minus_h5_y -
+        w5_y*minus_h5_z);
+    /* link 5: moment on the link and all that it carries, nc5 = n5 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc5_x = c5*minus_n6_x - s5*minus_n6_y + (beta[28]*vd4_y - t72);
+    const double minus_vd5_x = c4*minus_vd4_x - s4*vd4_z;
+    const double t75 = beta[31]*minus_wd6_x - beta[32]*wd6_y - beta[33]*wd5_y +
+        (minus_w6_y*minus_h6_x - minus_w6_x*minus_h6_y);
+    const double minus_n6_z = t75 - (beta[34]*(c5*vd4_y + s5*minus_vd5_x) + beta[35]*(c5*minus_vd5_x
+        - s5*vd4_y));
+    const double minus_h5_x = minus_w5_x*beta[22] - w5_y*beta[23] - w5_z*beta[24];
+    const double minus_nc5_y = minus_n6_z - (beta[23]*wd5_x - beta[25]*wd4_y - (w5_z*minus_h5_x +
+        minus_w5_x*minus_h5_z) + beta[27]*vd4_y);
+    const double minus_h4_z = minus_w4_x*beta[17] + minus_w4_y*beta[18] - w4_z*beta[19];
+    const double minus_h4_y = minus_w4_x*beta[16] - w4_z*beta[18];
+    const double t81 = beta[15]*minus_wd4_x - beta[16]*wd4_y - minus_ww3_xz*beta[17] -
+        (minus_w4_y*minus_h4_z + w4_z*minus_h4_y);
+    /* link 4: moment on the link and all that it carries, nc4 = n4 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc4_x = c4*minus_nc5_x - s4*minus_nc5_y + (t81 - beta[21]*vd4_z);
+    const double t83 = beta[24]*wd5_x + beta[25]*wd5_y - beta[26]*wd4_y + (minus_w5_x*minus_h5_y +
+        w5_y*minus_h5_x);
+    const double nc5_z = s5*minus_n6_x + c5*minus_n6_y + (beta[27]*vd5_y + beta[28]*minus_vd5_x +
+        t83);
+    const double minus_h4_x = minus_w4_x*beta[15] + minus_w4_y*beta[16] - w4_z*beta[17];
+    const double minus_nc4_y = beta[16]*minus_wd4_x - minus_ww3_xz*beta[18] + (w4_z*minus_h4_x +
+        minus_w4_x*minus_h4_z) + beta[20]*vd4_z + nc5_z;
+    const double ww6_zz = w6_z*w6_z;
+    const double ww6_xy = minus_w6_x*minus_w6_y;
+    /* link 6: force on the link, f6 = M6 vd6 + U6 MS6 */
+    const double minus_f6_x = (minus_w6_y*minus_w6_y + ww6_zz)*beta[34] - beta[35]*(ww6_xy - wd5_y);
+    const double f6_y = beta[34]*(ww6_xy + wd5_y) - (minus_w6_x*minus_w6_x + ww6_zz)*beta[35];
+    const double ww5_zz = w5_z*w5_z;
+    const double minus_ww5_xy = minus_w5_x*w5_y;
+    /* link 5: force on the link and all that it carries, fc5 = f5 + sum of R fc of what hangs on it
+        */
+    const double minus_fc5_x = c5*minus_f6_x + s5*f6_y + ((w5_y*w5_y + ww5_zz)*beta[27] +
+        beta[28]*(minus_ww5_xy - wd4_y));
+    const double minus_f6_z = beta[34]*(minus_w6_x*w6_z + wd6_y) + beta[35]*(minus_w6_y*w6_z +
+        minus_wd6_x);
+    const double minus_fc5_y = beta[27]*(minus_ww5_xy + wd4_y) + (minus_w5_x*minus_w5_x +
+        ww5_zz)*beta[28] + minus_f6_z;
+    const double ww4_zz = w4_z*w4_z;
+    const double ww4_xy = minus_w4_x*minus_w4_y;
+    /* link 4: force on the link and all that it carries, fc4 = f4 + sum of R fc of what hangs on it
+        */
+    const double minus_fc4_x = c4*minus_fc5_x - s4*minus_fc5_y + ((minus_w4_y*minus_w4_y +
+        ww4_zz)*beta[20] + beta[21]*(minus_ww3_xz - ww4_xy));
+    const double fc5_z = s5*minus_f6_x - c5*f6_y + (beta[28]*(w5_y*w5_z + wd5_x) -
+        beta[27]*(minus_w5_x*w5_z + wd5_y));
+    const double minus_fc4_y = (minus_w4_x*minus_w4_x + ww4_zz)*beta[21] - beta[20]*(minus_ww3_xz +
+        ww4_xy) + fc5_z;
+    const double fc4a_z = s3*minus_fc4_x + c3*minus_fc4_y;
+    const double minus_h3_z = minus_w3_x*beta[10] + minus_w3_y*beta[11] - w3_z*beta[12];
+    const double minus_h3_y = minus_w3_x*beta[9] - w3_z*beta[11];
+    /* link 3: moment on the link at its origin, n3 = J3 wd3 + w3 x J3 w3 + MS3 x vd3 */
+    const double minus_n3_x = minus_ww3_yz*beta[8] - minus_ww3_xz*beta[9] - (minus_w3_y*minus_h3_z +
+        w3_z*minus_h3_y) + beta[14]*minus_vd3_z;
+    /* link 3: moment on the link and all that it carries, nc3 = n3 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc3_x = c3*minus_nc4_x - s3*minus_nc4_y - sr400_tree_geo_RL4*fc4a_z +
+        minus_n3_x;
+    const double t106 = beta[17]*minus_wd4_x - beta[18]*wd4_y - minus_ww3_xz*beta[19] +
+        (minus_w4_y*minus_h4_x - minus_w4_x*minus_h4_y);
+    const double minus_nc4_z = s4*minus_nc5_x + c4*minus_nc5_y + (t106 - (beta[20]*vd4_y +
+        beta[21]*minus_vd4_x));
+    const double minus_h3_x = minus_w3_x*beta[8] + minus_w3_y*beta[9] - w3_z*beta[10];
+    const double minus_n3_y = w3_z*minus_h3_x + minus_w3_x*minus_h3_z + minus_ww3_yz*beta[9] -
+        beta[13]*minus_vd3_z;
+    const double minus_nc3_y = minus_nc4_z + sr400_tree_geo_D4*fc4a_z + minus_n3_y;
+    const double minus_ww2_yz = qd[1]*minus_w2_y;
+    const double minus_h2_z = minus_w2_x*beta[3] + minus_w2_y*beta[4] - qd[1]*beta[5];
+    const double minus_h2_y = minus_w2_x*beta[2] - qd[1]*beta[4];
+    /* link 2: moment on the link and all that it carries, nc2 = n2 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc2_x = c2*minus_nc3_x - s2*minus_nc3_y + (minus_ww2_yz*beta[1] -
+        minus_ww2_xz*beta[2] - (minus_w2_y*minus_h2_z + qd[1]*minus_h2_y));
+    /* link 3: force on the link and all that it carries, fc3 = f3 + sum of R fc of what hangs on it
+        */
+    const double fc3_z = fc4a_z - (2.0*minus_ww3_xz*beta[13] + 2.0*minus_ww3_yz*beta[14]);
+    const double minus_h2_x = minus_w2_x*beta[1] + minus_w2_y*beta[2] - qd[1]*beta[3];
+    const double minus_nc3a_y = s2*minus_nc3_x + c2*minus_nc3_y + sr400_tree_geo_D3*fc3_z;
+    const double t118 = sr400_tree_geo_D2*(fc3_z - (2.0*minus_ww2_xz*beta[6] +
+        2.0*minus_ww2_yz*beta[7]));
+    const double nc2a_z = s1*minus_nc2_x + c1*(qd[1]*minus_h2_x + minus_w2_x*minus_h2_z +
+        minus_ww2_yz*beta[2] + minus_nc3a_y) + t118;
+    tau[0] = s6*minus_nc7_x + c6*(qd[6]*minus_h7_x + minus_w7_x*minus_h7_z + minus_ww7_yz*beta[37] +
+        minus_nc8a_y) - t22 + nc2a_z;
+    const double minus_fc4_z = s4*minus_fc5_x + c4*minus_fc5_y + (beta[20]*(minus_w4_x*w4_z + wd4_y)
+        + beta[21]*(minus_w4_y*w4_z + minus_wd4_x));
+    const double minus_fc4a_x = c3*minus_fc4_x - s3*minus_fc4_y;
+    const double t122 = minus_ww3_yz*beta[10] - minus_ww3_xz*beta[11] + (minus_w3_y*minus_h3_x -
+        minus_w3_x*minus_h3_y);
+    const double nc4a_z = s3*minus_nc4_x + c3*minus_nc4_y + (sr400_tree_geo_RL4*minus_fc4a_x -
+        sr400_tree_geo_D4*minus_fc4_z);
+    const double nc3_z = beta[13]*vd3_y + beta[14]*minus_vd3_x - t122 + nc4a_z;
+    const double t125 = s2*(minus_U3_xx*beta[13] - ww3_xy*beta[14] + minus_fc4a_x);
+    const double t126 = minus_ww2_yz*beta[3] - minus_ww2_xz*beta[4] + (minus_w2_y*minus_h2_x -
+        minus_w2_x*minus_h2_y);
+    const double nc3a_z = nc3_z - sr400_tree_geo_D3*(t125 + c2*(minus_U3_yy*beta[14] -
+        ww3_xy*beta[13] + minus_fc4_z));
+    tau[1] = vd2_y*beta[6] + minus_vd2_x*beta[7] - t126 + nc3a_z;
+    tau[2] = nc3_z;
+    tau[3] = -minus_nc4_z;
+    tau[4] = nc5_z;
+    tau[5] = -minus_n6_z;
+    /* link 7: acceleration of the origin less gravity, vd7 = R7' (vd1 + U1 p7) */
+    const double vd7_y = s6*minus_vd2a_x;
+    const double vd8a_y = vd7_y + minus_w7_x*minus_w7_y*sr400_tree_geo_D8;
+    const double minus_vd7_x = c6*minus_vd2a_x;
+    const double minus_vd8a_x = minus_vd7_x + sr400_tree_geo_D8*(minus_w7_y*minus_w7_y +
+        qd[6]*qd[6]);
+    const double t132 = beta[48]*(c7*vd8a_y + s7*minus_vd8a_x) + beta[49]*(c7*minus_vd8a_x -
+        s7*vd8a_y);
+    const double minus_n8_z = minus_ww8_yz*beta[45] - minus_ww8_xz*beta[46] + (minus_w8_y*minus_h8_x
+        - minus_w8_x*minus_h8_y) - t132;
+    const double ww8_zz = w8_z*w8_z;
+    const double ww8_xy = minus_w8_x*minus_w8_y;
+    const double t136 = s7*((minus_w8_y*minus_w8_y + ww8_zz)*beta[48] - ww8_xy*beta[49]);
+    const double t137 = sr400_tree_geo_D8*(t136 - c7*(ww8_xy*beta[48] - (minus_w8_x*minus_w8_x +
+        ww8_zz)*beta[49]));
+    const double t138 = minus_ww7_yz*beta[38] - minus_ww7_xz*beta[39] + (minus_w7_y*minus_h7_x -
+        minus_w7_x*minus_h7_y);
+    tau[6] = -(minus_n8_z + t137 + (t138 - (vd7_y*beta[41] + minus_vd7_x*beta[42])));
+    tau[7] = -minus_n8_z;
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets.
@@ -809,115 +1048,122 @@ void sr400_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
     T[4] = s0;
     T[5] = c0;
     T[10] = 1.0;
-    const double t1 = c0*c1;
-    T[12] = t1;
-    const double t2 = c0*s1;
-    T[13] = -t2;
+    const double x2_x = c0*c1;
+    T[12] = x2_x;
+    const double minus_y2_x = c0*s1;
+    T[13] = -minus_y2_x;
     T[14] = -s0;
-    const double t3 = sr400_tree_geo_D2*c0;
-    T[15] = t3;
-    const double t4 = s0*c1;
-    T[16] = t4;
-    const double t5 = s0*s1;
-    T[17] = -t5;
+    /* link 2: origin of the frame in frame 0, o2 = o1 + [x1 y1 z1] p2 */
+    const double o2_x = sr400_tree_geo_D2*c0;
+    T[15] = o2_x;
+    const double x2_y = s0*c1;
+    T[16] = x2_y;
+    const double minus_y2_y = s0*s1;
+    T[17] = -minus_y2_y;
     T[18] = c0;
-    const double t6 = sr400_tree_geo_D2*s0;
-    T[19] = t6;
+    const double o2_y = sr400_tree_geo_D2*s0;
+    T[19] = o2_y;
     T[20] = -s1;
     T[21] = -c1;
-    const double t7 = c2*t1 - s2*t2;
-    T[24] = t7;
-    const double t8 = c2*t2 + s2*t1;
-    T[25] = -t8;
+    const double x3_x = c2*x2_x - s2*minus_y2_x;
+    T[24] = x3_x;
+    const double minus_y3_x = c2*minus_y2_x + s2*x2_x;
+    T[25] = -minus_y3_x;
     T[26] = -s0;
-    const double t9 = t3 + sr400_tree_geo_D3*t1;
-    T[27] = t9;
-    const double t10 = c2*t4 - s2*t5;
-    T[28] = t10;
-    const double t11 = c2*t5 + s2*t4;
-    T[29] = -t11;
+    /* link 3: origin of the frame in frame 0, o3 = o2 + [x2 y2 z2] p3 */
+    const double o3_x = o2_x + sr400_tree_geo_D3*x2_x;
+    T[27] = o3_x;
+    const double x3_y = c2*x2_y - s2*minus_y2_y;
+    T[28] = x3_y;
+    const double minus_y3_y = c2*minus_y2_y + s2*x2_y;
+    T[29] = -minus_y3_y;
     T[30] = c0;
-    const double t12 = t6 + sr400_tree_geo_D3*t4;
-    T[31] = t12;
-    const double t13 = s1*c2 + c1*s2;
-    T[32] = -t13;
-    const double t14 = c1*c2 - s1*s2;
-    T[33] = -t14;
-    const double t15 = sr400_tree_geo_D3*s1;
-    T[35] = -t15;
-    const double t16 = c3*t7 + s0*s3;
-    T[36] = t16;
-    const double t17 = s0*c3 - s3*t7;
-    T[37] = t17;
-    T[38] = -t8;
-    const double t18 = t9 + sr400_tree_geo_D4*t7 - sr400_tree_geo_RL4*t8;
-    T[39] = t18;
-    const double t19 = c3*t10 - c0*s3;
-    T[40] = t19;
-    const double t20 = c0*c3 + s3*t10;
-    T[41] = -t20;
-    T[42] = -t11;
-    const double t21 = t12 + sr400_tree_geo_D4*t10 - sr400_tree_geo_RL4*t11;
-    T[43] = t21;
-    const double t22 = c3*t13;
-    T[44] = -t22;
-    const double t23 = s3*t13;
-    T[45] = t23;
-    T[46] = -t14;
-    const double t24 = t15 + sr400_tree_geo_D4*t13 + sr400_tree_geo_RL4*t14;
-    T[47] = -t24;
-    const double t25 = c4*t16 - s4*t8;
-    T[48] = t25;
-    const double t26 = c4*t8 + s4*t16;
-    T[49] = -t26;
-    T[50] = -t17;
-    T[51] = t18;
-    const double t27 = c4*t19 - s4*t11;
-    T[52] = t27;
-    const double t28 = c4*t11 + s4*t19;
-    T[53] = -t28;
-    T[54] = t20;
-    T[55] = t21;
-    const double t29 = c4*t22 + s4*t14;
-    T[56] = -t29;
-    const double t30 = c4*t14 - s4*t22;
-    T[57] = -t30;
-    T[58] = -t23;
-    T[59] = -t24;
-    T[60] = c5*t25 + s5*t17;
-    T[61] = c5*t17 - s5*t25;
-    T[62] = -t26;
-    T[63] = t18;
-    T[64] = c5*t27 - s5*t20;
-    T[65] = -(c5*t20 + s5*t27);
-    T[66] = -t28;
-    T[67] = t21;
-    T[68] = s5*t23 - c5*t29;
-    T[69] = c5*t23 + s5*t29;
-    T[70] = -t30;
-    T[71] = -t24;
-    const double t31 = c0*c6;
-    T[72] = t31;
-    const double t32 = c0*s6;
-    T[73] = -t32;
+    const double o3_y = o2_y + sr400_tree_geo_D3*x2_y;
+    T[31] = o3_y;
+    /* link 3: axes of the joints below, for unit speed of each, e3 = R3' e2 */
+    const double minus_e3_1x = s1*c2 + c1*s2;
+    T[32] = -minus_e3_1x;
+    const double minus_e3_1y = c1*c2 - s1*s2;
+    T[33] = -minus_e3_1y;
+    const double minus_o3_z = sr400_tree_geo_D3*s1;
+    T[35] = -minus_o3_z;
+    const double x4_x = c3*x3_x + s0*s3;
+    T[36] = x4_x;
+    const double y4_x = s0*c3 - s3*x3_x;
+    T[37] = y4_x;
+    T[38] = -minus_y3_x;
+    /* link 4: origin of the frame in frame 0, o4 = o3 + [x3 y3 z3] p4 */
+    const double o4_x = o3_x + sr400_tree_geo_D4*x3_x - sr400_tree_geo_RL4*minus_y3_x;
+    T[39] = o4_x;
+    const double x4_y = c3*x3_y - c0*s3;
+    T[40] = x4_y;
+    const double minus_y4_y = c0*c3 + s3*x3_y;
+    T[41] = -minus_y4_y;
+    T[42] = -minus_y3_y;
+    const double o4_y = o3_y + sr400_tree_geo_D4*x3_y - sr400_tree_geo_RL4*minus_y3_y;
+    T[43] = o4_y;
+    /* link 4: axes of the joints below, for unit speed of each, e4 = R4' e3 */
+    const double minus_e4_1x = c3*minus_e3_1x;
+    T[44] = -minus_e4_1x;
+    const double e4_1y = s3*minus_e3_1x;
+    T[45] = e4_1y;
+    T[46] = -minus_e3_1y;
+    const double minus_o4_z = minus_o3_z + sr400_tree_geo_D4*minus_e3_1x +
+        sr400_tree_geo_RL4*minus_e3_1y;
+    T[47] = -minus_o4_z;
+    const double x5_x = c4*x4_x - s4*minus_y3_x;
+    T[48] = x5_x;
+    const double minus_y5_x = c4*minus_y3_x + s4*x4_x;
+    T[49] = -minus_y5_x;
+    T[50] = -y4_x;
+    T[51] = o4_x;
+    const double x5_y = c4*x4_y - s4*minus_y3_y;
+    T[52] = x5_y;
+    const double minus_y5_y = c4*minus_y3_y + s4*x4_y;
+    T[53] = -minus_y5_y;
+    T[54] = minus_y4_y;
+    T[55] = o4_y;
+    /* link 5: axes of the joints below, for unit speed of each, e5 = R5' e4 */
+    const double minus_e5_1x = c4*minus_e4_1x + s4*minus_e3_1y;
+    T[56] = -minus_e5_1x;
+    const double minus_e5_1y = c4*minus_e3_1y - s4*minus_e4_1x;
+    T[57] = -minus_e5_1y;
+    T[58] = -e4_1y;
+    T[59] = -minus_o4_z;
+    T[60] = c5*x5_x + s5*y4_x;
+    T[61] = c5*y4_x - s5*x5_x;
+    T[62] = -minus_y5_x;
+    T[63] = o4_x;
+    T[64] = c5*x5_y - s5*minus_y4_y;
+    T[65] = -(c5*minus_y4_y + s5*x5_y);
+    T[66] = -minus_y5_y;
+    T[67] = o4_y;
+    T[68] = s5*e4_1y - c5*minus_e5_1x;
+    T[69] = c5*e4_1y + s5*minus_e5_1x;
+    T[70] = -minus_e5_1y;
+    T[71] = -minus_o4_z;
+    const double x7_x = c0*c6;
+    T[72] = x7_x;
+    const double minus_y7_x = c0*s6;
+    T[73] = -minus_y7_x;
     T[74] = -s0;
-    T[75] = t3;
-    const double t33 = s0*c6;
-    T[76] = t33;
-    const double t34 = s0*s6;
-    T[77] = -t34;
+    T[75] = o2_x;
+    const double x7_y = s0*c6;
+    T[76] = x7_y;
+    const double minus_y7_y = s0*s6;
+    T[77] = -minus_y7_y;
     T[78] = c0;
-    T[79] = t6;
+    T[79] = o2_y;
     T[80] = -s6;
     T[81] = -c6;
-    T[84] = c7*t31 - s7*t32;
-    T[85] = -(c7*t32 + s7*t31);
+    T[84] = c7*x7_x - s7*minus_y7_x;
+    T[85] = -(c7*minus_y7_x + s7*x7_x);
     T[86] = -s0;
-    T[87] = t3 + sr400_tree_geo_D8*t31;
-    T[88] = c7*t33 - s7*t34;
-    T[89] = -(c7*t34 + s7*t33);
+    T[87] = o2_x + sr400_tree_geo_D8*x7_x;
+    T[88] = c7*x7_y - s7*minus_y7_y;
+    T[89] = -(c7*minus_y7_y + s7*x7_y);
     T[90] = c0;
-    T[91] = t6 + sr400_tree_geo_D8*t33;
+    T[91] = o2_y + sr400_tree_geo_D8*x7_y;
     T[92] = -(s6*c7 + c6*s7);
     T[93] = s6*s7 - c6*c7;
     T[95] = -sr400_tree_geo_D8*s6;

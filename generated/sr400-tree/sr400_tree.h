@@ -18,7 +18,9 @@ extern "C" {
 #endif
 
 /* What sr400_tree_signature() of the library that belongs to this header returns. */
-#define SR400_TREE_SIGNATURE "bdce896f9c70e246"
+#define SR400_TREE_SIGNATURE "ca056ee18caf4cfe"
+#define SR400_TREE_SIGNATURE_1 0xca056ee1u
+#define SR400_TREE_SIGNATURE_2 0x8caf4cfeu
 
 #define SR400_TREE_JOINTS 8
 #define SR400_TREE_STANDARD_PARAMETERS 80

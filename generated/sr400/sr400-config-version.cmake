@@ -1,6 +1,6 @@
 # find_package(sr400) takes any, find_package(sr400 1) any of this C interface,
-# find_package(sr400 1.32862.45153.33557) only what has the signature 805eb0618315098c.
-set(PACKAGE_VERSION 1.32862.45153.33557)
+# find_package(sr400 1.9562.31978.45932) only what has the signature 255a7ceab36c9010.
+set(PACKAGE_VERSION 1.9562.31978.45932)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -2,6 +2,31 @@
  *
  * Functions of sr400.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
+ *   h      angular momentum J w
+ *   f      force on the link
+ *   n      moment on the link at its origin
+ *   fc     force on the link and all that it carries
+ *   nc     moment on the link and all that it carries
+ *   MSc    first moments of the link and all that it carries
+ *   Jc     inertia of the link and all that it carries
+ *   Js     what moving the inertia to the origin of the antecedent adds
+ *   e_1    axes of the joints below, for unit speed of each
+ *   lin_1  momentum of what hangs on a joint, for unit speed of it
+ *   ang_1  angular momentum of what hangs on a joint, for unit speed of it
+ *   x      axis x of the frame in frame 0
+ *   y      axis y of the frame in frame 0
+ *   o      origin of the frame in frame 0
+ *   ...a   in axes of the antecedent: ang, fc, Jc, lin, nc, vd
  */
 #include "sr400.h"
 
@@ -56,7 +81,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "805eb0618315098c";
+    return "255a7ceab36c9010";
 }
 
 void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,
@@ -91,140 +116,208 @@ void sr400_inverse_dynamics(const double *q, const double *qd, const double *qdd
     double s5, c5;
     modeler_sincos(q[5], &s5, &c5);
 
-    const double t2 = sr400_geo_D2*qdd[0];
-    const double t3 = c1*qd[0];
-    const double t4 = qd[1]*t3;
-    const double t5 = s1*qdd[0] + t4;
-    const double t6 = s1*qd[0];
-    const double t7 = qd[1]*t6;
-    const double t8 = c1*qdd[0] - t7;
+    /* link 2: acceleration of the origin less gravity, vd2 = R2' (vd1 + U1 p2) */
+    const double vd2_z = sr400_geo_D2*qdd[0];
+    /* link 2: angular velocity, w2 = R2' w1 + qd2 z */
+    const double minus_w2_y = c1*qd[0];
+    const double minus_ww2_yz = qd[1]*minus_w2_y;
+    /* link 2: angular acceleration, wd2 = R2' wd1 + (R2' w1) x qd2 z + qdd2 z */
+    const double minus_wd2_x = s1*qdd[0] + minus_ww2_yz;
+    const double minus_w2_x = s1*qd[0];
+    const double minus_ww2_xz = qd[1]*minus_w2_x;
+    const double minus_wd2_y = c1*qdd[0] - minus_ww2_xz;
     const double t9 = qd[1] - qd[5];
-    const double t10 = sa2*t3 - ca2*t6;
-    const double t11 = sa2*t5 + ca2*t8 - t9*t10;
-    const double t12 = t11 + qd[5]*t10;
-    const double t13 = (t2 + sr400_geo_D8*t12)*beta[38];
-    const double t14 = t4 + t5;
-    const double t15 = t14*beta[38];
-    const double t16 = sa2*t6 + ca2*t3;
-    const double t17 = sa2*t8 - ca2*t5 + t9*t16;
-    const double t18 = t17 - qd[5]*t16;
-    const double t19 = s5*(ca2*t13 + t2*beta[37]) + c5*(sa2*t13 + sr400_geo_D8*t15 - t2*beta[36]);
-    const double t20 = c2*qd[5] - s2*t16;
-    const double t21 = qd[3] + t20;
-    const double t22 = c2*t16 + s2*qd[5];
-    const double t23 = qd[2] - t10;
-    const double t24 = c3*t22 - s3*t23;
-    const double t25 = c4*t21 - s4*t24;
-    const double t26 = c4*t24 + s4*t21;
-    const double t27 = c3*t23 + s3*t22;
-    const double t28 = qd[4] + t27;
-    const double t29 = t26*beta[31] + t25*beta[32] - t28*beta[33];
-    const double t30 = t26*beta[30] - t28*beta[32];
-    const double t31 = c2*t11 + s2*qdd[5] + qd[2]*t20;
-    const double t32 = qdd[2] - t17;
-    const double t33 = c3*t31 - s3*t32 - qd[3]*t27;
-    const double t34 = c2*qdd[5] - s2*t11 - qd[2]*t22;
-    const double t35 = qdd[3] + t34;
-    const double t36 = c4*t33 + s4*t35 + qd[4]*t25;
-    const double t37 = c4*t35 - s4*t33 - qd[4]*t26;
-    const double t38 = c3*t32 + s3*t31 + qd[3]*t24;
-    const double t39 = qdd[4] + t38;
-    const double t40 = qd[0]*qd[0]*sr400_geo_D2;
-    const double t41 = sr400_geo_g*c1 - s1*t40;
-    const double t42 = t6*t3;
-    const double t43 = t41 - sr400_geo_D3*(qdd[1] + t42);
-    const double t44 = c1*t40 + sr400_geo_g*s1;
-    const double t45 = qd[1]*qd[1];
-    const double t46 = t44 + sr400_geo_D3*(t3*t3 + t45);
-    const double t47 = sa2*t43 - ca2*t46;
-    const double t48 = t16*t10;
-    const double t49 = qdd[5] + t48;
-    const double t50 = qd[5]*qd[5];
-    const double t51 = t16*t16 + t50;
-    const double t52 = sr400_geo_RL4*t51 - sr400_geo_D4*t49 + t47;
-    const double t53 = sa2*t46 + ca2*t43;
-    const double t54 = t10*t10 + t50;
-    const double t55 = qdd[5] - t48;
-    const double t56 = sr400_geo_D4*t54 + sr400_geo_RL4*t55 + t53;
-    const double t57 = t7 - t8;
-    const double t58 = t2 - sr400_geo_D3*t57;
-    const double t59 = sr400_geo_D4*t18 - sr400_geo_RL4*t12 + t58;
-    const double t60 = c2*t56 + s2*t59;
-    const double t61 = c3*t52 - s3*t60;
-    const double t62 = t25*t29 + t28*t30 + (t39*beta[31] - (t36*beta[29] + t37*beta[30]));
-    const double t63 = t62 - t61*beta[35];
-    const double t64 = t26*beta[29] + t25*beta[30] - t28*beta[31];
-    const double t65 = t28*t64 + t26*t29 + (t36*beta[30] - t39*beta[32]) - t61*beta[34];
-    const double t66 = t24*beta[24] - t27*beta[25] - t21*beta[26];
-    const double t67 = t24*beta[23] - t21*beta[25];
-    const double t68 = c2*t59 - s2*t56;
-    const double t69 = t27*t66 - t21*t67 + (t33*beta[22] - t38*beta[23] - t35*beta[24]);
-    const double t70 = c4*t63 + s4*t65 + (t68*beta[28] - t69);
-    const double t71 = c3*t60 + s3*t52;
-    const double t72 = t26*t30 - t25*t64 + (t39*beta[33] - (t36*beta[31] + t37*beta[32]));
-    const double t73 = (c4*t71 + s4*t68)*beta[35] - (c4*t68 - s4*t71)*beta[34] + t72;
-    const double t74 = t24*beta[22] - t27*beta[23] - t21*beta[24];
-    const double t75 = t73 - (t21*t74 + t24*t66 + (t33*beta[23] - t35*beta[25]) + t68*beta[27]);
-    const double t76 = t22*beta[17] + t20*beta[18] - t23*beta[19];
-    const double t77 = t22*beta[16] - t23*beta[18];
-    const double t78 = t20*t76 + t23*t77 + (t32*beta[17] - (t31*beta[15] + t34*beta[16]));
-    const double t79 = c3*t70 - s3*t75 + (t78 - t52*beta[21]);
-    const double t80 = t24*t67 + t27*t74 + (t35*beta[26] - (t33*beta[24] - t38*beta[25]));
-    const double t81 = s4*t63 - c4*t65 + (t61*beta[27] - t71*beta[28] - t80);
-    const double t82 = t22*beta[15] + t20*beta[16] - t23*beta[17];
-    const double t83 = t52*beta[20] - (t23*t82 + t22*t76 + (t31*beta[16] - t32*beta[18])) + t81;
-    const double t84 = t28*t28;
-    const double t85 = t26*t25;
-    const double t86 = (t25*t25 + t84)*beta[34] + (t39 - t85)*beta[35];
-    const double t87 = (t26*t26 + t84)*beta[35] - (t39 + t85)*beta[34];
-    const double t88 = t21*t21;
-    const double t89 = t24*t27;
-    const double t90 = c4*t86 - s4*t87 + ((t27*t27 + t88)*beta[27] + (t35 + t89)*beta[28]);
-    const double t91 = (t37 - t26*t28)*beta[34] - (t36 + t25*t28)*beta[35];
-    const double t92 = (t35 - t89)*beta[27] - (t24*t24 + t88)*beta[28] + t91;
-    const double t93 = t23*t23;
-    const double t94 = t22*t20;
-    const double t95 = c3*t90 + s3*t92 + ((t20*t20 + t93)*beta[20] + (t32 - t94)*beta[21]);
-    const double t96 = s4*t86 + c4*t87 - ((t38 + t24*t21)*beta[27] + (t33 - t27*t21)*beta[28]);
-    const double t97 = (t22*t22 + t93)*beta[21] - (t32 + t94)*beta[20] + t96;
-    const double t98 = s2*t95 + c2*t97;
-    const double t99 = t16*beta[10] + t10*beta[11] - qd[5]*beta[12];
-    const double t100 = t16*beta[9] - qd[5]*beta[11];
-    const double t101 = t10*t99 + qd[5]*t100 + (qdd[5]*beta[10] - (t11*beta[8] + t17*beta[9]));
-    const double t102 = c2*t79 - s2*t83 + sr400_geo_RL4*t98 + (t101 + t58*beta[14]);
-    const double t103 = t22*t77 - t20*t82 + (t32*beta[19] - (t31*beta[17] + t34*beta[18]));
-    const double t104 = s3*t70 + c3*t75 + (t60*beta[21] - t68*beta[20] + t103);
-    const double t105 = t16*beta[8] + t10*beta[9] - qd[5]*beta[10];
-    const double t106 = qd[5]*t105 + t16*t99 + (t11*beta[9] - qdd[5]*beta[11]) + t58*beta[13];
-    const double t107 = t104 - sr400_geo_D4*t98 - t106;
-    const double t108 = t6*beta[3] + t3*beta[4] - qd[1]*beta[5];
-    const double t109 = t6*beta[2] - qd[1]*beta[4];
-    const double t110 = t3*t108 + qd[1]*t109 + (qdd[1]*beta[3] - (t5*beta[1] + t8*beta[2]));
-    const double t111 = t18*beta[13] - t12*beta[14] + t98;
-    const double t112 = t6*beta[1] + t3*beta[2] - qd[1]*beta[3];
-    const double t113 = qd[1]*t112 + t6*t108 + (t5*beta[2] - qdd[1]*beta[4]) + t2*beta[6];
-    const double t114 = c1*(ca2*t102 + sa2*t107 - sr400_geo_D3*t111 - t113);
-    const double t115 = s1*(sa2*t102 - ca2*t107 + (t110 + t2*beta[7])) + t114;
-    const double t116 = t19 + sr400_geo_D2*(t15 - (t12*beta[36] + t18*beta[37]));
-    const double t117 = t115 - sr400_geo_D2*(t111 - (t57*beta[6] + t14*beta[7])) + t116;
+    /* link 3: angular velocity, w3 = R3' w2 + qd3 z */
+    const double minus_w3_y = sa2*minus_w2_y - ca2*minus_w2_x;
+    /* link 3: angular acceleration, wd3 = R3' wd2 + (R3' w2) x qd3 z + qdd3 z */
+    const double minus_wd3_x = sa2*minus_wd2_x + ca2*minus_wd2_y - t9*minus_w3_y;
+    /* link 3: acceleration of points of the link, U3 = [wd3 x] + [w3 x][w3 x] */
+    const double minus_U3_zy = minus_wd3_x + qd[5]*minus_w3_y;
+    /* link 8: moment on the link at its origin, n8 = J8 wd8 + w8 x J8 w8 + MS8 x vd8 */
+    const double n8_x = (vd2_z + sr400_geo_D8*minus_U3_zy)*beta[38];
+    /* link 2: acceleration of points of the link, U2 = [wd2 x] + [w2 x][w2 x] */
+    const double minus_U2_zy = minus_ww2_yz + minus_wd2_x;
+    /* link 8: force on the link, f8 = M8 vd8 + U8 MS8 */
+    const double minus_f8_z = minus_U2_zy*beta[38];
+    const double minus_w3_x = sa2*minus_w2_x + ca2*minus_w2_y;
+    const double minus_wd3_y = sa2*minus_wd2_y - ca2*minus_wd2_x + t9*minus_w3_x;
+    const double U3_zx = minus_wd3_y - qd[5]*minus_w3_x;
+    const double t19 = s5*(ca2*n8_x + vd2_z*beta[37]) + c5*(sa2*n8_x + sr400_geo_D8*minus_f8_z -
+        vd2_z*beta[36]);
+    /* link 4: angular velocity, w4 = R4' w3 + qd4 z */
+    const double minus_w4_y = c2*qd[5] - s2*minus_w3_x;
+    /* link 5: angular velocity, w5 = R5' w4 + qd5 z */
+    const double w5_z = qd[3] + minus_w4_y;
+    const double minus_w4_x = c2*minus_w3_x + s2*qd[5];
+    const double w4_z = qd[2] - minus_w3_y;
+    const double minus_w5_x = c3*minus_w4_x - s3*w4_z;
+    /* link 6: angular velocity, w6 = R6' w5 + qd6 z */
+    const double minus_w6_y = c4*w5_z - s4*minus_w5_x;
+    const double minus_w6_x = c4*minus_w5_x + s4*w5_z;
+    const double w5_y = c3*w4_z + s3*minus_w4_x;
+    const double w6_z = qd[4] + w5_y;
+    const double minus_h6_z = minus_w6_x*beta[31] + minus_w6_y*beta[32] - w6_z*beta[33];
+    const double minus_h6_y = minus_w6_x*beta[30] - w6_z*beta[32];
+    /* link 4: angular acceleration, wd4 = R4' wd3 + (R4' w3) x qd4 z + qdd4 z */
+    const double minus_wd4_x = c2*minus_wd3_x + s2*qdd[5] + qd[2]*minus_w4_y;
+    const double wd4_z = qdd[2] - minus_wd3_y;
+    /* link 5: angular acceleration, wd5 = R5' wd4 + (R5' w4) x qd5 z + qdd5 z */
+    const double minus_wd5_x = c3*minus_wd4_x - s3*wd4_z - qd[3]*w5_y;
+    const double minus_wd4_y = c2*qdd[5] - s2*minus_wd3_x - qd[2]*minus_w4_x;
+    const double wd5_z = qdd[3] + minus_wd4_y;
+    /* link 6: angular acceleration, wd6 = R6' wd5 + (R6' w5) x qd6 z + qdd6 z */
+    const double minus_wd6_x = c4*minus_wd5_x + s4*wd5_z + qd[4]*minus_w6_y;
+    const double minus_wd6_y = c4*wd5_z - s4*minus_wd5_x - qd[4]*minus_w6_x;
+    const double wd5_y = c3*wd4_z + s3*minus_wd4_x + qd[3]*minus_w5_x;
+    const double wd6_z = qdd[4] + wd5_y;
+    const double minus_vd2a_x = qd[0]*qd[0]*sr400_geo_D2;
+    const double minus_vd2_y = sr400_geo_g*c1 - s1*minus_vd2a_x;
+    const double ww2_xy = minus_w2_x*minus_w2_y;
+    /* link 3: acceleration of the origin less gravity, vd3 = R3' (vd2 + U2 p3) */
+    const double minus_vd3a_y = minus_vd2_y - sr400_geo_D3*(qdd[1] + ww2_xy);
+    const double minus_vd2_x = c1*minus_vd2a_x + sr400_geo_g*s1;
+    const double ww2_zz = qd[1]*qd[1];
+    const double minus_vd3a_x = minus_vd2_x + sr400_geo_D3*(minus_w2_y*minus_w2_y + ww2_zz);
+    const double minus_vd3_y = sa2*minus_vd3a_y - ca2*minus_vd3a_x;
+    const double ww3_xy = minus_w3_x*minus_w3_y;
+    const double U3_yx = qdd[5] + ww3_xy;
+    const double ww3_zz = qd[5]*qd[5];
+    const double minus_U3_yy = minus_w3_x*minus_w3_x + ww3_zz;
+    /* link 4: acceleration of the origin less gravity, vd4 = R4' (vd3 + U3 p4) */
+    const double minus_vd4_z = sr400_geo_RL4*minus_U3_yy - sr400_geo_D4*U3_yx + minus_vd3_y;
+    const double minus_vd3_x = sa2*minus_vd3a_x + ca2*minus_vd3a_y;
+    const double minus_U3_xx = minus_w3_y*minus_w3_y + ww3_zz;
+    const double minus_U3_xy = qdd[5] - ww3_xy;
+    const double minus_vd4a_x = sr400_geo_D4*minus_U3_xx + sr400_geo_RL4*minus_U3_xy + minus_vd3_x;
+    const double minus_U2_zx = minus_ww2_xz - minus_wd2_y;
+    const double vd3_z = vd2_z - sr400_geo_D3*minus_U2_zx;
+    const double vd4a_z = sr400_geo_D4*U3_zx - sr400_geo_RL4*minus_U3_zy + vd3_z;
+    const double minus_vd4_x = c2*minus_vd4a_x + s2*vd4a_z;
+    /* link 5: acceleration of the origin less gravity, vd5 = R5' (vd4 + U4 p5) */
+    const double minus_vd5_y = c3*minus_vd4_z - s3*minus_vd4_x;
+    const double t62 = minus_w6_y*minus_h6_z + w6_z*minus_h6_y + (wd6_z*beta[31] -
+        (minus_wd6_x*beta[29] + minus_wd6_y*beta[30]));
+    /* link 6: moment on the link at its origin, n6 = J6 wd6 + w6 x J6 w6 + MS6 x vd6 */
+    const double n6_x = t62 - minus_vd5_y*beta[35];
+    const double minus_h6_x = minus_w6_x*beta[29] + minus_w6_y*beta[30] - w6_z*beta[31];
+    const double minus_n6_y = w6_z*minus_h6_x + minus_w6_x*minus_h6_z + (minus_wd6_x*beta[30] -
+        wd6_z*beta[32]) - minus_vd5_y*beta[34];
+    const double minus_h5_z = minus_w5_x*beta[24] - w5_y*beta[25] - w5_z*beta[26];
+    const double minus_h5_y = minus_w5_x*beta[23] - w5_z*beta[25];
+    const double minus_vd4_y = c2*vd4a_z - s2*minus_vd4a_x;
+    const double t69 = w5_y*minus_h5_z - w5_z*minus_h5_y + (minus_wd5_x*beta[22] - wd5_y*beta[23] -
+        wd5_z*beta[24]);
+    /* link 5: moment on the link and all that it carries, nc5 = n5 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc5_x = c4*n6_x + s4*minus_n6_y + (minus_vd4_y*beta[28] - t69);
+    const double minus_vd5_x = c3*minus_vd4_x + s3*minus_vd4_z;
+    const double t72 = minus_w6_x*minus_h6_y - minus_w6_y*minus_h6_x + (wd6_z*beta[33] -
+        (minus_wd6_x*beta[31] + minus_wd6_y*beta[32]));
+    const double n6_z = (c4*minus_vd5_x + s4*minus_vd4_y)*beta[35] - (c4*minus_vd4_y -
+        s4*minus_vd5_x)*beta[34] + t72;
+    const double minus_h5_x = minus_w5_x*beta[22] - w5_y*beta[23] - w5_z*beta[24];
+    const double nc5_y = n6_z - (w5_z*minus_h5_x + minus_w5_x*minus_h5_z + (minus_wd5_x*beta[23] -
+        wd5_z*beta[25]) + minus_vd4_y*beta[27]);
+    const double minus_h4_z = minus_w4_x*beta[17] + minus_w4_y*beta[18] - w4_z*beta[19];
+    const double minus_h4_y = minus_w4_x*beta[16] - w4_z*beta[18];
+    const double t78 = minus_w4_y*minus_h4_z + w4_z*minus_h4_y + (wd4_z*beta[17] -
+        (minus_wd4_x*beta[15] + minus_wd4_y*beta[16]));
+    /* link 4: moment on the link and all that it carries, nc4 = n4 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc4_x = c3*nc5_x - s3*nc5_y + (t78 - minus_vd4_z*beta[21]);
+    const double t80 = minus_w5_x*minus_h5_y + w5_y*minus_h5_x + (wd5_z*beta[26] -
+        (minus_wd5_x*beta[24] - wd5_y*beta[25]));
+    const double minus_nc5_z = s4*n6_x - c4*minus_n6_y + (minus_vd5_y*beta[27] -
+        minus_vd5_x*beta[28] - t80);
+    const double minus_h4_x = minus_w4_x*beta[15] + minus_w4_y*beta[16] - w4_z*beta[17];
+    const double nc4_y = minus_vd4_z*beta[20] - (w4_z*minus_h4_x + minus_w4_x*minus_h4_z +
+        (minus_wd4_x*beta[16] - wd4_z*beta[18])) + minus_nc5_z;
+    const double ww6_zz = w6_z*w6_z;
+    const double ww6_xy = minus_w6_x*minus_w6_y;
+    /* link 6: force on the link, f6 = M6 vd6 + U6 MS6 */
+    const double minus_f6_x = (minus_w6_y*minus_w6_y + ww6_zz)*beta[34] + (wd6_z - ww6_xy)*beta[35];
+    const double minus_f6_y = (minus_w6_x*minus_w6_x + ww6_zz)*beta[35] - (wd6_z + ww6_xy)*beta[34];
+    const double ww5_zz = w5_z*w5_z;
+    const double minus_ww5_xy = minus_w5_x*w5_y;
+    /* link 5: force on the link and all that it carries, fc5 = f5 + sum of R fc of what hangs on it
+        */
+    const double minus_fc5_x = c4*minus_f6_x - s4*minus_f6_y + ((w5_y*w5_y + ww5_zz)*beta[27] +
+        (wd5_z + minus_ww5_xy)*beta[28]);
+    const double f6_z = (minus_wd6_y - minus_w6_x*w6_z)*beta[34] - (minus_wd6_x +
+        minus_w6_y*w6_z)*beta[35];
+    const double fc5_y = (wd5_z - minus_ww5_xy)*beta[27] - (minus_w5_x*minus_w5_x + ww5_zz)*beta[28]
+        + f6_z;
+    const double ww4_zz = w4_z*w4_z;
+    const double ww4_xy = minus_w4_x*minus_w4_y;
+    /* link 4: force on the link and all that it carries, fc4 = f4 + sum of R fc of what hangs on it
+        */
+    const double minus_fc4_x = c3*minus_fc5_x + s3*fc5_y + ((minus_w4_y*minus_w4_y +
+        ww4_zz)*beta[20] + (wd4_z - ww4_xy)*beta[21]);
+    const double fc5_z = s4*minus_f6_x + c4*minus_f6_y - ((wd5_y + minus_w5_x*w5_z)*beta[27] +
+        (minus_wd5_x - w5_y*w5_z)*beta[28]);
+    const double minus_fc4_y = (minus_w4_x*minus_w4_x + ww4_zz)*beta[21] - (wd4_z + ww4_xy)*beta[20]
+        + fc5_z;
+    const double fc4a_z = s2*minus_fc4_x + c2*minus_fc4_y;
+    const double minus_h3_z = minus_w3_x*beta[10] + minus_w3_y*beta[11] - qd[5]*beta[12];
+    const double minus_h3_y = minus_w3_x*beta[9] - qd[5]*beta[11];
+    const double t101 = minus_w3_y*minus_h3_z + qd[5]*minus_h3_y + (qdd[5]*beta[10] -
+        (minus_wd3_x*beta[8] + minus_wd3_y*beta[9]));
+    /* link 3: moment on the link and all that it carries, nc3 = n3 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc3_x = c2*nc4_x - s2*nc4_y + sr400_geo_RL4*fc4a_z + (t101 + vd3_z*beta[14]);
+    const double t103 = minus_w4_x*minus_h4_y - minus_w4_y*minus_h4_x + (wd4_z*beta[19] -
+        (minus_wd4_x*beta[17] + minus_wd4_y*beta[18]));
+    const double nc4_z = s3*nc5_x + c3*nc5_y + (minus_vd4_x*beta[21] - minus_vd4_y*beta[20] + t103);
+    const double minus_h3_x = minus_w3_x*beta[8] + minus_w3_y*beta[9] - qd[5]*beta[10];
+    /* link 3: moment on the link at its origin, n3 = J3 wd3 + w3 x J3 w3 + MS3 x vd3 */
+    const double minus_n3_y = qd[5]*minus_h3_x + minus_w3_x*minus_h3_z + (minus_wd3_x*beta[9] -
+        qdd[5]*beta[11]) + vd3_z*beta[13];
+    const double nc3_y = nc4_z - sr400_geo_D4*fc4a_z - minus_n3_y;
+    const double minus_h2_z = minus_w2_x*beta[3] + minus_w2_y*beta[4] - qd[1]*beta[5];
+    const double minus_h2_y = minus_w2_x*beta[2] - qd[1]*beta[4];
+    const double t110 = minus_w2_y*minus_h2_z + qd[1]*minus_h2_y + (qdd[1]*beta[3] -
+        (minus_wd2_x*beta[1] + minus_wd2_y*beta[2]));
+    /* link 3: force on the link and all that it carries, fc3 = f3 + sum of R fc of what hangs on it
+        */
+    const double fc3_z = U3_zx*beta[13] - minus_U3_zy*beta[14] + fc4a_z;
+    const double minus_h2_x = minus_w2_x*beta[1] + minus_w2_y*beta[2] - qd[1]*beta[3];
+    /* link 2: moment on the link at its origin, n2 = J2 wd2 + w2 x J2 w2 + MS2 x vd2 */
+    const double minus_n2_y = qd[1]*minus_h2_x + minus_w2_x*minus_h2_z + (minus_wd2_x*beta[2] -
+        qdd[1]*beta[4]) + vd2_z*beta[6];
+    const double t114 = c1*(ca2*nc3_x + sa2*nc3_y - sr400_geo_D3*fc3_z - minus_n2_y);
+    const double t115 = s1*(sa2*nc3_x - ca2*nc3_y + (t110 + vd2_z*beta[7])) + t114;
+    /* link 7: moment on the link and all that it carries, nc7 = n7 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc7a_z = t19 + sr400_geo_D2*(minus_f8_z - (minus_U3_zy*beta[36] +
+        U3_zx*beta[37]));
+    const double t117 = t115 - sr400_geo_D2*(fc3_z - (minus_U2_zx*beta[6] + minus_U2_zy*beta[7])) +
+        minus_nc7a_z;
     tau[0] = qdd[0]*beta[0] - t117;
-    const double t118 = c5*t40 + sr400_geo_g*s5;
-    const double t119 = sr400_geo_g*c5 - s5*t40;
-    const double t120 = (ca2*(t118 + sr400_geo_D8*t51) + sa2*(t119 - sr400_geo_D8*t55))*beta[38];
-    const double t121 = s3*t90 - c3*t92 + ((t31 + t20*t23)*beta[21] - (t34 - t22*t23)*beta[20]);
-    const double t122 = c2*t95 - s2*t97;
-    const double t123 = t16*t100 - t10*t105 + (qdd[5]*beta[12] - (t11*beta[10] + t17*beta[11]));
-    const double t124 = s2*t79 + c2*t83 + (sr400_geo_D4*t121 - sr400_geo_RL4*t122);
-    const double t125 = t47*beta[13] - t53*beta[14] - t123 + t124;
-    const double t126 = ca2*(t54*beta[13] + t55*beta[14] + t122);
-    const double t127 = t6*t109 - t3*t112 + (qdd[1]*beta[5] - (t5*beta[3] + t8*beta[4]));
-    const double t128 = t125 + sr400_geo_D3*(t126 + sa2*(t51*beta[14] - t49*beta[13] + t121));
-    tau[1] = t44*beta[7] - t41*beta[6] + t127 - t128 + t125 + t120;
-    tau[2] = t104;
-    tau[3] = -t81;
-    tau[4] = t73;
-    const double t129 = sr400_geo_D8*((t6*t6 + t45)*beta[38]*ca2 + (qdd[1] - t42)*beta[38]*sa2);
-    tau[5] = t120 - t129 + (t118*beta[37] - t119*beta[36]) - t125 - t120;
+    /* link 7: acceleration of the origin less gravity, vd7 = R7' (vd1 + U1 p7) */
+    const double minus_vd7_x = c5*minus_vd2a_x + sr400_geo_g*s5;
+    const double minus_vd7_y = sr400_geo_g*c5 - s5*minus_vd2a_x;
+    const double n8_z = (ca2*(minus_vd7_x + sr400_geo_D8*minus_U3_yy) + sa2*(minus_vd7_y -
+        sr400_geo_D8*minus_U3_xy))*beta[38];
+    const double minus_fc4_z = s3*minus_fc5_x - c3*fc5_y + ((minus_wd4_x + minus_w4_y*w4_z)*beta[21]
+        - (minus_wd4_y - minus_w4_x*w4_z)*beta[20]);
+    const double minus_fc4a_x = c2*minus_fc4_x - s2*minus_fc4_y;
+    const double t123 = minus_w3_x*minus_h3_y - minus_w3_y*minus_h3_x + (qdd[5]*beta[12] -
+        (minus_wd3_x*beta[10] + minus_wd3_y*beta[11]));
+    const double minus_nc4a_z = s2*nc4_x + c2*nc4_y + (sr400_geo_D4*minus_fc4_z -
+        sr400_geo_RL4*minus_fc4a_x);
+    const double minus_nc3_z = minus_vd3_y*beta[13] - minus_vd3_x*beta[14] - t123 + minus_nc4a_z;
+    const double t126 = ca2*(minus_U3_xx*beta[13] + minus_U3_xy*beta[14] + minus_fc4a_x);
+    const double t127 = minus_w2_x*minus_h2_y - minus_w2_y*minus_h2_x + (qdd[1]*beta[5] -
+        (minus_wd2_x*beta[3] + minus_wd2_y*beta[4]));
+    const double minus_nc3a_z = minus_nc3_z + sr400_geo_D3*(t126 + sa2*(minus_U3_yy*beta[14] -
+        U3_yx*beta[13] + minus_fc4_z));
+    tau[1] = minus_vd2_x*beta[7] - minus_vd2_y*beta[6] + t127 - minus_nc3a_z + minus_nc3_z + n8_z;
+    tau[2] = nc4_z;
+    tau[3] = -minus_nc5_z;
+    tau[4] = n6_z;
+    const double t129 = sr400_geo_D8*((minus_w2_x*minus_w2_x + ww2_zz)*beta[38]*ca2 + (qdd[1] -
+        ww2_xy)*beta[38]*sa2);
+    tau[5] = n8_z - t129 + (minus_vd7_x*beta[37] - minus_vd7_y*beta[36]) - minus_nc3_z - n8_z;
 }
 
 /* Inertia matrix, rotor inertias included; symmetric.
@@ -251,138 +344,160 @@ void sr400_inertia_matrix(const double *q, const double *beta, double *MODELER_R
     double s5, c5;
     modeler_sincos(q[5], &s5, &c5);
 
-    const double t2 = s4*beta[35] - c4*beta[34];
-    const double t3 = beta[27] - t2;
-    const double t4 = c3*beta[28] + s3*t3;
-    const double t5 = beta[14] + t4;
-    const double t6 = c4*beta[35] + s4*beta[34];
-    const double t7 = beta[21] + t6;
-    const double t8 = s3*beta[28] - c3*t3;
-    const double t9 = beta[20] - t8;
-    const double t10 = s2*t7 - c2*t9;
-    const double t11 = beta[13] - t10;
-    const double t12 = sa2*t5 + ca2*t11;
-    const double t13 = ca2*t5 - sa2*t11;
-    const double t14 = ca2*beta[38];
-    const double t15 = sa2*beta[38];
-    const double t16 = sr400_geo_D8*t14*s5;
-    const double t17 = k2*(s5*(beta[37] + t14) - c5*(beta[36] - t15));
+    const double lin6a_6z = s4*beta[35] - c4*beta[34];
+    /* link 5: first moments of the link and all that it carries, MSc5 = MS5 + sum of R MSc + Mc p
+        of what hangs on it */
+    const double MSc5_x = beta[27] - lin6a_6z;
+    /* link 4: first moments of the link and all that it carries, MSc4 = MS4 + sum of R MSc + Mc p
+        of what hangs on it */
+    const double MSc4_z = c3*beta[28] + s3*MSc5_x;
+    /* link 3: first moments of the link and all that it carries, MSc3 = MS3 + sum of R MSc + Mc p
+        of what hangs on it */
+    const double MSc3_y = beta[14] + MSc4_z;
+    const double minus_MSc5_z = c4*beta[35] + s4*beta[34];
+    const double MSc4_y = beta[21] + minus_MSc5_z;
+    const double minus_lin5a_5z = s3*beta[28] - c3*MSc5_x;
+    const double MSc4_x = beta[20] - minus_lin5a_5z;
+    const double lin4a_4z = s2*MSc4_y - c2*MSc4_x;
+    const double MSc3_x = beta[13] - lin4a_4z;
+    const double minus_lin3a_3x = sa2*MSc3_y + ca2*MSc3_x;
+    const double minus_lin3a_3y = ca2*MSc3_y - sa2*MSc3_x;
+    const double minus_lin8a_8x = ca2*beta[38];
+    const double minus_lin8a_8y = sa2*beta[38];
+    const double t16 = sr400_geo_D8*minus_lin8a_8x*s5;
+    const double minus_Js7_yy = k2*(s5*(beta[37] + minus_lin8a_8x) - c5*(beta[36] -
+        minus_lin8a_8y));
     const double t18 = c4*beta[29] - s4*beta[30];
     const double t19 = c4*beta[30];
     const double t20 = s4*t19;
-    const double t21 = c4*t18 - t20 + beta[22];
-    const double t22 = c4*beta[31] - s4*beta[32];
-    const double t23 = beta[23] + t22;
-    const double t24 = s3*t23;
-    const double t25 = c3*t21 - t24;
+    /* link 5: inertia of the link and all that it carries, Jc5 = J5 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc5_xx = c4*t18 - t20 + beta[22];
+    const double ang6a_6x = c4*beta[31] - s4*beta[32];
+    const double Jc5_xy = beta[23] + ang6a_6x;
+    const double t24 = s3*Jc5_xy;
+    const double t25 = c3*Jc5_xx - t24;
     const double t26 = s3*beta[33];
-    const double t27 = c3*t23;
+    const double t27 = c3*Jc5_xy;
     const double t28 = t26 - t27;
-    const double t29 = c3*t25 + s3*t28 + beta[15];
-    const double t30 = beta[24] - (s4*t18 + c4*t19);
-    const double t31 = s4*beta[31] + c4*beta[32];
-    const double t32 = beta[25] - t31;
-    const double t33 = c3*t30 - s3*t32;
-    const double t34 = beta[16] - t33;
-    const double t35 = s2*t34;
-    const double t36 = c2*t29 - t35;
-    const double t37 = t20 + s4*(s4*beta[29] + t19) + beta[26];
-    const double t38 = s2*t37;
-    const double t39 = c2*t34;
+    /* link 4: inertia of the link and all that it carries, Jc4 = J4 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc4_xx = c3*t25 + s3*t28 + beta[15];
+    const double Jc5_xz = beta[24] - (s4*t18 + c4*t19);
+    const double minus_ang6a_6z = s4*beta[31] + c4*beta[32];
+    const double Jc5_yz = beta[25] - minus_ang6a_6z;
+    const double ang5a_5x = c3*Jc5_xz - s3*Jc5_yz;
+    const double Jc4_xy = beta[16] - ang5a_5x;
+    const double t35 = s2*Jc4_xy;
+    const double t36 = c2*Jc4_xx - t35;
+    const double Jc5_zz = t20 + s4*(s4*beta[29] + t19) + beta[26];
+    const double t38 = s2*Jc5_zz;
+    const double t39 = c2*Jc4_xy;
     const double t40 = t38 - t39;
-    const double t41 = k4*t4;
-    const double t42 = c2*t36 + s2*t40 + beta[8] + t41;
-    const double t43 = s3*t25 - c3*t28 + beta[17];
-    const double t44 = s3*t30 + c3*t32;
-    const double t45 = beta[18] - t44;
-    const double t46 = c2*t43 - s2*t45;
-    const double t47 = sr400_geo_RL4*t10;
-    const double t48 = beta[9] + t46 + (t47 - sr400_geo_D4*t4);
-    const double t49 = ca2*t48;
-    const double t50 = sa2*t42 - t49;
-    const double t51 = sa2*t48;
+    const double Js4_xx = k4*MSc4_z;
+    /* link 3: inertia of the link and all that it carries, Jc3 = J3 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc3_xx = c2*t36 + s2*t40 + beta[8] + Js4_xx;
+    const double Jc4_xz = s3*t25 - c3*t28 + beta[17];
+    const double ang5a_5z = s3*Jc5_xz + c3*Jc5_yz;
+    const double Jc4_yz = beta[18] - ang5a_5z;
+    const double Jc4a_xy = c2*Jc4_xz - s2*Jc4_yz;
+    const double t47 = sr400_geo_RL4*lin4a_4z;
+    const double Jc3_xy = beta[9] + Jc4a_xy + (t47 - sr400_geo_D4*MSc4_z);
+    const double t49 = ca2*Jc3_xy;
+    const double t50 = sa2*Jc3_xx - t49;
+    const double t51 = sa2*Jc3_xy;
     const double t52 = c3*beta[33];
-    const double t53 = s3*(s3*t21 + t27) + c3*(t52 + t24) + beta[19];
-    const double t54 = k3*t10;
-    const double t55 = t53 - t54;
-    const double t56 = t51 - ca2*t55;
-    const double t57 = ca2*t50 + sa2*t56 + beta[2] - sr400_geo_D3*t12;
-    const double t58 = c1*(s1*t57 + c1*(ca2*(ca2*t42 + t51) + sa2*(t49 + sa2*t55) - k5*t13));
-    const double t59 = s1*(s1*(sa2*t50 - ca2*t56 + beta[1]) + c1*t57) + t58;
-    const double t60 = c5*t16 + c5*(t16 + k1*t15*c5) - beta[0] + t17 - t59;
-    M[0] = -(k2*(s1*(beta[7] + t12) - c1*(beta[6] - t13)) + t60);
-    const double t61 = c2*t7 + s2*t9;
-    const double t62 = c2*t40 - s2*t36 + beta[10] + sr400_geo_D4*t61;
-    const double t63 = sr400_geo_RL4*t61;
-    const double t64 = s2*t43 + c2*t45;
-    const double t65 = beta[11] - t64 + t63;
-    const double t66 = sa2*t62 - ca2*t65;
-    const double t67 = ca2*t62 + sa2*t65;
-    const double t68 = s1*t66 + c1*t67;
-    const double t69 = t68 - (s1*(beta[3] + t66 + sr400_geo_D3*t61) + c1*(beta[4] + t67));
+    const double Jc4_zz = s3*(s3*Jc5_xx + t27) + c3*(t52 + t24) + beta[19];
+    const double minus_Js4_yy = k3*lin4a_4z;
+    const double Jc3_yy = Jc4_zz - minus_Js4_yy;
+    const double t56 = t51 - ca2*Jc3_yy;
+    /* link 2: inertia of the link and all that it carries, Jc2 = J2 + sum of R Jc R' + Js of what
+        hangs on it */
+    const double Jc2_xy = ca2*t50 + sa2*t56 + beta[2] - sr400_geo_D3*minus_lin3a_3x;
+    const double t58 = c1*(s1*Jc2_xy + c1*(ca2*(ca2*Jc3_xx + t51) + sa2*(t49 + sa2*Jc3_yy) -
+        k5*minus_lin3a_3y));
+    const double Jc2a_zz = s1*(s1*(sa2*t50 - ca2*t56 + beta[1]) + c1*Jc2_xy) + t58;
+    const double t60 = c5*t16 + c5*(t16 + k1*minus_lin8a_8y*c5) - beta[0] + minus_Js7_yy - Jc2a_zz;
+    M[0] = -(k2*(s1*(beta[7] + minus_lin3a_3x) - c1*(beta[6] - minus_lin3a_3y)) + t60);
+    const double minus_MSc3_z = c2*MSc4_y + s2*MSc4_x;
+    const double Jc3_xz = c2*t40 - s2*t36 + beta[10] + sr400_geo_D4*minus_MSc3_z;
+    const double Js4_yz = sr400_geo_RL4*minus_MSc3_z;
+    const double minus_Jc4a_yz = s2*Jc4_xz + c2*Jc4_yz;
+    const double Jc3_yz = beta[11] - minus_Jc4a_yz + Js4_yz;
+    const double ang3a_3x = sa2*Jc3_xz - ca2*Jc3_yz;
+    const double ang3a_3y = ca2*Jc3_xz + sa2*Jc3_yz;
+    const double minus_ang2a_3z = s1*ang3a_3x + c1*ang3a_3y;
+    const double t69 = minus_ang2a_3z - (s1*(beta[3] + ang3a_3x + sr400_geo_D3*minus_MSc3_z) +
+        c1*(beta[4] + ang3a_3y));
     M[1] = t69;
-    const double t70 = t46 + t47;
-    const double t71 = t53 - sr400_geo_D4*t10;
-    const double t72 = s1*(sa2*t70 - ca2*t71) + c1*(ca2*t70 + sa2*t71 - sr400_geo_D3*t10);
-    const double t73 = t72 - sr400_geo_D2*t10;
-    M[2] = -t73;
-    const double t74 = s2*t4;
-    const double t75 = c2*t33 + t38 + sr400_geo_RL4*t74;
-    const double t76 = t44 - sr400_geo_D4*t74;
-    const double t77 = s1*(sa2*t75 - ca2*t76) + c1*(ca2*t75 + sa2*t76 - sr400_geo_D3*t74);
-    const double t78 = t77 - sr400_geo_D2*t74;
-    M[3] = -t78;
-    const double t79 = c3*t22 - t26;
-    const double t80 = c3*t6;
-    const double t81 = s2*t80 + c2*t2;
-    const double t82 = c2*t79 - s2*t31 + sr400_geo_RL4*t81;
-    const double t83 = s3*t22 + t52;
-    const double t84 = t83 - sr400_geo_D4*t81;
-    const double t85 = s1*(sa2*t82 - ca2*t84) + c1*(ca2*t82 + sa2*t84 - sr400_geo_D3*t81);
-    const double t86 = t85 - sr400_geo_D2*t81;
-    M[4] = -t86;
-    M[5] = -t68;
+    const double ang4a_4x = Jc4a_xy + t47;
+    const double ang4a_4y = Jc4_zz - sr400_geo_D4*lin4a_4z;
+    const double t72 = s1*(sa2*ang4a_4x - ca2*ang4a_4y) + c1*(ca2*ang4a_4x + sa2*ang4a_4y -
+        sr400_geo_D3*lin4a_4z);
+    const double minus_ang2a_4z = t72 - sr400_geo_D2*lin4a_4z;
+    M[2] = -minus_ang2a_4z;
+    const double lin4a_5z = s2*MSc4_z;
+    const double ang4a_5x = c2*ang5a_5x + t38 + sr400_geo_RL4*lin4a_5z;
+    const double ang4a_5y = ang5a_5z - sr400_geo_D4*lin4a_5z;
+    const double t77 = s1*(sa2*ang4a_5x - ca2*ang4a_5y) + c1*(ca2*ang4a_5x + sa2*ang4a_5y -
+        sr400_geo_D3*lin4a_5z);
+    const double minus_ang2a_5z = t77 - sr400_geo_D2*lin4a_5z;
+    M[3] = -minus_ang2a_5z;
+    const double ang5a_6x = c3*ang6a_6x - t26;
+    const double minus_lin5a_6x = c3*minus_MSc5_z;
+    const double lin4a_6z = s2*minus_lin5a_6x + c2*lin6a_6z;
+    const double ang4a_6x = c2*ang5a_6x - s2*minus_ang6a_6z + sr400_geo_RL4*lin4a_6z;
+    const double ang5a_6z = s3*ang6a_6x + t52;
+    const double ang4a_6y = ang5a_6z - sr400_geo_D4*lin4a_6z;
+    const double t85 = s1*(sa2*ang4a_6x - ca2*ang4a_6y) + c1*(ca2*ang4a_6x + sa2*ang4a_6y -
+        sr400_geo_D3*lin4a_6z);
+    const double minus_ang2a_6z = t85 - sr400_geo_D2*lin4a_6z;
+    M[4] = -minus_ang2a_6z;
+    M[5] = -minus_ang2a_3z;
     M[6] = t69;
     M[7] = beta[5];
-    const double t87 = ca2*t61*sr400_geo_D3;
+    const double t87 = ca2*minus_MSc3_z*sr400_geo_D3;
     M[8] = -t87;
-    const double t88 = c2*t4;
-    const double t89 = sr400_geo_D3*(ca2*t88 + sa2*t8);
+    const double minus_lin4a_5x = c2*MSc4_z;
+    const double t89 = sr400_geo_D3*(ca2*minus_lin4a_5x + sa2*minus_lin5a_5z);
     M[9] = -t89;
-    const double t90 = c2*t80 - s2*t2;
-    const double t91 = s3*t6;
-    const double t92 = sr400_geo_D3*(ca2*t90 + sa2*t91);
+    const double minus_lin4a_6x = c2*minus_lin5a_6x - s2*lin6a_6z;
+    const double minus_lin5a_6z = s3*minus_MSc5_z;
+    const double t92 = sr400_geo_D3*(ca2*minus_lin4a_6x + sa2*minus_lin5a_6z);
     M[10] = -t92;
-    const double t93 = sr400_geo_D8*t15 + sr400_geo_D3*t13;
+    const double t93 = sr400_geo_D8*minus_lin8a_8y + sr400_geo_D3*minus_lin3a_3y;
     M[11] = -t93;
-    M[12] = -t73;
+    M[12] = -minus_ang2a_4z;
     M[13] = -t87;
-    M[14] = t53;
-    M[15] = t44;
-    M[16] = t83;
-    const double t94 = t64 - t63;
-    M[17] = -t94;
-    M[18] = -t78;
+    M[14] = Jc4_zz;
+    M[15] = ang5a_5z;
+    M[16] = ang5a_6z;
+    const double minus_ang4a_4z = minus_Jc4a_yz - Js4_yz;
+    M[17] = -minus_ang4a_4z;
+    M[18] = -minus_ang2a_5z;
     M[19] = -t89;
-    M[20] = t44;
-    M[21] = t37;
-    M[22] = -t31;
-    const double t95 = c2*t37;
-    const double t96 = s2*t33 - t95 + (sr400_geo_D4*t8 - sr400_geo_RL4*t88);
-    M[23] = -t96;
-    M[24] = -t86;
+    M[20] = ang5a_5z;
+    M[21] = Jc5_zz;
+    M[22] = -minus_ang6a_6z;
+    const double t95 = c2*Jc5_zz;
+    const double minus_ang4a_5z = s2*ang5a_5x - t95 + (sr400_geo_D4*minus_lin5a_5z -
+        sr400_geo_RL4*minus_lin4a_5x);
+    M[23] = -minus_ang4a_5z;
+    M[24] = -minus_ang2a_6z;
     M[25] = -t92;
-    M[26] = t83;
-    M[27] = -t31;
+    M[26] = ang5a_6z;
+    M[27] = -minus_ang6a_6z;
     M[28] = beta[33];
-    const double t97 = s2*t79 + c2*t31 + (sr400_geo_D4*t91 - sr400_geo_RL4*t90);
-    M[29] = -t97;
-    M[30] = -t68;
+    const double minus_ang4a_6z = s2*ang5a_6x + c2*minus_ang6a_6z + (sr400_geo_D4*minus_lin5a_6z -
+        sr400_geo_RL4*minus_lin4a_6x);
+    M[29] = -minus_ang4a_6z;
+    M[30] = -minus_ang2a_3z;
     M[31] = -t93;
-    M[32] = -t94;
-    M[33] = -t96;
-    M[34] = -t97;
-    M[35] = s2*(s2*t29 + t39) + c2*(t95 + t35) + beta[12] + (t41 - t54);
+    M[32] = -minus_ang4a_4z;
+    M[33] = -minus_ang4a_5z;
+    M[34] = -minus_ang4a_6z;
+    M[35] = s2*(s2*Jc4_xx + t39) + c2*(t95 + t35) + beta[12] + (Js4_xx - minus_Js4_yy);
 }
 
 /* Torques that hold the robot still, without friction.
@@ -402,26 +517,38 @@ void sr400_gravity(const double *q, const double *beta, double *MODELER_RESTRICT
     double s5, c5;
     modeler_sincos(q[5], &s5, &c5);
 
-    const double t1 = sr400_geo_g*s1;
-    const double t2 = t1*beta[38];
-    tau[1] = t1*beta[7] - sr400_geo_g*c1*beta[6] + t2;
-    const double t3 = sr400_geo_g*s5;
-    const double t4 = sr400_geo_g*c5;
-    const double t5 = c2*t4;
-    const double t6 = c3*t3 + s3*t5;
-    const double t7 = beta[35]*t6;
-    const double t8 = beta[34]*t6;
-    const double t9 = s2*t4;
-    const double t10 = c4*t7 + s4*t8 - beta[28]*t9;
-    const double t11 = c3*t5 - s3*t3;
-    const double t12 = beta[34]*(c4*t9 + s4*t11) + beta[35]*(c4*t11 - s4*t9);
-    const double t13 = t12 + beta[27]*t9;
-    tau[2] = s3*t10 + c3*t13 + (beta[20]*t9 + beta[21]*t5);
-    const double t14 = s4*t7 - c4*t8 - (beta[27]*t6 + beta[28]*t11);
-    tau[3] = -t14;
-    tau[4] = t12;
-    const double t15 = s2*(c3*t10 - s3*t13 + t3*beta[21]) + c2*(t14 - t3*beta[20]);
-    tau[5] = t3*beta[37] - t4*beta[36] + t2 + (t3*beta[13] + t4*beta[14] - t15) - t2;
+    /* link 2: acceleration of the origin less gravity, vd2 = R2' (vd1 + U1 p2) */
+    const double minus_vd2_x = sr400_geo_g*s1;
+    /* link 8: moment on the link at its origin, n8 = J8 wd8 + w8 x J8 w8 + MS8 x vd8 */
+    const double n8_z = minus_vd2_x*beta[38];
+    tau[1] = minus_vd2_x*beta[7] - sr400_geo_g*c1*beta[6] + n8_z;
+    /* link 3: acceleration of the origin less gravity, vd3 = R3' (vd2 + U2 p3) */
+    const double vd3_y = sr400_geo_g*s5;
+    const double minus_vd3_x = sr400_geo_g*c5;
+    /* link 4: acceleration of the origin less gravity, vd4 = R4' (vd3 + U3 p4) */
+    const double minus_vd4_x = c2*minus_vd3_x;
+    /* link 5: acceleration of the origin less gravity, vd5 = R5' (vd4 + U4 p5) */
+    const double vd5_y = c3*vd3_y + s3*minus_vd4_x;
+    /* link 6: moment on the link at its origin, n6 = J6 wd6 + w6 x J6 w6 + MS6 x vd6 */
+    const double n6_x = beta[35]*vd5_y;
+    const double minus_n6_y = beta[34]*vd5_y;
+    const double vd4_y = s2*minus_vd3_x;
+    /* link 5: moment on the link and all that it carries, nc5 = n5 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc5_x = c4*n6_x + s4*minus_n6_y - beta[28]*vd4_y;
+    const double minus_vd5_x = c3*minus_vd4_x - s3*vd3_y;
+    const double n6_z = beta[34]*(c4*vd4_y + s4*minus_vd5_x) + beta[35]*(c4*minus_vd5_x - s4*vd4_y);
+    const double nc5_y = n6_z + beta[27]*vd4_y;
+    tau[2] = s3*nc5_x + c3*nc5_y + (beta[20]*vd4_y + beta[21]*minus_vd4_x);
+    const double minus_nc5_z = s4*n6_x - c4*minus_n6_y - (beta[27]*vd5_y + beta[28]*minus_vd5_x);
+    tau[3] = -minus_nc5_z;
+    tau[4] = n6_z;
+    /* link 4: moment on the link and all that it carries, nc4 = n4 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc4a_z = s2*(c3*nc5_x - s3*nc5_y + vd3_y*beta[21]) + c2*(minus_nc5_z -
+        vd3_y*beta[20]);
+    tau[5] = vd3_y*beta[37] - minus_vd3_x*beta[36] + n8_z + (vd3_y*beta[13] + minus_vd3_x*beta[14] -
+        minus_nc4a_z) - n8_z;
 }
 
 /* Coriolis and centripetal torques.
@@ -448,126 +575,192 @@ void sr400_coriolis(const double *q, const double *qd, const double *beta,
     double s5, c5;
     modeler_sincos(q[5], &s5, &c5);
 
-    const double t2 = c1*qd[0];
-    const double t3 = s1*qd[0];
-    const double t4 = sa2*t2 - ca2*t3;
-    const double t5 = qd[5]*t4;
-    const double t6 = k1*t5*beta[38];
-    const double t7 = qd[1]*t2;
-    const double t8 = 2.0*t7;
-    const double t9 = beta[38]*t8;
-    const double t10 = 2.0*t5;
-    const double t11 = sa2*t3 + ca2*t2;
-    const double t12 = qd[5]*t11;
-    const double t13 = 2.0*t12;
-    const double t14 = sr400_geo_D2*(beta[37]*t13 - beta[36]*t10 + t9);
-    const double t15 = c2*qd[5] - s2*t11;
-    const double t16 = qd[3] + t15;
-    const double t17 = c2*t11 + s2*qd[5];
-    const double t18 = qd[2] - t4;
-    const double t19 = c3*t17 - s3*t18;
-    const double t20 = c4*t16 - s4*t19;
-    const double t21 = c3*t18 + s3*t17;
-    const double t22 = qd[2]*t15 + c2*t5;
-    const double t23 = s3*t12 - c3*t22 + qd[3]*t21;
-    const double t24 = qd[2]*t17 + s2*t5;
-    const double t25 = qd[4]*t20 - (c4*t23 + s4*t24);
-    const double t26 = c4*t19 + s4*t16;
-    const double t27 = c4*t24 - s4*t23 + qd[4]*t26;
-    const double t28 = c3*t12 + s3*t22 + qd[3]*t19;
-    const double t29 = qd[4] + t21;
-    const double t30 = t26*beta[31] + t20*beta[32] - t29*beta[33];
-    const double t31 = t26*beta[30] - t29*beta[32];
-    const double t32 = qd[0]*qd[0]*sr400_geo_D2;
-    const double t33 = s1*t32;
-    const double t34 = t3*t2;
-    const double t35 = t33 + sr400_geo_D3*t34;
-    const double t36 = c1*t32;
-    const double t37 = qd[1]*qd[1];
-    const double t38 = t36 + sr400_geo_D3*(t2*t2 + t37);
-    const double t39 = sa2*t35 + ca2*t38;
-    const double t40 = qd[5]*qd[5];
-    const double t41 = t11*t11 + t40;
-    const double t42 = t11*t4;
-    const double t43 = sr400_geo_D4*t42 - sr400_geo_RL4*t41 + t39;
-    const double t44 = sa2*t38 - ca2*t35;
-    const double t45 = t4*t4 + t40;
-    const double t46 = sr400_geo_D4*t45 - sr400_geo_RL4*t42 + t44;
-    const double t47 = qd[1]*t3;
-    const double t48 = k4*t47;
-    const double t49 = k2*t12 + k3*t5 + t48;
-    const double t50 = c2*t46 - s2*t49;
-    const double t51 = c3*t43 + s3*t50;
-    const double t52 = beta[29]*t25 - beta[30]*t27 - beta[31]*t28 - (t20*t30 + t29*t31);
-    const double t53 = t52 - beta[35]*t51;
-    const double t54 = t26*beta[29] + t20*beta[30] - t29*beta[31];
-    const double t55 = beta[30]*t25 - beta[32]*t28 + (t29*t54 + t26*t30) + beta[34]*t51;
-    const double t56 = t19*beta[24] - t21*beta[25] - t16*beta[26];
-    const double t57 = t19*beta[23] - t16*beta[25];
-    const double t58 = c2*t49 + s2*t46;
-    const double t59 = beta[22]*t23 + beta[23]*t28 - beta[24]*t24 + (t16*t57 - t21*t56);
-    const double t60 = c4*t53 - s4*t55 + (beta[28]*t58 - t59);
-    const double t61 = c3*t50 - s3*t43;
-    const double t62 = beta[31]*t25 - beta[32]*t27 - beta[33]*t28 + (t20*t54 - t26*t31);
-    const double t63 = t62 - (beta[34]*(c4*t58 + s4*t61) + beta[35]*(c4*t61 - s4*t58));
-    const double t64 = t19*beta[22] - t21*beta[23] - t16*beta[24];
-    const double t65 = t63 - (beta[23]*t23 - beta[25]*t24 - (t16*t64 + t19*t56) + beta[27]*t58);
-    const double t66 = t17*beta[17] + t15*beta[18] - t18*beta[19];
-    const double t67 = t17*beta[16] - t18*beta[18];
-    const double t68 = beta[15]*t22 - beta[16]*t24 - t12*beta[17] - (t15*t66 + t18*t67);
-    const double t69 = c3*t60 - s3*t65 + (t68 - beta[21]*t43);
-    const double t70 = beta[24]*t23 + beta[25]*t28 - beta[26]*t24 + (t19*t57 + t21*t64);
-    const double t71 = s4*t53 + c4*t55 + (beta[27]*t51 + beta[28]*t61 + t70);
-    const double t72 = t17*beta[15] + t15*beta[16] - t18*beta[17];
-    const double t73 = beta[16]*t22 - t12*beta[18] + (t18*t72 + t17*t66) + beta[20]*t43 + t71;
-    const double t74 = t29*t29;
-    const double t75 = t26*t20;
-    const double t76 = (t20*t20 + t74)*beta[34] - beta[35]*(t75 - t28);
-    const double t77 = beta[34]*(t75 + t28) - (t26*t26 + t74)*beta[35];
-    const double t78 = t16*t16;
-    const double t79 = t19*t21;
-    const double t80 = c4*t76 + s4*t77 + ((t21*t21 + t78)*beta[27] + beta[28]*(t79 - t24));
-    const double t81 = beta[34]*(t26*t29 + t27) + beta[35]*(t20*t29 + t25);
-    const double t82 = beta[27]*(t79 + t24) + (t19*t19 + t78)*beta[28] + t81;
-    const double t83 = t18*t18;
-    const double t84 = t17*t15;
-    const double t85 = c3*t80 - s3*t82 + ((t15*t15 + t83)*beta[20] + beta[21]*(t12 - t84));
-    const double t86 = s4*t76 - c4*t77 + (beta[28]*(t21*t16 + t23) - beta[27]*(t19*t16 + t28));
-    const double t87 = (t17*t17 + t83)*beta[21] - beta[20]*(t12 + t84) + t86;
-    const double t88 = s2*t85 + c2*t87;
-    const double t89 = t11*beta[10] + t4*beta[11] - qd[5]*beta[12];
-    const double t90 = t11*beta[9] - qd[5]*beta[11];
-    const double t91 = t5*beta[8] - t12*beta[9] - (t4*t89 + qd[5]*t90) + beta[14]*t48;
-    const double t92 = c2*t69 - s2*t73 - sr400_geo_RL4*t88 + t91;
-    const double t93 = beta[17]*t22 - beta[18]*t24 - t12*beta[19] + (t15*t72 - t17*t67);
-    const double t94 = s3*t60 + c3*t65 + (t93 - (beta[20]*t58 + beta[21]*t50));
-    const double t95 = t11*beta[8] + t4*beta[9] - qd[5]*beta[10];
-    const double t96 = t94 + sr400_geo_D4*t88 + (qd[5]*t95 + t11*t89 + t5*beta[9] - beta[13]*t48);
-    const double t97 = t3*beta[3] + t2*beta[4] - qd[1]*beta[5];
-    const double t98 = t3*beta[2] - qd[1]*beta[4];
-    const double t99 = t88 - (beta[13]*t13 + beta[14]*t10);
-    const double t100 = t3*beta[1] + t2*beta[2] - qd[1]*beta[3];
-    const double t101 = ca2*t92 + sa2*t96 + sr400_geo_D3*t99 + (qd[1]*t100 + t3*t97 + t7*beta[2]);
-    const double t102 = s1*(sa2*t92 - ca2*t96 + (t7*beta[1] - t47*beta[2] - (t2*t97 + qd[1]*t98)));
-    const double t103 = t102 + c1*t101 + sr400_geo_D2*(t99 - (2.0*t47*beta[6] + beta[7]*t8));
-    tau[0] = t103 - (ca2*t6*s5 + c5*(sa2*t6 + sr400_geo_D8*t9) + t14);
-    const double t104 = c5*t32;
-    const double t105 = s5*t32;
-    const double t106 = beta[38]*(ca2*(t104 + sr400_geo_D8*t41) - sa2*(t105 - sr400_geo_D8*t42));
-    const double t107 = s3*t80 + c3*t82 + (beta[20]*(t17*t18 + t24) + beta[21]*(t15*t18 + t22));
-    const double t108 = c2*t85 - s2*t87;
-    const double t109 = t5*beta[10] - t12*beta[11] + (t4*t95 - t11*t90);
-    const double t110 = s2*t69 + c2*t73 + (sr400_geo_RL4*t108 - sr400_geo_D4*t107);
-    const double t111 = beta[13]*t39 + beta[14]*t44 - t109 + t110;
-    const double t112 = ca2*(t45*beta[13] - t42*beta[14] + t108);
-    const double t113 = t7*beta[3] - t47*beta[4] + (t2*t100 - t3*t98);
-    const double t114 = t111 - sr400_geo_D3*(t112 + sa2*(t41*beta[14] - t42*beta[13] + t107));
-    tau[1] = t33*beta[6] + t36*beta[7] - t113 + t114 - t111 + t106;
-    tau[2] = -t94;
-    tau[3] = t71;
-    tau[4] = -t63;
-    const double t115 = t106 + sr400_geo_D8*(t34*beta[38]*sa2 - (t3*t3 + t37)*beta[38]*ca2);
-    tau[5] = t105*beta[36] + t104*beta[37] + t115 + t111 - t106;
+    /* link 2: angular velocity, w2 = R2' w1 + qd2 z */
+    const double minus_w2_y = c1*qd[0];
+    const double minus_w2_x = s1*qd[0];
+    /* link 3: angular velocity, w3 = R3' w2 + qd3 z */
+    const double minus_w3_y = sa2*minus_w2_y - ca2*minus_w2_x;
+    const double minus_ww3_yz = qd[5]*minus_w3_y;
+    /* link 8: moment on the link at its origin, n8 = J8 wd8 + w8 x J8 w8 + MS8 x vd8 */
+    const double n8_x = k1*minus_ww3_yz*beta[38];
+    const double minus_ww2_yz = qd[1]*minus_w2_y;
+    /* link 2: acceleration of points of the link, U2 = [wd2 x] + [w2 x][w2 x] */
+    const double minus_U2_zy = 2.0*minus_ww2_yz;
+    /* link 8: force on the link, f8 = M8 vd8 + U8 MS8 */
+    const double minus_f8_z = beta[38]*minus_U2_zy;
+    /* link 3: acceleration of points of the link, U3 = [wd3 x] + [w3 x][w3 x] */
+    const double minus_U3_zy = 2.0*minus_ww3_yz;
+    const double minus_w3_x = sa2*minus_w2_x + ca2*minus_w2_y;
+    const double minus_ww3_xz = qd[5]*minus_w3_x;
+    const double minus_U3_zx = 2.0*minus_ww3_xz;
+    const double t14 = sr400_geo_D2*(beta[37]*minus_U3_zx - beta[36]*minus_U3_zy + minus_f8_z);
+    /* link 4: angular velocity, w4 = R4' w3 + qd4 z */
+    const double minus_w4_y = c2*qd[5] - s2*minus_w3_x;
+    /* link 5: angular velocity, w5 = R5' w4 + qd5 z */
+    const double w5_z = qd[3] + minus_w4_y;
+    const double minus_w4_x = c2*minus_w3_x + s2*qd[5];
+    const double w4_z = qd[2] - minus_w3_y;
+    const double minus_w5_x = c3*minus_w4_x - s3*w4_z;
+    /* link 6: angular velocity, w6 = R6' w5 + qd6 z */
+    const double minus_w6_y = c4*w5_z - s4*minus_w5_x;
+    const double w5_y = c3*w4_z + s3*minus_w4_x;
+    /* link 4: angular acceleration, wd4 = R4' wd3 + (R4' w3) x qd4 z + qdd4 z */
+    const double minus_wd4_x = qd[2]*minus_w4_y + c2*minus_ww3_yz;
+    /* link 5: angular acceleration, wd5 = R5' wd4 + (R5' w4) x qd5 z + qdd5 z */
+    const double wd5_x = s3*minus_ww3_xz - c3*minus_wd4_x + qd[3]*w5_y;
+    const double wd4_y = qd[2]*minus_w4_x + s2*minus_ww3_yz;
+    /* link 6: angular acceleration, wd6 = R6' wd5 + (R6' w5) x qd6 z + qdd6 z */
+    const double minus_wd6_x = qd[4]*minus_w6_y - (c4*wd5_x + s4*wd4_y);
+    const double minus_w6_x = c4*minus_w5_x + s4*w5_z;
+    const double wd6_y = c4*wd4_y - s4*wd5_x + qd[4]*minus_w6_x;
+    const double wd5_y = c3*minus_ww3_xz + s3*minus_wd4_x + qd[3]*minus_w5_x;
+    const double w6_z = qd[4] + w5_y;
+    const double minus_h6_z = minus_w6_x*beta[31] + minus_w6_y*beta[32] - w6_z*beta[33];
+    const double minus_h6_y = minus_w6_x*beta[30] - w6_z*beta[32];
+    /* link 2: acceleration of the origin less gravity, vd2 = R2' (vd1 + U1 p2) */
+    const double minus_vd2a_x = qd[0]*qd[0]*sr400_geo_D2;
+    const double vd2_y = s1*minus_vd2a_x;
+    const double ww2_xy = minus_w2_x*minus_w2_y;
+    /* link 3: acceleration of the origin less gravity, vd3 = R3' (vd2 + U2 p3) */
+    const double vd3a_y = vd2_y + sr400_geo_D3*ww2_xy;
+    const double minus_vd2_x = c1*minus_vd2a_x;
+    const double ww2_zz = qd[1]*qd[1];
+    const double minus_vd3a_x = minus_vd2_x + sr400_geo_D3*(minus_w2_y*minus_w2_y + ww2_zz);
+    const double vd3_y = sa2*vd3a_y + ca2*minus_vd3a_x;
+    const double ww3_zz = qd[5]*qd[5];
+    const double minus_U3_yy = minus_w3_x*minus_w3_x + ww3_zz;
+    const double ww3_xy = minus_w3_x*minus_w3_y;
+    /* link 4: acceleration of the origin less gravity, vd4 = R4' (vd3 + U3 p4) */
+    const double vd4_z = sr400_geo_D4*ww3_xy - sr400_geo_RL4*minus_U3_yy + vd3_y;
+    const double minus_vd3_x = sa2*minus_vd3a_x - ca2*vd3a_y;
+    const double minus_U3_xx = minus_w3_y*minus_w3_y + ww3_zz;
+    const double minus_vd4a_x = sr400_geo_D4*minus_U3_xx - sr400_geo_RL4*ww3_xy + minus_vd3_x;
+    const double minus_ww2_xz = qd[1]*minus_w2_x;
+    const double minus_vd3_z = k4*minus_ww2_xz;
+    const double minus_vd4a_z = k2*minus_ww3_xz + k3*minus_ww3_yz + minus_vd3_z;
+    const double minus_vd4_x = c2*minus_vd4a_x - s2*minus_vd4a_z;
+    /* link 5: acceleration of the origin less gravity, vd5 = R5' (vd4 + U4 p5) */
+    const double vd5_y = c3*vd4_z + s3*minus_vd4_x;
+    const double t52 = beta[29]*minus_wd6_x - beta[30]*wd6_y - beta[31]*wd5_y -
+        (minus_w6_y*minus_h6_z + w6_z*minus_h6_y);
+    /* link 6: moment on the link at its origin, n6 = J6 wd6 + w6 x J6 w6 + MS6 x vd6 */
+    const double minus_n6_x = t52 - beta[35]*vd5_y;
+    const double minus_h6_x = minus_w6_x*beta[29] + minus_w6_y*beta[30] - w6_z*beta[31];
+    const double minus_n6_y = beta[30]*minus_wd6_x - beta[32]*wd5_y + (w6_z*minus_h6_x +
+        minus_w6_x*minus_h6_z) + beta[34]*vd5_y;
+    const double minus_h5_z = minus_w5_x*beta[24] - w5_y*beta[25] - w5_z*beta[26];
+    const double minus_h5_y = minus_w5_x*beta[23] - w5_z*beta[25];
+    const double vd4_y = c2*minus_vd4a_z + s2*minus_vd4a_x;
+    const double t59 = beta[22]*wd5_x + beta[23]*wd5_y - beta[24]*wd4_y + (w5_z*minus_h5_y -
+        w5_y*minus_h5_z);
+    /* link 5: moment on the link and all that it carries, nc5 = n5 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc5_x = c4*minus_n6_x - s4*minus_n6_y + (beta[28]*vd4_y - t59);
+    const double minus_vd5_x = c3*minus_vd4_x - s3*vd4_z;
+    const double t62 = beta[31]*minus_wd6_x - beta[32]*wd6_y - beta[33]*wd5_y +
+        (minus_w6_y*minus_h6_x - minus_w6_x*minus_h6_y);
+    const double minus_n6_z = t62 - (beta[34]*(c4*vd4_y + s4*minus_vd5_x) + beta[35]*(c4*minus_vd5_x
+        - s4*vd4_y));
+    const double minus_h5_x = minus_w5_x*beta[22] - w5_y*beta[23] - w5_z*beta[24];
+    const double minus_nc5_y = minus_n6_z - (beta[23]*wd5_x - beta[25]*wd4_y - (w5_z*minus_h5_x +
+        minus_w5_x*minus_h5_z) + beta[27]*vd4_y);
+    const double minus_h4_z = minus_w4_x*beta[17] + minus_w4_y*beta[18] - w4_z*beta[19];
+    const double minus_h4_y = minus_w4_x*beta[16] - w4_z*beta[18];
+    const double t68 = beta[15]*minus_wd4_x - beta[16]*wd4_y - minus_ww3_xz*beta[17] -
+        (minus_w4_y*minus_h4_z + w4_z*minus_h4_y);
+    /* link 4: moment on the link and all that it carries, nc4 = n4 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc4_x = c3*minus_nc5_x - s3*minus_nc5_y + (t68 - beta[21]*vd4_z);
+    const double t70 = beta[24]*wd5_x + beta[25]*wd5_y - beta[26]*wd4_y + (minus_w5_x*minus_h5_y +
+        w5_y*minus_h5_x);
+    const double nc5_z = s4*minus_n6_x + c4*minus_n6_y + (beta[27]*vd5_y + beta[28]*minus_vd5_x +
+        t70);
+    const double minus_h4_x = minus_w4_x*beta[15] + minus_w4_y*beta[16] - w4_z*beta[17];
+    const double minus_nc4_y = beta[16]*minus_wd4_x - minus_ww3_xz*beta[18] + (w4_z*minus_h4_x +
+        minus_w4_x*minus_h4_z) + beta[20]*vd4_z + nc5_z;
+    const double ww6_zz = w6_z*w6_z;
+    const double ww6_xy = minus_w6_x*minus_w6_y;
+    /* link 6: force on the link, f6 = M6 vd6 + U6 MS6 */
+    const double minus_f6_x = (minus_w6_y*minus_w6_y + ww6_zz)*beta[34] - beta[35]*(ww6_xy - wd5_y);
+    const double f6_y = beta[34]*(ww6_xy + wd5_y) - (minus_w6_x*minus_w6_x + ww6_zz)*beta[35];
+    const double ww5_zz = w5_z*w5_z;
+    const double minus_ww5_xy = minus_w5_x*w5_y;
+    /* link 5: force on the link and all that it carries, fc5 = f5 + sum of R fc of what hangs on it
+        */
+    const double minus_fc5_x = c4*minus_f6_x + s4*f6_y + ((w5_y*w5_y + ww5_zz)*beta[27] +
+        beta[28]*(minus_ww5_xy - wd4_y));
+    const double minus_f6_z = beta[34]*(minus_w6_x*w6_z + wd6_y) + beta[35]*(minus_w6_y*w6_z +
+        minus_wd6_x);
+    const double minus_fc5_y = beta[27]*(minus_ww5_xy + wd4_y) + (minus_w5_x*minus_w5_x +
+        ww5_zz)*beta[28] + minus_f6_z;
+    const double ww4_zz = w4_z*w4_z;
+    const double ww4_xy = minus_w4_x*minus_w4_y;
+    /* link 4: force on the link and all that it carries, fc4 = f4 + sum of R fc of what hangs on it
+        */
+    const double minus_fc4_x = c3*minus_fc5_x - s3*minus_fc5_y + ((minus_w4_y*minus_w4_y +
+        ww4_zz)*beta[20] + beta[21]*(minus_ww3_xz - ww4_xy));
+    const double fc5_z = s4*minus_f6_x - c4*f6_y + (beta[28]*(w5_y*w5_z + wd5_x) -
+        beta[27]*(minus_w5_x*w5_z + wd5_y));
+    const double minus_fc4_y = (minus_w4_x*minus_w4_x + ww4_zz)*beta[21] - beta[20]*(minus_ww3_xz +
+        ww4_xy) + fc5_z;
+    const double fc4a_z = s2*minus_fc4_x + c2*minus_fc4_y;
+    const double minus_h3_z = minus_w3_x*beta[10] + minus_w3_y*beta[11] - qd[5]*beta[12];
+    const double minus_h3_y = minus_w3_x*beta[9] - qd[5]*beta[11];
+    /* link 3: moment on the link at its origin, n3 = J3 wd3 + w3 x J3 w3 + MS3 x vd3 */
+    const double minus_n3_x = minus_ww3_yz*beta[8] - minus_ww3_xz*beta[9] - (minus_w3_y*minus_h3_z +
+        qd[5]*minus_h3_y) + beta[14]*minus_vd3_z;
+    /* link 3: moment on the link and all that it carries, nc3 = n3 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc3_x = c2*minus_nc4_x - s2*minus_nc4_y - sr400_geo_RL4*fc4a_z + minus_n3_x;
+    const double t93 = beta[17]*minus_wd4_x - beta[18]*wd4_y - minus_ww3_xz*beta[19] +
+        (minus_w4_y*minus_h4_x - minus_w4_x*minus_h4_y);
+    const double minus_nc4_z = s3*minus_nc5_x + c3*minus_nc5_y + (t93 - (beta[20]*vd4_y +
+        beta[21]*minus_vd4_x));
+    const double minus_h3_x = minus_w3_x*beta[8] + minus_w3_y*beta[9] - qd[5]*beta[10];
+    const double minus_nc3_y = minus_nc4_z + sr400_geo_D4*fc4a_z + (qd[5]*minus_h3_x +
+        minus_w3_x*minus_h3_z + minus_ww3_yz*beta[9] - beta[13]*minus_vd3_z);
+    const double minus_h2_z = minus_w2_x*beta[3] + minus_w2_y*beta[4] - qd[1]*beta[5];
+    const double minus_h2_y = minus_w2_x*beta[2] - qd[1]*beta[4];
+    /* link 3: force on the link and all that it carries, fc3 = f3 + sum of R fc of what hangs on it
+        */
+    const double fc3_z = fc4a_z - (beta[13]*minus_U3_zx + beta[14]*minus_U3_zy);
+    const double minus_h2_x = minus_w2_x*beta[1] + minus_w2_y*beta[2] - qd[1]*beta[3];
+    /* link 2: moment on the link and all that it carries, nc2 = n2 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double minus_nc2_y = ca2*minus_nc3_x + sa2*minus_nc3_y + sr400_geo_D3*fc3_z +
+        (qd[1]*minus_h2_x + minus_w2_x*minus_h2_z + minus_ww2_yz*beta[2]);
+    const double t102 = s1*(sa2*minus_nc3_x - ca2*minus_nc3_y + (minus_ww2_yz*beta[1] -
+        minus_ww2_xz*beta[2] - (minus_w2_y*minus_h2_z + qd[1]*minus_h2_y)));
+    const double nc2a_z = t102 + c1*minus_nc2_y + sr400_geo_D2*(fc3_z - (2.0*minus_ww2_xz*beta[6] +
+        beta[7]*minus_U2_zy));
+    tau[0] = nc2a_z - (ca2*n8_x*s5 + c5*(sa2*n8_x + sr400_geo_D8*minus_f8_z) + t14);
+    /* link 7: acceleration of the origin less gravity, vd7 = R7' (vd1 + U1 p7) */
+    const double minus_vd7_x = c5*minus_vd2a_x;
+    const double vd7_y = s5*minus_vd2a_x;
+    const double n8_z = beta[38]*(ca2*(minus_vd7_x + sr400_geo_D8*minus_U3_yy) - sa2*(vd7_y -
+        sr400_geo_D8*ww3_xy));
+    const double minus_fc4_z = s3*minus_fc5_x + c3*minus_fc5_y + (beta[20]*(minus_w4_x*w4_z + wd4_y)
+        + beta[21]*(minus_w4_y*w4_z + minus_wd4_x));
+    const double minus_fc4a_x = c2*minus_fc4_x - s2*minus_fc4_y;
+    const double t109 = minus_ww3_yz*beta[10] - minus_ww3_xz*beta[11] + (minus_w3_y*minus_h3_x -
+        minus_w3_x*minus_h3_y);
+    const double nc4a_z = s2*minus_nc4_x + c2*minus_nc4_y + (sr400_geo_RL4*minus_fc4a_x -
+        sr400_geo_D4*minus_fc4_z);
+    const double nc3_z = beta[13]*vd3_y + beta[14]*minus_vd3_x - t109 + nc4a_z;
+    const double t112 = ca2*(minus_U3_xx*beta[13] - ww3_xy*beta[14] + minus_fc4a_x);
+    const double t113 = minus_ww2_yz*beta[3] - minus_ww2_xz*beta[4] + (minus_w2_y*minus_h2_x -
+        minus_w2_x*minus_h2_y);
+    const double nc3a_z = nc3_z - sr400_geo_D3*(t112 + sa2*(minus_U3_yy*beta[14] - ww3_xy*beta[13] +
+        minus_fc4_z));
+    tau[1] = vd2_y*beta[6] + minus_vd2_x*beta[7] - t113 + nc3a_z - nc3_z + n8_z;
+    tau[2] = -minus_nc4_z;
+    tau[3] = nc5_z;
+    tau[4] = -minus_n6_z;
+    /* link 8: moment on the link and all that it carries, nc8 = n8 + sum of R nc + p x R fc of what
+        hangs on it */
+    const double nc8a_z = n8_z + sr400_geo_D8*(ww2_xy*beta[38]*sa2 - (minus_w2_x*minus_w2_x +
+        ww2_zz)*beta[38]*ca2);
+    tau[5] = vd7_y*beta[36] + minus_vd7_x*beta[37] + nc8a_z + nc3_z - n8_z;
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets.
@@ -696,126 +889,132 @@ void sr400_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
     T[4] = s0;
     T[5] = c0;
     T[10] = 1.0;
-    const double t2 = c0*c1;
-    T[12] = t2;
-    const double t3 = c0*s1;
-    T[13] = -t3;
+    const double x2_x = c0*c1;
+    T[12] = x2_x;
+    const double minus_y2_x = c0*s1;
+    T[13] = -minus_y2_x;
     T[14] = -s0;
-    const double t4 = sr400_geo_D2*c0;
-    T[15] = t4;
-    const double t5 = s0*c1;
-    T[16] = t5;
-    const double t6 = s0*s1;
-    T[17] = -t6;
+    /* link 2: origin of the frame in frame 0, o2 = o1 + [x1 y1 z1] p2 */
+    const double o2_x = sr400_geo_D2*c0;
+    T[15] = o2_x;
+    const double x2_y = s0*c1;
+    T[16] = x2_y;
+    const double minus_y2_y = s0*s1;
+    T[17] = -minus_y2_y;
     T[18] = c0;
-    const double t7 = sr400_geo_D2*s0;
-    T[19] = t7;
+    const double o2_y = sr400_geo_D2*s0;
+    T[19] = o2_y;
     T[20] = -s1;
     T[21] = -c1;
-    const double t8 = sa3*t2 - ca3*t3;
-    T[24] = t8;
-    const double t9 = sa3*t3 + ca3*t2;
-    T[25] = -t9;
+    const double x3_x = sa3*x2_x - ca3*minus_y2_x;
+    T[24] = x3_x;
+    const double minus_y3_x = sa3*minus_y2_x + ca3*x2_x;
+    T[25] = -minus_y3_x;
     T[26] = -s0;
-    const double t10 = sr400_geo_D3*t2;
-    const double t11 = t4 + t10;
-    T[27] = t11;
-    const double t12 = sa3*t5 - ca3*t6;
-    T[28] = t12;
-    const double t13 = sa3*t6 + ca3*t5;
-    T[29] = -t13;
+    const double t10 = sr400_geo_D3*x2_x;
+    /* link 3: origin of the frame in frame 0, o3 = o2 + [x2 y2 z2] p3 */
+    const double o3_x = o2_x + t10;
+    T[27] = o3_x;
+    const double x3_y = sa3*x2_y - ca3*minus_y2_y;
+    T[28] = x3_y;
+    const double minus_y3_y = sa3*minus_y2_y + ca3*x2_y;
+    T[29] = -minus_y3_y;
     T[30] = c0;
-    const double t14 = sr400_geo_D3*t5;
-    const double t15 = t7 + t14;
-    T[31] = t15;
+    const double t14 = sr400_geo_D3*x2_y;
+    const double o3_y = o2_y + t14;
+    T[31] = o3_y;
     T[32] = -c5;
     T[33] = s5;
-    const double t16 = sr400_geo_D3*s1;
-    T[35] = -t16;
-    const double t17 = c2*t8 + s0*s2;
-    T[36] = t17;
-    const double t18 = s0*c2 - s2*t8;
-    T[37] = t18;
-    T[38] = -t9;
-    const double t19 = t11 + sr400_geo_D4*t8 - sr400_geo_RL4*t9;
-    T[39] = t19;
-    const double t20 = c2*t12 - c0*s2;
-    T[40] = t20;
-    const double t21 = c0*c2 + s2*t12;
-    T[41] = -t21;
-    T[42] = -t13;
-    const double t22 = t15 + sr400_geo_D4*t12 - sr400_geo_RL4*t13;
-    T[43] = t22;
-    const double t23 = c2*c5;
-    T[44] = -t23;
-    const double t24 = s2*c5;
-    T[45] = t24;
+    const double minus_o3_z = sr400_geo_D3*s1;
+    T[35] = -minus_o3_z;
+    const double x4_x = c2*x3_x + s0*s2;
+    T[36] = x4_x;
+    const double y4_x = s0*c2 - s2*x3_x;
+    T[37] = y4_x;
+    T[38] = -minus_y3_x;
+    /* link 4: origin of the frame in frame 0, o4 = o3 + [x3 y3 z3] p4 */
+    const double o4_x = o3_x + sr400_geo_D4*x3_x - sr400_geo_RL4*minus_y3_x;
+    T[39] = o4_x;
+    const double x4_y = c2*x3_y - c0*s2;
+    T[40] = x4_y;
+    const double minus_y4_y = c0*c2 + s2*x3_y;
+    T[41] = -minus_y4_y;
+    T[42] = -minus_y3_y;
+    const double o4_y = o3_y + sr400_geo_D4*x3_y - sr400_geo_RL4*minus_y3_y;
+    T[43] = o4_y;
+    /* link 4: axes of the joints below, for unit speed of each, e4 = R4' e3 */
+    const double minus_e4_1x = c2*c5;
+    T[44] = -minus_e4_1x;
+    const double e4_1y = s2*c5;
+    T[45] = e4_1y;
     T[46] = s5;
-    const double t25 = t16 + sr400_geo_D4*c5 - sr400_geo_RL4*s5;
-    T[47] = -t25;
-    const double t26 = c3*t17 - s3*t9;
-    T[48] = t26;
-    const double t27 = c3*t9 + s3*t17;
-    T[49] = -t27;
-    T[50] = -t18;
-    T[51] = t19;
-    const double t28 = c3*t20 - s3*t13;
-    T[52] = t28;
-    const double t29 = c3*t13 + s3*t20;
-    T[53] = -t29;
-    T[54] = t21;
-    T[55] = t22;
-    const double t30 = c3*t23 - s3*s5;
-    T[56] = -t30;
-    const double t31 = c3*s5 + s3*t23;
-    T[57] = t31;
-    T[58] = -t24;
-    T[59] = -t25;
-    T[60] = c4*t26 + s4*t18;
-    T[61] = c4*t18 - s4*t26;
-    T[62] = -t27;
-    T[63] = t19;
-    T[64] = c4*t28 - s4*t21;
-    T[65] = -(c4*t21 + s4*t28);
-    T[66] = -t29;
-    T[67] = t22;
-    T[68] = s4*t24 - c4*t30;
-    T[69] = c4*t24 + s4*t30;
-    T[70] = t31;
-    T[71] = -t25;
-    T[72] = t9;
-    T[73] = t8;
+    const double minus_o4_z = minus_o3_z + sr400_geo_D4*c5 - sr400_geo_RL4*s5;
+    T[47] = -minus_o4_z;
+    const double x5_x = c3*x4_x - s3*minus_y3_x;
+    T[48] = x5_x;
+    const double minus_y5_x = c3*minus_y3_x + s3*x4_x;
+    T[49] = -minus_y5_x;
+    T[50] = -y4_x;
+    T[51] = o4_x;
+    const double x5_y = c3*x4_y - s3*minus_y3_y;
+    T[52] = x5_y;
+    const double minus_y5_y = c3*minus_y3_y + s3*x4_y;
+    T[53] = -minus_y5_y;
+    T[54] = minus_y4_y;
+    T[55] = o4_y;
+    /* link 5: axes of the joints below, for unit speed of each, e5 = R5' e4 */
+    const double minus_e5_1x = c3*minus_e4_1x - s3*s5;
+    T[56] = -minus_e5_1x;
+    const double e5_1y = c3*s5 + s3*minus_e4_1x;
+    T[57] = e5_1y;
+    T[58] = -e4_1y;
+    T[59] = -minus_o4_z;
+    T[60] = c4*x5_x + s4*y4_x;
+    T[61] = c4*y4_x - s4*x5_x;
+    T[62] = -minus_y5_x;
+    T[63] = o4_x;
+    T[64] = c4*x5_y - s4*minus_y4_y;
+    T[65] = -(c4*minus_y4_y + s4*x5_y);
+    T[66] = -minus_y5_y;
+    T[67] = o4_y;
+    T[68] = s4*e4_1y - c4*minus_e5_1x;
+    T[69] = c4*e4_1y + s4*minus_e5_1x;
+    T[70] = e5_1y;
+    T[71] = -minus_o4_z;
+    T[72] = minus_y3_x;
+    T[73] = x3_x;
     T[74] = -s0;
-    T[75] = t4;
-    T[76] = t13;
-    T[77] = t12;
+    T[75] = o2_x;
+    T[76] = minus_y3_y;
+    T[77] = x3_y;
     T[78] = c0;
-    T[79] = t7;
+    T[79] = o2_y;
     T[80] = -s5;
     T[81] = -c5;
-    T[84] = t2;
-    T[85] = -t3;
+    T[84] = x2_x;
+    T[85] = -minus_y2_x;
     T[86] = -s0;
-    const double t32 = t4 + sr400_geo_D8*t9;
-    T[87] = t32;
-    T[88] = t5;
-    T[89] = -t6;
+    /* link 8: origin of the frame in frame 0, o8 = o7 + [x7 y7 z7] p8 */
+    const double o8_x = o2_x + sr400_geo_D8*minus_y3_x;
+    T[87] = o8_x;
+    T[88] = x2_y;
+    T[89] = -minus_y2_y;
     T[90] = c0;
-    const double t33 = t7 + sr400_geo_D8*t13;
-    T[91] = t33;
+    const double o8_y = o2_y + sr400_geo_D8*minus_y3_y;
+    T[91] = o8_y;
     T[92] = -s1;
     T[93] = -c1;
-    const double t34 = sr400_geo_D8*s5;
-    T[95] = -t34;
-    T[96] = -t9;
-    T[97] = -t8;
+    const double minus_o8_z = sr400_geo_D8*s5;
+    T[95] = -minus_o8_z;
+    T[96] = -minus_y3_x;
+    T[97] = -x3_x;
     T[98] = -s0;
-    T[99] = t10 + t32;
-    T[100] = -t13;
-    T[101] = -t12;
+    T[99] = t10 + o8_x;
+    T[100] = -minus_y3_y;
+    T[101] = -x3_y;
     T[102] = c0;
-    T[103] = t14 + t33;
+    T[103] = t14 + o8_y;
     T[104] = s5;
     T[105] = c5;
-    T[107] = -(t16 + t34);
+    T[107] = -(minus_o3_z + minus_o8_z);
 }

@@ -18,7 +18,9 @@ extern "C" {
 #endif
 
 /* What sr400_signature() of the library that belongs to this header returns. */
-#define SR400_SIGNATURE "805eb0618315098c"
+#define SR400_SIGNATURE "255a7ceab36c9010"
+#define SR400_SIGNATURE_1 0x255a7ceau
+#define SR400_SIGNATURE_2 0xb36c9010u
 
 #define SR400_JOINTS 6
 #define SR400_STANDARD_PARAMETERS 80

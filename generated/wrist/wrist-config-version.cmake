@@ -1,6 +1,6 @@
 # find_package(wrist) takes any, find_package(wrist 1) any of this C interface,
-# find_package(wrist 1.50814.2279.39164) only what has the signature c67e08e798fc0aab.
-set(PACKAGE_VERSION 1.50814.2279.39164)
+# find_package(wrist 1.23503.23627.25142) only what has the signature 5bcf5c4b62367c54.
+set(PACKAGE_VERSION 1.23503.23627.25142)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

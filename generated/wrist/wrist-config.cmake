@@ -1,6 +1,6 @@
 # find_package(wrist) gives the target wrist::wrist: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. wrist_SIGNATURE is what wrist_signature() returns.
-set(wrist_SIGNATURE c67e08e798fc0aab)
+set(wrist_SIGNATURE 5bcf5c4b62367c54)
 
 if(wrist_FIND_COMPONENTS)
   set(_modeler_kinds ${wrist_FIND_COMPONENTS})
@@ -13,14 +13,14 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/wrist-${_modeler_kind}-c67e08e798fc0aab.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/wrist-${_modeler_kind}-5bcf5c4b62367c54.cmake")
   if(TARGET wrist::wrist OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
   include("${_modeler_file}")
   if(NOT TARGET wrist::wrist) # installed by make
     if(_modeler_kind STREQUAL "shared")
-      set(_modeler_name libwrist_model.so.c67e08e798fc0aab)
+      set(_modeler_name libwrist_model.so.5bcf5c4b62367c54)
     else()
       set(_modeler_name libwrist_model.a)
     endif()
@@ -39,5 +39,5 @@ endforeach()
 if(NOT TARGET wrist::wrist)
   set(wrist_FOUND FALSE)
   set(wrist_NOT_FOUND_MESSAGE
-    "no library of signature c67e08e798fc0aab here that is ${_modeler_kinds}; install it again")
+    "no library of signature 5bcf5c4b62367c54 here that is ${_modeler_kinds}; install it again")
 endif()

@@ -18,7 +18,9 @@ extern "C" {
 #endif
 
 /* What wrist_signature() of the library that belongs to this header returns. */
-#define WRIST_SIGNATURE "c67e08e798fc0aab"
+#define WRIST_SIGNATURE "5bcf5c4b62367c54"
+#define WRIST_SIGNATURE_1 0x5bcf5c4bu
+#define WRIST_SIGNATURE_2 0x62367c54u
 
 #define WRIST_JOINTS 3
 #define WRIST_STANDARD_PARAMETERS 30

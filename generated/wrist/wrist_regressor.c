@@ -2,6 +2,20 @@
  *
  * Functions of wrist.h.
  * Emitted by modeler, which writes over a file that was edited only with --force.
+ *
+ * Temporaries are named by quantity, link and component: wd3_x is that of wd of link 3, in its own
+ * frame; m3_1x is what one unit of joint 1 makes, f3_MXx what one unit of MX3 does; minus_wd3_x is
+ * minus that. R3 turns from frame 3 to that of its antecedent; the base, link 0, has vd0 = -g.
+ *
+ *   w      angular velocity
+ *   wd     angular acceleration
+ *   vd     acceleration of the origin less gravity
+ *   ww     products of the components of w
+ *   U      acceleration of points of the link
+ *   n_1    moment on the link at its origin for one unit of a parameter
+ *   e_1    axes of the joints below, for unit speed of each
+ *   m_1    velocity of the origin, for unit speed of each joint below
+ *   ...a   in axes of the antecedent: vd
  */
 #include "wrist.h"
 
@@ -40,120 +54,136 @@ void wrist_regressor(const double *q, const double *qd, const double *qdd,
     modeler_sincos(q[2], &s2, &c2);
 
     phi[5] = qdd[0];
-    const double t1 = wrist_geo_g*s0;
-    phi[6] = -t1;
-    const double t2 = wrist_geo_g*c0;
-    phi[7] = -t2;
-    const double t3 = s1*qdd[0];
-    const double t4 = c1*qd[0];
-    const double t5 = qd[1]*t4;
-    const double t6 = t3 + t5;
-    const double t7 = s1*qd[0];
+    /* link 1: acceleration of the origin less gravity, vd1 = R1' (vd0 + U0 p1) */
+    const double minus_vd1_y = wrist_geo_g*s0;
+    phi[6] = -minus_vd1_y;
+    const double vd1_x = wrist_geo_g*c0;
+    phi[7] = -vd1_x;
+    /* link 2: acceleration of points of the link, U2 = [wd2 x] + [w2 x][w2 x] */
+    const double minus_U2_yz = s1*qdd[0];
+    /* link 2: angular velocity, w2 = R2' w1 + qd2 z */
+    const double w2_y = c1*qd[0];
+    const double ww2_yz = qd[1]*w2_y;
+    /* link 2: angular acceleration, wd2 = R2' wd1 + (R2' w1) x qd2 z + qdd2 z */
+    const double wd2_x = minus_U2_yz + ww2_yz;
+    const double w2_x = s1*qd[0];
     MODELER_ZEROS(phi + 0, 5);
-    const double t8 = qd[1]*t7;
-    const double t9 = c1*t8;
-    phi[10] = s1*t6 + t9;
-    const double t10 = t7*t4;
-    phi[40] = -t10;
-    const double t11 = c1*qdd[0];
-    const double t12 = t11 - t8;
-    const double t13 = t5 + t6;
-    phi[11] = c1*t13 - s1*(t8 - t12);
-    const double t14 = qd[1]*qd[1];
+    const double ww2_xz = qd[1]*w2_x;
+    const double t9 = c1*ww2_xz;
+    phi[10] = s1*wd2_x + t9;
+    const double ww2_xy = w2_x*w2_y;
+    phi[40] = -ww2_xy;
+    const double U2_xz = c1*qdd[0];
+    const double wd2_y = U2_xz - ww2_xz;
+    const double U2_zy = ww2_yz + wd2_x;
+    phi[11] = c1*U2_zy - s1*(ww2_xz - wd2_y);
+    const double ww2_zz = qd[1]*qd[1];
     MODELER_ZEROS(phi + 8, 2);
-    const double t15 = t4*t4 + t14;
-    const double t16 = t7*t7 + t14;
-    phi[41] = t16 - t15;
-    const double t17 = qd[0]*qd[0];
-    phi[12] = s1*(qdd[1] + t10) - c1*(t17 - t15);
-    phi[42] = t3;
-    phi[13] = c1*t12 - t9;
-    phi[43] = t10;
-    const double t18 = qdd[1] - t10;
+    const double minus_U2_xx = w2_y*w2_y + ww2_zz;
+    const double minus_U2_yy = w2_x*w2_x + ww2_zz;
+    phi[41] = minus_U2_yy - minus_U2_xx;
+    const double ww1_zz = qd[0]*qd[0];
+    phi[12] = s1*(qdd[1] + ww2_xy) - c1*(ww1_zz - minus_U2_xx);
+    phi[42] = minus_U2_yz;
+    phi[13] = c1*wd2_y - t9;
+    phi[43] = ww2_xy;
+    const double minus_U2_xy = qdd[1] - ww2_xy;
     MODELER_ZEROS(phi + 15, 1);
-    phi[14] = s1*(t17 - t16) + c1*t18;
-    phi[44] = t11;
+    phi[14] = s1*(ww1_zz - minus_U2_yy) + c1*minus_U2_xy;
+    phi[44] = U2_xz;
     phi[45] = qdd[1];
-    phi[16] = -c1*t1;
-    const double t19 = s1*t2;
-    phi[46] = -t19;
-    phi[17] = s1*t1;
-    const double t20 = c1*t2;
-    phi[47] = -t20;
-    phi[18] = t2;
+    phi[16] = -c1*minus_vd1_y;
+    /* link 2: acceleration of the origin less gravity, vd2 = R2' (vd1 + U1 p2) */
+    const double minus_vd2_y = s1*vd1_x;
+    phi[46] = -minus_vd2_y;
+    phi[17] = s1*minus_vd1_y;
+    const double vd2_x = c1*vd1_x;
+    phi[47] = -vd2_x;
+    phi[18] = vd1_x;
     MODELER_ZEROS(phi + 19, 1);
-    const double t21 = c2*qd[1] + s2*t7;
-    const double t22 = c2*t6 - s2*qdd[1] - qd[2]*t21;
-    const double t23 = s1*c2;
-    const double t24 = c2*t7 - s2*qd[1];
-    const double t25 = qd[2] + t4;
-    const double t26 = t24*t25;
-    const double t27 = s1*s2;
-    const double t28 = t26*t27;
-    const double t29 = t24*t21;
-    const double t30 = c1*t29;
+    /* link 3: angular velocity, w3 = R3' w2 + qd3 z */
+    const double minus_w3_y = c2*qd[1] + s2*w2_x;
+    /* link 3: angular acceleration, wd3 = R3' wd2 + (R3' w2) x qd3 z + qdd3 z */
+    const double wd3_x = c2*wd2_x - s2*qdd[1] - qd[2]*minus_w3_y;
+    /* link 3: axes of the joints below, for unit speed of each, e3 = R3' e2 */
+    const double e3_1x = s1*c2;
+    const double w3_x = c2*w2_x - s2*qd[1];
+    const double w3_z = qd[2] + w2_y;
+    const double ww3_xz = w3_x*w3_z;
+    const double minus_e3_1y = s1*s2;
+    const double t28 = ww3_xz*minus_e3_1y;
+    const double minus_ww3_xy = w3_x*minus_w3_y;
+    const double t30 = c1*minus_ww3_xy;
     MODELER_ZEROS(phi + 30, 8);
-    phi[20] = t22*t23 - t28 + t30;
-    const double t31 = c2*t26;
-    phi[50] = -(s2*t22 + t31);
-    phi[80] = t29;
-    const double t32 = c2*qdd[1] + s2*t6 + qd[2]*t24;
-    const double t33 = t32 + t26;
-    const double t34 = t21*t25;
-    const double t35 = t22 - t34;
-    const double t36 = t25*t25;
+    phi[20] = wd3_x*e3_1x - t28 + t30;
+    const double t31 = c2*ww3_xz;
+    phi[50] = -(s2*wd3_x + t31);
+    phi[80] = minus_ww3_xy;
+    const double minus_wd3_y = c2*qdd[1] + s2*wd2_x + qd[2]*w3_x;
+    /* link 3: acceleration of points of the link, U3 = [wd3 x] + [w3 x][w3 x] */
+    const double U3_zx = minus_wd3_y + ww3_xz;
+    const double minus_ww3_yz = minus_w3_y*w3_z;
+    const double U3_zy = wd3_x - minus_ww3_yz;
+    const double ww3_zz = w3_z*w3_z;
     MODELER_ZEROS(phi + 38, 2);
-    const double t37 = t21*t21 + t36;
-    const double t38 = t24*t24 + t36;
-    const double t39 = t37 - t38;
-    phi[21] = -(t33*t23 + t35*t27 + c1*t39);
-    phi[51] = s2*t33 - c2*t35;
-    phi[81] = -t39;
-    const double t40 = qdd[2] + t12;
-    const double t41 = t40 - t29;
-    const double t42 = t16 - t37;
-    const double t43 = t22 + t34;
+    const double minus_U3_xx = minus_w3_y*minus_w3_y + ww3_zz;
+    const double minus_U3_yy = w3_x*w3_x + ww3_zz;
+    /* link 3: moment on the link at its origin for one unit of a parameter, n3 = J3 wd3 + w3 x J3
+        w3 + MS3 x vd3 */
+    const double minus_n3_XYz = minus_U3_xx - minus_U3_yy;
+    phi[21] = -(U3_zx*e3_1x + U3_zy*minus_e3_1y + c1*minus_n3_XYz);
+    phi[51] = s2*U3_zx - c2*U3_zy;
+    phi[81] = -minus_n3_XYz;
+    const double wd3_z = qdd[2] + wd2_y;
+    const double U3_yx = wd3_z - minus_ww3_xy;
+    const double minus_n3_XZy = minus_U2_yy - minus_U3_xx;
+    const double minus_U3_yz = wd3_x + minus_ww3_yz;
     MODELER_ZEROS(phi + 48, 2);
-    phi[22] = t41*t23 + t27*t42 + c1*t43;
-    phi[52] = c2*t42 - s2*t41;
-    phi[82] = t43;
-    const double t44 = t34*t23;
-    phi[23] = t44 + t32*t27 - t30;
-    const double t45 = s2*t34;
-    phi[53] = c2*t32 - t45;
-    phi[83] = -t29;
-    const double t46 = t16 - t38;
-    const double t47 = t40 + t29;
+    phi[22] = U3_yx*e3_1x + minus_e3_1y*minus_n3_XZy + c1*minus_U3_yz;
+    phi[52] = c2*minus_n3_XZy - s2*U3_yx;
+    phi[82] = minus_U3_yz;
+    const double t44 = minus_ww3_yz*e3_1x;
+    phi[23] = t44 + minus_wd3_y*minus_e3_1y - t30;
+    const double t45 = s2*minus_ww3_yz;
+    phi[53] = c2*minus_wd3_y - t45;
+    phi[83] = -minus_ww3_xy;
+    const double n3_YZx = minus_U2_yy - minus_U3_yy;
+    const double minus_U3_xy = wd3_z + minus_ww3_xy;
     MODELER_ZEROS(phi + 60, 8);
-    const double t48 = t32 - t26;
-    phi[24] = t23*t46 - t47*t27 - c1*t48;
-    phi[54] = -(s2*t46 + c2*t47);
-    phi[84] = -t48;
-    phi[25] = t28 - t44 + c1*t40;
+    const double minus_U3_xz = minus_wd3_y - ww3_xz;
+    phi[24] = e3_1x*n3_YZx - minus_U3_xy*minus_e3_1y - c1*minus_U3_xz;
+    phi[54] = -(s2*n3_YZx + c2*minus_U3_xy);
+    phi[84] = -minus_U3_xz;
+    phi[25] = t28 - t44 + c1*wd3_z;
     phi[55] = t31 + t45;
-    phi[85] = t40;
-    const double t49 = t19 + wrist_geo_bl1*t16;
-    const double t50 = t1 + wrist_geo_bl1*t13;
+    phi[85] = wd3_z;
+    /* link 3: acceleration of the origin less gravity, vd3 = R3' (vd2 + U2 p3) */
+    const double minus_vd3_z = minus_vd2_y + wrist_geo_bl1*minus_U2_yy;
+    const double vd3a_z = minus_vd1_y + wrist_geo_bl1*U2_zy;
     MODELER_ZEROS(phi + 68, 8);
-    const double t51 = wrist_geo_bl1*t18;
-    const double t52 = t20 - t51;
-    const double t53 = c2*t50 + s2*t52;
+    const double t51 = wrist_geo_bl1*minus_U2_xy;
+    const double vd3a_x = vd2_x - t51;
+    const double minus_vd3_y = c2*vd3a_z + s2*vd3a_x;
     const double t54 = wrist_geo_bl1*s1;
-    const double t55 = s2*t54;
-    const double t56 = c2*t54;
-    phi[26] = t37*t55 - t41*t56 - (t49*t27 + c1*t53);
-    const double t57 = wrist_geo_bl1*c2;
-    const double t58 = wrist_geo_bl1*s2;
-    phi[56] = t37*t57 + t41*t58 - c2*t49;
+    /* link 3: velocity of the origin, for unit speed of each joint below, m3 = R3' (m2 + e2 x p3)
+        */
+    const double minus_m3_1x = s2*t54;
+    const double minus_m3_1y = c2*t54;
+    phi[26] = minus_U3_xx*minus_m3_1x - U3_yx*minus_m3_1y - (minus_vd3_z*minus_e3_1y +
+        c1*minus_vd3_y);
+    const double minus_m3_2x = wrist_geo_bl1*c2;
+    const double m3_2y = wrist_geo_bl1*s2;
+    phi[56] = minus_U3_xx*minus_m3_2x + U3_yx*m3_2y - c2*minus_vd3_z;
     MODELER_ZEROS(phi + 76, 4);
-    phi[86] = -t53;
-    const double t59 = c2*t52 - s2*t50;
-    phi[27] = t47*t55 + t38*t56 - (t49*t23 + c1*t59);
-    phi[57] = t47*t57 - t38*t58 + s2*t49;
-    phi[87] = -t59;
-    phi[28] = t53*t23 - t59*t27 + (t48*t55 + t43*t56);
-    phi[58] = t51 - t52;
-    phi[29] = t53*t56 - t59*t55;
-    phi[59] = -(t59*t57 + t53*t58);
+    phi[86] = -minus_vd3_y;
+    const double vd3_x = c2*vd3a_x - s2*vd3a_z;
+    phi[27] = minus_U3_xy*minus_m3_1x + minus_U3_yy*minus_m3_1y - (minus_vd3_z*e3_1x + c1*vd3_x);
+    phi[57] = minus_U3_xy*minus_m3_2x - minus_U3_yy*m3_2y + s2*minus_vd3_z;
+    phi[87] = -vd3_x;
+    phi[28] = minus_vd3_y*e3_1x - vd3_x*minus_e3_1y + (minus_U3_xz*minus_m3_1x +
+        minus_U3_yz*minus_m3_1y);
+    phi[58] = t51 - vd3a_x;
+    phi[29] = minus_vd3_y*minus_m3_1y - vd3_x*minus_m3_1x;
+    phi[59] = -(vd3_x*minus_m3_2x + minus_vd3_y*m3_2y);
     MODELER_ZEROS(phi + 88, 2);
 }

@@ -1,11 +1,11 @@
-"""A robot or a model for programs that compute with its equations: CasADi, FMU."""
+"""A robot or a model for programs that compute with its equations: CasADi, FMU, ROS 2."""
 
 import dataclasses
 import io
 import platform
 import sys
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 from modeler.api.workflow import emitted_anew
 from modeler.codegen import Derivation, derive, generate
@@ -16,7 +16,7 @@ from modeler.exports import Exported, Value
 from modeler.robot import Robot
 from modeler.runtime import portable_library
 
-OF_EQUATIONS = ("casadi", "fmu", "simulink")
+OF_EQUATIONS = ("casadi", "fmu", "simulink", "ros2")
 """Formats that are made of the equations."""
 
 _BINARIES = {"linux": ("linux", "so"), "darwin": ("darwin", "dylib"), "win32": ("windows", "dll")}
@@ -35,6 +35,8 @@ def code_exported(thing: Robot | IdentifiedModel, to: str) -> Exported:
     """
     if to == "casadi":
         return _casadi(thing)
+    if to == "ros2":
+        return _ros2(thing)
     found = _fmu(thing)
     if to == "simulink":
         note = "Simulink imports FMUs: put this one into its block FMU"
@@ -50,10 +52,10 @@ def _casadi(thing: Robot | IdentifiedModel) -> Exported:
     """Functions of q, qd, qdd and beta; of a model with its values in place of beta."""
     from modeler.codegen import casadi_file  # slow to load
 
-    derivation, fitted = _derivation(thing), isinstance(thing, IdentifiedModel)
-    values = tuple(_values(thing.spec, thing)) if fitted else ()
+    derivation = _derivation(thing)
+    values = _values(thing.spec, thing)[0] if isinstance(thing, IdentifiedModel) else ()
     data, functions, missing = casadi_file(
-        derivation.model, derivation.base, [value.now for value in values] if fitted else None
+        derivation.model, derivation.base, [value.now for value in values] or None
     )
     notes = ("casadi.FileDeserializer(FILE).unpack() gives the list of functions", *missing)
     name = derivation.robot.name
@@ -67,11 +69,11 @@ def _fmu(thing: Robot | IdentifiedModel) -> Exported:
     derivation = _derivation(thing)
     emitted = generate(derivation, control=Control())
     spec = emitted.spec
-    values = tuple(_values(spec, thing if isinstance(thing, IdentifiedModel) else None))
+    values, told = _values(spec, thing if isinstance(thing, IdentifiedModel) else None)
     home = (0.0,) * len(spec.joints)
     widths: tuple[str, ...] = ()
     texts = fmu_files(emitted, widths, home, [value.now for value in values])
-    files, notes = {name: text.encode() for name, text in texts.items()}, list[str]()
+    files, notes = {name: text.encode() for name, text in texts.items()}, [*told]
     system, ending = _BINARIES.get(sys.platform, (sys.platform, "so"))
     machine = platform.machine().lower()
     place = f"binaries/{_PROCESSORS.get(machine, machine)}-{system}/{spec.prefix}.{ending}"
@@ -86,6 +88,21 @@ def _fmu(thing: Robot | IdentifiedModel) -> Exported:
     return Exported(spec.robot, "fmu", "", _archive(files), values, (), 0.0, tuple(notes))
 
 
+def _ros2(thing: Robot | IdentifiedModel) -> Exported:
+    """A package with a chainable controller."""
+    from modeler.codegen import ros2_files  # jinja2
+
+    emitted = generate(_derivation(thing))
+    fitted = thing if isinstance(thing, IdentifiedModel) else None
+    values, told = _values(emitted.spec, fitted)
+    source = "Values of the robot file" if fitted is None else f"Values of a fit, {fitted.fit.method}"
+    texts = ros2_files(emitted, [value.now for value in values], source)
+    files = {name: text.encode() for name, text in texts.items()}
+    notes = ("the ROS part was never built or run with ROS; see README.md of the package", *told)
+    name = emitted.spec.robot
+    return Exported(name, "ros2", "", b"", values, (), 0.0, notes, files=files)
+
+
 def _archive(files: Mapping[str, bytes]) -> bytes:
     """The same bytes for the same files."""
     out = io.BytesIO()
@@ -95,25 +112,29 @@ def _archive(files: Mapping[str, bytes]) -> bytes:
     return out.getvalue()
 
 
-def _values(spec: ModuleSpec, model: IdentifiedModel | None) -> Iterator[Value]:
-    """The base parameters of a model, beside those that the robot file states, or the latter.
+def _values(
+    spec: ModuleSpec, model: IdentifiedModel | None
+) -> tuple[tuple[Value, ...], tuple[str, ...]]:
+    """The base parameters of a model, or those that the robot file states; what it does not.
 
     Raises:
-        DataError: a robot whose file does not state them.
+        DataError: a robot whose file states none.
     """
     standard = {parameter.name: parameter for parameter in spec.standard}
+    stated = {name: p.nominal for name, p in standard.items() if p.nominal is not None}
+    if model is None and not stated:
+        raise DataError(
+            f"{spec.robot}: a robot without values; write [parameters] into its file, or export a "
+            "model of `modeler fit`"
+        )
     known = [None] * len(spec.base) if model is None else model_file.fitted_spec(model).parameters
+    found, unknown = list[Value](), dict[str, None]()
     for base, fitted in zip(spec.base, known, strict=True):
-        unknown = [t.parameter for t in base.terms if standard[t.parameter].nominal is None]
-        was = None
-        if not unknown:
-            was = sum(t.value * (standard[t.parameter].nominal or 0.0) for t in base.terms)
-        elif fitted is None:
-            raise DataError(
-                f"{spec.robot}: the robot file states no value of {', '.join(unknown)}, which "
-                f"{base.name} needs; fit the robot and export the model, or state it in "
-                "[parameters]"
-            )
-        now, sigma = (was or 0.0, None) if fitted is None else (fitted.value, fitted.sigma)
-        joint = standard[base.column_of].joint
-        yield Value(joint, base.name, base.unit, was, now, sigma, was != now)
+        missing = [term.parameter for term in base.terms if term.parameter not in stated]
+        was = sum(term.value * stated.get(term.parameter, 0.0) for term in base.terms)
+        unknown |= dict.fromkeys(missing)
+        now, sigma = (was, None) if fitted is None else (fitted.value, fitted.sigma)
+        before, joint = None if missing else was, standard[base.column_of].joint
+        found.append(Value(joint, base.name, base.unit, before, now, sigma, before != now))
+    note = f"not stated in the robot file, so 0 here: {', '.join(unknown)}"
+    return tuple(found), (note,) * bool(unknown and model is None)

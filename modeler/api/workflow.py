@@ -88,6 +88,7 @@ def generate(
     force: bool = False,
     precision: Precision = "double",
     cuda: bool = False,
+    structured_text: bool = False,
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
@@ -100,6 +101,7 @@ def generate(
         force: write also over files that no earlier run wrote, or that were edited since.
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
+        structured_text: add function blocks in Structured Text, of a robot without loops.
 
     Raises:
         ManifestError: this version derives another manifest than the one that the values of the
@@ -107,10 +109,12 @@ def generate(
         ModelerError: the folder holds such files and `force` is not given; or it cannot be written.
     """
     if isinstance(source, Derivation):
-        return generate_robot(source, folder, force, precision=precision, cuda=cuda)
-    derivation, _ = emitted_anew(source)
+        derivation, fitted = source, None
+    else:
+        derivation, _ = emitted_anew(source)
+        fitted = model_file.fitted_spec(source)
     return generate_robot(
-        derivation, folder, force, model_file.fitted_spec(source), precision, cuda
+        derivation, folder, force, fitted, precision, cuda, structured_text=structured_text
     )
 
 

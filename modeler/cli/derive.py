@@ -332,7 +332,7 @@ def _facts(table: formulas.coefficients.CoefficientTable) -> list[str]:
 
 def run_generate(args: argparse.Namespace) -> Json:
     """Writes the folder and says what is in it."""
-    kinds = {"precision": args.precision, "cuda": args.cuda}
+    kinds = {name: vars(args)[name] for name in ("precision", "cuda", "structured_text")}
     model = _model(args)
     if model is not None:
         from modeler.api.workflow import generate as generate_of_model

@@ -23,6 +23,7 @@ GENERATE = Command(
         choice("--precision", get_args(errors.Precision),
                "of all numbers of the C: double, or float for a microcontroller", "double"),
         flag("--cuda", "also the base regressor for graphics processors"),
+        flag("--structured-text", "also function blocks for a PLC, IEC 61131-3"),
         FORCE,
     ),
     "write the manifest for machines",
@@ -30,7 +31,7 @@ GENERATE = Command(
 
 EXPORT = Command(
     "export", "export:run_export",
-    "the identified robot for another program: URDF, MJCF, SDF, CasADi, FMU",
+    "the identified robot for another program: URDF, MJCF, SDF, CasADi, FMU, ROS 2",
     "Writes the masses, mass centres, inertias, friction and rotor inertias of MODEL as a machine "
     "that could be built: into the bytes of an ORIGINAL, of which nothing else changes, or into a "
     "file of its own whose links are capsules. Says what every number was and is, and which "
@@ -38,7 +39,7 @@ EXPORT = Command(
     "modeler export arm.model.json --like arm.urdf --out better.urdf",
     (
         value("source", "MODEL|ROBOT", places.RobotOrModel, ROBOT_OR_MODEL),
-        choice("--to", ("urdf", "mjcf", "sdf", "casadi", "fmu", "simulink"),
+        choice("--to", ("urdf", "mjcf", "sdf", "casadi", "fmu", "simulink", "ros2"),
                "format; by --like, or by the ending of --out (.xml is MJCF)"),
         value("--like", "ORIGINAL", places.OriginalFile,
               "a file of the same robot: only its numbers are replaced"),

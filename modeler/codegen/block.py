@@ -155,12 +155,12 @@ def make_block(
         writer.visit(index)
     calls = writer.take()
     for place, value in outputs:
-        writer.lines.append(f"{place} = {writer.output(value)};")
+        writer.lines.append(target.stored.format(place=place, text=writer.output(value)))
     additions, multiplications = graph.operations(values)
     symbols = frozenset(graph.nodes[i].args[0] for i in reachable if graph.nodes[i].op == "sym")
     parts = constants, calls, writer.take()
     naming = Naming(graph, writer.temporaries, [line for part in parts for line in part])
-    constants, calls, body = map(naming.written, parts)
+    constants, calls, body = (naming.written(part, target.remark) for part in parts)
     return Block(constants, calls, body, symbols, additions, multiplications, naming.letters)
 
 
@@ -249,8 +249,9 @@ class _Writer:
             name = joint[1] if joint else f"a{len(self.pairs) + 1}"
             self.pairs[angle] = name
             argument = self.texts[angle].text
-            self.lines.append(f"{self.target.number} s{name}, c{name};")
-            self.lines.append(f"{self.target.sincos}({argument}, &s{name}, &c{name});")
+            words = {"number": self.target.number, "sincos": self.target.sincos}
+            texts = (each.format(name=name, angle=argument, **words) for each in self.target.turn)
+            self.lines += texts
         return Text(_PAIR[op] + self.pairs[angle], ATOM)
 
     def _text(self, index: int) -> Text:
@@ -312,5 +313,6 @@ class _Writer:
         self.count[letter] += 1
         name = f"{letter}{self.count[letter]}"
         self.temporaries[name] = index
-        self.lines.append(f"const {number} {name} = {self.texts[index].text};")
+        text = self.texts[index].text
+        self.lines.append(self.target.temporary.format(number=number, name=name, text=text))
         self.texts[index] = Text(name, ATOM)

@@ -13,9 +13,8 @@ from modeler.codegen import functions as layout
 from modeler.codegen.control import Control, control_functions
 from modeler.codegen.fitted import widths
 from modeler.codegen.functions import CFunction
-from modeler.core.errors import DataError
 from modeler.core.manifest import ArgumentSpec
-from modeler.derivation import Arithmetic, BaseParameters, Plan, SymbolicModel
+from modeler.derivation import Arithmetic, BaseParameters, Closure, Expr, Plan, SymbolicModel
 
 _OPERATIONS = {
     name: getattr(casadi, name) for name in ("sin", "cos", "tan", "sqrt", "exp", "sign", "tanh")
@@ -38,40 +37,32 @@ def casadi_file(
     """What `casadi.FileDeserializer(FILE).unpack()` reads: a list of functions.
 
     Args:
-        model: without loops.
+        model: as derived.
         base: the base parameters of the same model.
         values: of them, which take the place of the argument beta.
 
     Returns:
         The file; {function: its inputs and outputs}; what is not in it, a sentence each.
-
-    Raises:
-        DataError: a robot with loops.
     """
-    if model.closure is not None:
-        raise DataError(
-            f"{model.robot.name} has loops: CasADi's functions are those of trees, without "
-            "closing; cut the loops in the robot file, and state them as constraints"
-        )
     found, missing = casadi_functions(model, base)
     if values is not None:
         found = [_with_values(each, values) for each in found]
     packed = casadi.StringSerializer()
     packed.pack(found)
-    signatures = {each.name(): str(each).partition(":")[2].rpartition(" SX")[0] for each in found}
+    signatures = {each.name(): str(each).partition(":")[2].rpartition(" ")[0] for each in found}
     return packed.encode().encode(), signatures, missing
 
 
 def casadi_functions(
     model: SymbolicModel, base: BaseParameters
 ) -> tuple[list[casadi.Function], tuple[str, ...]]:
-    """The functions of a robot without loops, and what is not among them.
+    """The functions of a robot, and what is not among them; loops are closed by Newton from home.
 
     Besides those of the C: `forward_dynamics(q, qd, tau, beta)`, qdd of M qdd = tau - c - g - f,
     and of each function that reads the sign of a speed one named `smooth_`, with the input
     `widths`, over which sign(v) turns as tanh(v/width).
     """
-    listed = (*layout.tree_functions(model, base), *control_functions(model, base, Control()))
+    listed = [*layout.tree_functions(model, base), *control_functions(model, base, Control())]
     functions = {f.role: f for f in listed}
     turning = widths("", model, [functions["inverse_dynamics"]])
     names = [width.constant for width in turning.values()]
@@ -82,9 +73,12 @@ def casadi_functions(
             smooth = f"smooth_{role}"
             found[smooth] = _function(model, functions[role], smooth, places)
     missing: tuple[str, ...] = ()
+    if model.closure is not None:
+        found = _closed(model, model.closure, found)
+        missing = ("functions of the platform's coordinates, and those for controllers",)
     qdd = functions["friction"].inputs
     if any(argument.name == "qdd" for argument in qdd):
-        missing = ("forward_dynamics: friction reads accelerations here; solve inverse_dynamics",)
+        missing += ("forward_dynamics: friction reads accelerations here; solve inverse_dynamics",)
     else:
         for head in ("", "smooth_")[: 1 + bool(turning)]:
             found[f"{head}forward_dynamics"] = _forward(head, found)
@@ -111,12 +105,75 @@ def _function(
     return casadi.Function(name, *given)
 
 
+def _closed(
+    model: SymbolicModel, closure: Closure, tree: Mapping[str, casadi.Function]
+) -> dict[str, casadi.Function]:
+    """Functions of the coordinates: u(q) by Newton's method from home, ud = G qd, tau = G' tau_u.
+
+    G and the accelerations of the solved variables follow from J ud = 0, J udd + drift = 0.
+    """
+    n, given, solved = len(closure.home), list(closure.given), list(closure.solved)
+
+    def of_tree(name: str, values: Sequence[Expr], *reads: str) -> casadi.Function:
+        inputs = tuple(ArgumentSpec(each, (n,), "", "") for each in reads)
+        output = ArgumentSpec(name, (len(closure.equations), len(values) // len(closure.equations)),
+                              "", "")  # fmt: skip
+        function = CFunction("", name, "", "", inputs, output, layout.entries_of(values))
+        return _function(model, function, name)
+
+    residual = of_tree("residual", closure.equations, "q")
+    J = of_tree("jacobian", [x for row in closure.jacobian for x in row], "q")
+    drift = of_tree("drift", closure.drift, "q", "qd")
+
+    def assembled(some: casadi.SX, others: casadi.SX) -> casadi.SX:
+        rows = dict(zip([*given, *solved], casadi.vertsplit(casadi.vertcat(some, others)),
+                        strict=True))  # fmt: skip
+        return casadi.vertcat(*(rows[k] for k in range(n)))
+
+    q, qd, qdd = (casadi.MX.sym(name, len(given)) for name in ("q", "qd", "qdd"))
+    x, y = casadi.SX.sym("x", len(solved)), casadi.SX.sym("y", len(given))
+    problem = {"x": x, "p": y, "g": residual(assembled(y, x))}
+    close = casadi.rootfinder("closing", "newton", problem, {"abstol": 1e-12, "abstolStep": 1e-14})
+    u = assembled(q, close(casadi.DM([closure.home[k] for k in solved]), q))
+    own = J(u)[:, solved]
+    G = assembled(casadi.MX.eye(len(given)), -casadi.solve(own, J(u)[:, given]))
+    ud = G @ qd
+    rest = assembled(casadi.MX.zeros(len(given)), -casadi.solve(own, drift(u, ud)))
+    motion = {"q": u, "qd": ud, "qdd": G @ qdd + rest}
+    found = {"base_parameters": tree["base_parameters"]}
+
+    def public(name: str, values: Sequence[casadi.MX], inputs: Mapping[str, casadi.MX],
+               outputs: Sequence[str]) -> None:  # fmt: skip
+        read = {"q", *(x.name() for value in values for x in casadi.symvar(value))}
+        reads = {n: x for n, x in inputs.items() if n in read}
+        found[name] = casadi.Function(
+            name, list(reads.values()), list(values), list(reads), list(outputs)
+        )
+
+    public("close", [u], {"q": q}, ["u"])
+    public("coupling", [G], {"q": q}, ["G"])
+    for role, function in tree.items():
+        if role in ("base_parameters", "base_regressor_nonzeros"):
+            continue
+        names = function.name_in()
+        more = {n: casadi.MX.sym(n, function.size1_in(n)) for n in names if n not in motion}
+        values = function.call([{**motion, **more}[n] for n in names])
+        if role == "coriolis":  # the solved variables accelerate at qdd = 0 too
+            values = [values[0] + tree["inertia_matrix"](u, more["beta"]) @ rest]
+        if role != "forward_kinematics":
+            values = [G.T @ value for value in values]
+        if role == "inertia_matrix":
+            values = [values[0] @ G]
+        public(role, values, {"q": q, "qd": qd, "qdd": qdd, **more}, function.name_out())
+    return found
+
+
 def _turning(
     model: SymbolicModel, values: Mapping[str, casadi.SX], places: Mapping[int, int],
     over: casadi.SX,
 ) -> Arithmetic:  # fmt: skip
     """Arithmetic in which the signs of these speeds turn."""
-    exprs = [type(model.graph.constant(0))(model.graph, speed) for speed in places]
+    exprs = [Expr(model.graph, speed) for speed in places]
     speeds = Plan(model.graph, exprs, _SYMBOLIC)(values)
 
     def sign(x: casadi.SX) -> casadi.SX:
@@ -145,15 +202,19 @@ def _parts(output: ArgumentSpec, numbers: Sequence[casadi.SX]) -> dict[str, casa
 def _forward(head: str, found: Mapping[str, casadi.Function]) -> casadi.Function:
     """Qdd of tau, by the LDL' factors of M."""
     torques = found[f"{head}inverse_dynamics"]
-    given = {n: casadi.SX.sym(n, *torques.size_in(n)) for n in torques.name_in()}
+    kind = casadi.SX if torques.is_a("SXFunction") else casadi.MX
+    given = {n: kind.sym(n, *torques.size_in(n)) for n in torques.name_in()}
     qdd = given.pop("qdd")
-    tau = casadi.SX.sym("tau", *qdd.shape)
-    still = torques(*({**given, "qdd": casadi.SX(*qdd.shape)}[n] for n in torques.name_in()))
+    tau = kind.sym("tau", *qdd.shape)
+    still = torques(*({**given, "qdd": kind.zeros(*qdd.shape)}[n] for n in torques.name_in()))
     M = found["inertia_matrix"](given["q"], given["beta"])
     given = {n: x for n, x in given.items() if n != "beta"} | {"tau": tau, "beta": given["beta"]}
     if "widths" in given:
         given["widths"] = given.pop("widths")  # last
-    solved = casadi.ldl_solve(tau - still, *casadi.ldl(M))
+    right = tau - still
+    solved = (
+        casadi.ldl_solve(right, *casadi.ldl(M)) if kind is casadi.SX else casadi.solve(M, right)
+    )
     name = f"{head}forward_dynamics"
     return casadi.Function(name, list(given.values()), [solved], list(given), ["qdd"])
 
@@ -163,8 +224,9 @@ def _with_values(function: casadi.Function, values: Sequence[float]) -> casadi.F
     names = function.name_in()
     if "beta" not in names:
         return function
-    given = {n: casadi.SX.sym(n, *function.size_in(n)) for n in names}
-    beta = casadi.SX(list(map(float, values)))
+    kind = casadi.SX if function.is_a("SXFunction") else casadi.MX
+    given = {n: kind.sym(n, *function.size_in(n)) for n in names}
+    beta = kind(list(map(float, values)))
     out = function.call([{**given, "beta": beta}[n] for n in names])
     kept = {n: x for n, x in given.items() if n != "beta"}
     return casadi.Function(

@@ -18,12 +18,14 @@ from modeler.codegen.control import (
     control_functions,
     fitted_control_functions,
 )
+from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.naming import Letters, legend
-from modeler.codegen.package import package_files, render
+from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_files, render
+from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states
 from modeler.core import manifest
@@ -40,7 +42,7 @@ from modeler.derivation import (
     geometric_symbol,
     precise_values,
 )
-from modeler.robot import Robot
+from modeler.robot import Limits, Robot
 
 # The manifest of an emitted module: everything the numeric stages will know of the robot.
 
@@ -147,7 +149,8 @@ def function_specs(
     }
     found = []
     for function in (function for function, _ in blocks if not function.internal):
-        calls = (function.role,) if function.closed is None else function.closed.calls
+        made = function.closed or function.composed
+        calls = (function.role,) if made is None else made.calls
         parts = [own[role] for role in calls if role in own]
         found.append(
             FunctionSpec(
@@ -156,7 +159,7 @@ def function_specs(
                 outputs=(function.output,),
                 additions=sum(additions for additions, _ in parts),
                 multiplications=sum(multiplications for _, multiplications in parts),
-                status=function.closed is not None,
+                status=function.status,
             )
         )
     return tuple(found)
@@ -305,6 +308,7 @@ def emit(
     precision: Precision = "double",
     cuda: bool = False,
     control: Control | None = None,
+    structured_text: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -315,6 +319,7 @@ def emit(
         precision: of the numbers: all `double`, or all `float`.
         cuda: add the kernels of `codegen.cuda`, of a robot without loops.
         control: add the controller's unit.
+        structured_text: add the function blocks of `codegen.structured_text`.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -339,13 +344,16 @@ def emit(
             functions += found
             code |= unit
         values |= {"spec": spec}
+        if structured_text:
+            twins = fitted_functions(model, base, fitted) if fitted is not None else ()
+            kernels |= structured_texts(model, spec, values, twins)
 
     def others() -> dict[str, str]:
         stored = {**values, "vectors": stored_states(model, functions, OF_PRECISION[precision])}
         return {
             **package_files(spec, code, stored),
             "base_parameters.md": render("base_parameters.md", **values),
-            manifest.MANIFEST: spec.to_json(),
+            manifest.MANIFEST: dataclasses.replace(spec, origin=origin_of()).to_json(),
         }
 
     return Emitted(spec, _Files({**code, **kernels}, others))
@@ -405,6 +413,8 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
         "spec": spec,
         "prefix": prefix,
         "macro": prefix.upper(),
+        "interface": C_INTERFACE,
+        "license": LICENSE,
         "title": layout.comment_text(spec.title or spec.robot),
         "symbols": symbols,
         "standard": chi,
@@ -451,6 +461,7 @@ def _fitted_unit(
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
     blocks = [(f, _block(f, values["places"], target, turning)) for f in functions]
+    values["fitted_blocks"] = blocks
     written = [_written(prefix, f, block, target) for f, block in blocks]
     fitted = dataclasses.replace(
         fitted,
@@ -477,6 +488,15 @@ def _fitted_unit(
     return dataclasses.replace(spec, fitted=fitted), _fitted_files(prefix, values, fitted)
 
 
+_SIDES = ("lower", "upper", "speed", "acceleration")
+
+
+def _limit(limits: Limits | None, side: str, literal: Callable[[float], str]) -> str:
+    """A number of C; NAN where the robot file states none."""
+    value = math.nan if limits is None else getattr(limits, side)
+    return literal(value) if math.isfinite(value) else "NAN"
+
+
 def _control_unit(
     model: SymbolicModel, spec: ModuleSpec, functions: Sequence[CFunction], values: dict[str, Any]
 ) -> tuple[ModuleSpec, dict[str, str]]:
@@ -484,11 +504,14 @@ def _control_unit(
     prefix, target = spec.prefix, OF_PRECISION[spec.precision]
     fitted = [f for f in functions if f.role.startswith("fitted_")]
     found = widths(prefix, model, fitted)
-    turning = {speed: width.constant for speed, width in found.items()}
-    blocks = [
-        (f, _block(f, values["places"], target, turning if f in fitted else None))
-        for f in functions
-    ]
+    smooth = widths(prefix, model, [f for f in functions if f.role.startswith(SMOOTH)])
+    given = list(dict.fromkeys(smooth.values()))
+    blocks = []
+    for f in functions:
+        turning = {speed: width.constant for speed, width in found.items()} if f in fitted else {}
+        if f.role.startswith(SMOOTH):
+            turning = {speed: f"widths[{given.index(w)}]" for speed, w in smooth.items()}
+        blocks.append((f, _block(f, values["places"], target, turning)))
     written = [_written(prefix, f, block, target) for f, block in blocks]
     texts = values["symbols"].texts if fitted else values["symbols"].initial
     values = values | {
@@ -498,10 +521,23 @@ def _control_unit(
         "constants": _constants(written, values, texts),
         "geometry": list(values["symbols"].macros) if fitted else [],
         "widths": tuple(dict.fromkeys(found.values())),
+        "smooth": given,
         "letters": _letters(written),
+        "limits": [
+            [_limit(model.robot.limits.get(joint.name), side, values["literal"]) for side in _SIDES]
+            for joint in spec.joints
+        ],
     }
-    files = {f"{prefix}{CONTROL_UNIT}.{kind}": render(f"control.{kind}", **values) for kind in "hc"}
-    control = manifest.ControlSpec(function_specs(prefix, blocks), manifest.code_digest(files))
+    files = {
+        f"{prefix}_{unit}.{kind}": render(f"{unit}.{kind}", **values)
+        for unit in ("control", "joints")
+        for kind in "hc"
+    }
+    files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
+    known = [*values["blocks"], *values.get("fitted_blocks", ())]
+    control = manifest.ControlSpec(
+        function_specs(prefix, blocks, known), manifest.code_digest(files)
+    )
     return dataclasses.replace(spec, control=control), files
 
 
@@ -521,7 +557,9 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
         more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
         more["letters"] = _letters(own)
         files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
-    runtime: tuple[str, ...] = manifest.RUNTIME
+    for kind in ("h", "c"):
+        files[f"{prefix}_batch.{kind}"] = render(f"batch.{kind}", **values)
+    runtime: tuple[str, ...] = (*manifest.RUNTIME, *manifest.BATCH_RUNTIME)
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops
         inner = [f for f in functions if f.internal]
         outer = [f for f in functions if f.unit == "_loops"]
@@ -533,13 +571,16 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
         for kind in ("h", "c"):
             files[f"{prefix}{TILE_UNIT}.{kind}"] = render(f"tile.{kind}", **given)
         runtime += manifest.TILE_RUNTIME
+    return files | {name: _runtime(name, spec.precision) for name in runtime}
+
+
+def _runtime(name: str, precision: Precision) -> str:
+    """A hand-written file: its own in that precision, where it has one."""
     folder = resource_dir("csrc")
-    for name in runtime:  # its own in that precision, where it has one
-        source = folder / spec.precision / name
-        if not source.is_file():
-            source = (folder / "include" if name.endswith(".h") else folder) / name
-        files[name] = source.read_text("utf-8")
-    return files
+    source = folder / precision / name
+    if not source.is_file():
+        source = (folder / "include" if name.endswith(".h") else folder) / name
+    return source.read_text("utf-8")
 
 
 def _block(
@@ -554,17 +595,19 @@ def _block(
 
 def _written(prefix: str, function: CFunction, block: Block, target: Target) -> _Written:
     name, number = f"{prefix}_{function.role}", target.number
-    returns = "void" if function.closed is None else "int"
-    if function.internal and function.unit == UNIT:
+    returns = "int" if function.status else "void"
+    if function.internal and function.unit in (UNIT, CONTROL_UNIT):
         returns = "static void"
     return _Written(
         **vars(function),
         name=name,
         arguments=layout.argument_lines(function),
-        declaration=layout.prototype(name, layout.arguments(function, "", number), returns),
-        definition=layout.prototype(name, layout.arguments(function, _RESTRICT, number), returns),
+        declaration=layout.prototype(name, layout.arguments(function, number, prefix), returns),
+        definition=layout.prototype(
+            name, layout.arguments(function, number, prefix, defined=True), returns
+        ),
         **_at_state(prefix, function, number),
-        lines=[] if function.closed else layout.body_lines(function, block, target),
+        lines=[] if function.status else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
     )
 
@@ -579,9 +622,9 @@ def _at_state(prefix: str, function: CFunction, number: str) -> dict[str, str]:
         function, inputs=tuple(a for a in function.inputs if a.name not in motion)
     )
     name = f"{prefix}_{function.role}_at"
-    plain, state = layout.arguments(kept, "", number), f"struct {prefix}_state *state"
+    plain, state = layout.arguments(kept, number, prefix), f"struct {prefix}_state *state"
     posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
-    own = layout.arguments(kept, _RESTRICT, number)
+    own = layout.arguments(kept, number, prefix, defined=True)
     return {
         "made": layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
         "at_declaration": layout.prototype(name, [state, *plain], "int"),

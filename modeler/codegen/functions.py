@@ -36,7 +36,8 @@ class CFunction:
         output: argument written.
         entries: (index into the row-major output, value) of everything that is not zero.
         closed: how it is made from one of the opened tree; None if `entries` say all.
-        internal: True for a function of the opened tree, which the header does not show.
+        composed: how it is made of others and can fail; None if `entries` say all.
+        internal: True for a function that others call, which the header does not show.
     """
 
     unit: str
@@ -47,7 +48,33 @@ class CFunction:
     output: ArgumentSpec
     entries: tuple[tuple[int, Expr], ...]
     closed: "Closed | None" = None
+    composed: "Composed | None" = None
     internal: bool = False
+
+    @property
+    def status(self) -> bool:
+        """True if it can fail, and returns a status."""
+        return self.closed is not None or self.composed is not None
+
+
+@dataclass(frozen=True)
+class Composed:
+    """How a function that can fail is made of others.
+
+    Attributes:
+        kind: which macro of the template writes it.
+        roles: {word of the macro: role of a function that it calls}.
+        turns: how often it calls at most, where it goes on until it has converged.
+    """
+
+    kind: str
+    roles: Mapping[str, str]
+    turns: int = 1
+
+    @property
+    def calls(self) -> tuple[str, ...]:
+        """Roles of the functions that it calls."""
+        return tuple(self.roles.values())
 
 
 @dataclass(frozen=True)
@@ -174,8 +201,8 @@ def _regressors(
         (joint, place[k]): value for (joint, k), value in model.regressor.items() if k in place
     }
     order = {at: number for number, at in enumerate(sorted(values))}
-    standard = _by_column(model.regressor)
-    kept = _by_column(values)
+    standard = by_column(model.regressor)
+    kept = by_column(values)
     inputs = given.motion
     per = "torque per unit of each"
     return (
@@ -201,7 +228,7 @@ def _regressors(
     )  # fmt: skip
 
 
-def _by_column(values: Mapping[tuple[int, int], Expr]) -> list[tuple[tuple[int, int], Expr]]:
+def by_column(values: Mapping[tuple[int, int], Expr]) -> list[tuple[tuple[int, int], Expr]]:
     """Entries of {(joint, column): value} column after column.
 
     So what the columns of a link read is computed, read and done with before the next link: row
@@ -402,12 +429,34 @@ def argument_lines(function: CFunction) -> list[str]:
     return lines
 
 
-def arguments(function: CFunction, restrict: str, number: str) -> list[str]:
-    """C parameters of that type: inputs const; `restrict`, or nothing, goes before the output."""
-    return [
-        *(f"const {number} *{argument.name}" for argument in function.inputs),
-        f"{number} *{restrict}{function.output.name}",
-    ]
+_LENGTHS = {
+    **dict.fromkeys(("q", "qd", "qdd", "v", "a", "dq", "tau", "out", "p"), "JOINTS"),
+    "beta": "BASE_PARAMETERS", "chi": "STANDARD_PARAMETERS", "s": "SIGNALS", "after": "SIGNALS",
+}  # fmt: skip
+"""Macros of the lengths of arguments, after the robot's name."""
+
+
+def arguments(function: CFunction, number: str, prefix: str, defined: bool = False) -> list[str]:
+    """C parameters of that type with their bounds, inputs const.
+
+    Args:
+        function: whose they are.
+        number: C type.
+        prefix: of the module.
+        defined: where the function is defined, nothing else points to its output.
+    """
+
+    def bound(argument: ArgumentSpec) -> str:
+        macro = _LENGTHS.get(argument.name)
+        other = argument is function.output and argument.name == "a"  # no acceleration of joints
+        if macro is None or function.internal or other:
+            return " * ".join(map(str, argument.shape))
+        return f"{prefix}_{macro}".upper()
+
+    inputs = [f"const {number} {a.name}[{bound(a)}]" for a in function.inputs]
+    name, length = function.output.name, bound(function.output)
+    out = f"MODELER_OUT({name}, {length})" if defined else f"{name}[{length}]"
+    return [*inputs, f"{number} {out}"]
 
 
 def prototype(name: str, parameters: Sequence[str], returns: str = "void") -> str:
@@ -470,6 +519,8 @@ def body_lines(function: CFunction, block: Block, target: Target) -> list[str]:
 def unread(function: CFunction, block: Block) -> Iterable[str]:
     """Names of the inputs of which no entry is read."""
     for argument in function.inputs:
+        if argument.name == "widths":  # of signs, which are no symbols
+            continue
         if block.symbols.isdisjoint(f"{argument.name}[{i}]" for i in range(argument.shape[0])):
             yield argument.name
 
@@ -552,6 +603,6 @@ def symbol_constants(prefix: str, symbols: Iterable[str]) -> dict[str, str]:
 
 def graph_places(joints: int, symbols: dict[str, str], arrays: Iterable[str]) -> dict[str, str]:
     """C text of every graph symbol: entries of arrays as they are named, geometric symbols."""
-    kinds = ("q", "qd", "qdd", "dq", "v", "a")
+    kinds = ("q", "qd", "qdd", "dq", "v", "a", "tau")
     inputs = [f"{kind}[{i}]" for kind in kinds for i in range(joints)]
     return {**symbols, **{name: name for name in (*inputs, *arrays)}}

@@ -15,11 +15,12 @@ from typing import Any
 
 from modeler.derivation import Graph, Label
 
-Letters = tuple[str, bool, str]
-"""Letter of a quantity, whether of one unit of something, and its step."""
+Letters = tuple[str, str, str]
+"""Letter of a quantity, "meaning" or of one "unit" of something, and its step."""
 
 _WIDTH = 96  # of a line without its indent
 _SHORT = re.compile(r"\b[tk]\d+\b")
+_GIVEN = re.compile(r"(?:const \w+ )?(\w+) :?= ")
 
 
 @cache
@@ -44,7 +45,7 @@ class Naming:
         """
         self._links = graph.links
         self._labels = {s: graph.labels[k] for s, k in nodes.items() if k in graph.labels}
-        self.letters = frozenset((e.quantity, bool(e.of), e.step) for e in self._labels.values())
+        self.letters = frozenset((e.quantity, _kind(e), e.step) for e in self._labels.values())
         self._names: dict[str, str] = {}
         self._announced: set[Letters] = set()
         taken = {word.lower() for line in lines for word in re.findall(r"[A-Za-z_]\w*", line)}
@@ -56,14 +57,19 @@ class Naming:
             taken.add(name.lower())
             self._names[short] = name
 
-    def written(self, lines: Sequence[str], remark: str = "/* {} */") -> tuple[str, ...]:
+    def written(self, lines: Sequence[str], remark: str) -> tuple[str, ...]:
         """The lines with the names, a comment before the first of each quantity of a link.
 
         As many as before: a comment, and what a line is too long for, stand within the line.
+
+        Args:
+            lines: some of the function.
+            remark: a comment, around `{}`.
         """
         found = []
         for line in lines:
-            label = self._labels.get(line.split(" = ")[0].split(" ")[-1])
+            given = _GIVEN.match(line)
+            label = self._labels.get(given[1]) if given else None
             text = _wrapped(_SHORT.sub(lambda match: self._names.get(match[0], match[0]), line))
             comment = "" if label is None else self._comment(label)
             found.append(f"{_wrapped(remark.format(comment))}\n{text}" if comment else text)
@@ -72,13 +78,19 @@ class Naming:
     def _comment(self, label: Label) -> str:
         """What is announced before the first value of a quantity of a link; may be empty."""
         quantity, link = _quantities()[label.quantity], self._links[label.link]
-        key = (label.quantity, bool(label.of), label.link)
-        if "equation" not in quantity or key in self._announced:
+        key = (label.quantity, _kind(label), label.link)
+        if "equation" not in quantity or "d" in label.step or key in self._announced:
             return ""
         self._announced.add(key)
         equation = quantity["equation"] + quantity.get(link.moves, "")
-        text = f"{quantity['unit' if label.of else 'meaning']}, {label.quantity}{{j}} = {equation}"
+        text = f"{quantity[key[1]]}, {label.quantity}{{j}} = {equation}"
         return f"link {label.link}: " + text.format(i=_link(link.antecedent), j=_link(label.link))
+
+
+def _kind(label: Label) -> str:
+    """Which text of its quantity tells what it is, or what it is a derivative of."""
+    derived = "d" in label.step and "meaning" in _quantities()[label.quantity]
+    return "unit" if label.of and not derived else "meaning"
 
 
 def _link(name: str) -> str:
@@ -90,13 +102,14 @@ def _link(name: str) -> str:
 def _name(label: Label) -> str:
     component = re.sub(r"\W", "", label.of) + label.component
     name = f"{label.quantity}{_link(label.link)}{label.step}"
-    return "minus_" * label.minus + name + f"_{component}" * bool(component)
+    name = "minus_" * label.minus + name + f"_{component}" * bool(component)
+    return re.sub("__+", "_", name)  # which compilers keep for themselves
 
 
-def _wrapped(line: str) -> str:
+def _wrapped(line: str, width: int = _WIDTH) -> str:
     """The statement in lines of readable length."""
     return textwrap.fill(
-        line, _WIDTH, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
+        line, width, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
     )
 
 
@@ -108,12 +121,13 @@ def legend(letters: Iterable[Letters]) -> list[str]:
     """
     found, lines, table = set(letters), [], dict(_quantities())
     for step, meaning in table.pop("steps").items():
-        owners = sorted({each[0] for each in found if each[2] == step}, key=str.lower)
-        lines += [f"...{step} {meaning}: {', '.join(owners)}"] if owners else []
+        owners = sorted({each[0] for each in found if step in each[2]}, key=str.lower)
+        told = f"...{step}   {meaning}: {', '.join(owners)}"
+        lines += _wrapped(told, 90).split("\n") if owners else []
     rows = [
-        f"{letter + '_1' * unit:<6}{quantity['unit' if unit else 'meaning']}"
+        f"{letter + '_1' * (kind == 'unit'):<7}{quantity[kind]}"
         for letter, quantity in table.items()
-        for unit in (False, True)
-        if any(each[:2] == (letter, unit) for each in found)
+        for kind in ("meaning", "unit")
+        if any(each[:2] == (letter, kind) for each in found)
     ]
     return rows + lines

@@ -13,7 +13,8 @@ import jinja2
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
-from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec, text_digest
+from modeler import __version__
+from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec, OriginSpec, text_digest
 
 # The programs of a folder.
 
@@ -21,7 +22,9 @@ from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec, text_digest
 FOLDER = "programs"
 """Of a module's folder, so that all C files beside the library's are the library's."""
 
-EXAMPLES = ("example_computed_torque", "example_residual_observer")
+EXAMPLES = (
+    "example_computed_torque", "example_residual_observer", "example_cartesian", "example_adaptive",
+)  # fmt: skip
 """Templates, and names of the programs."""
 
 SELF_CHECK = "self_check"
@@ -128,7 +131,7 @@ def _unwanted(emitted: Emitted) -> set[str]:
     """
     prefix = emitted.spec.prefix
     names = {f"{prefix}_{unit}.{kind}" for unit in ("fitted", "control") for kind in "hc"}
-    names |= {f"{prefix}.cu"}
+    names |= {f"{prefix}.cu", f"{prefix}.st"}
     names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
     return names - emitted.files.keys()
 
@@ -206,8 +209,17 @@ def render(template: str, **values: Any) -> str:
     return _environment().get_template(f"{template}.jinja").render(**values)
 
 
-C_INTERFACE = 1
-"""Raised when a function of the emitted C takes other arguments under the same name."""
+C_INTERFACE = 2
+"""Raised when a function of the emitted C takes other arguments under the same name, or stands in
+another header or library."""
+
+LICENSE = "MIT"
+"""SPDX identifier of what is emitted: that of the templates and of the runtime."""
+
+
+def origin_of() -> OriginSpec:
+    """What the manifest and a header say of this version; the other files are the robot's alone."""
+    return OriginSpec(C_INTERFACE, f"modeler {__version__}", LICENSE)
 
 
 def package_version(signature: str) -> str:
@@ -239,6 +251,8 @@ def package_files(
     every = spec.every_function
     given = {
         **values,
+        "origin": origin_of(),
+        "status": any(f.status for f in every),
         "package": _package(spec, code),
         "folder": FOLDER,
         "examples": examples,
@@ -258,14 +272,19 @@ def package_files(
         "Makefile": "Makefile",
         "CMakeLists.txt": "CMakeLists.txt",
         f"{prefix}.pc.in": "package.pc.in",
+        f"{prefix}_batch.pc.in": "batch.pc.in",
         f"{prefix}-config.cmake": "config.cmake",
         f"{prefix}-config-version.cmake": "config-version.cmake",
         "README.md": "README.md",
     }
+    if spec.control is not None:
+        templates |= {f"{prefix}_generator.h": "generator.h", f"{prefix}.hpp": "wrapper.hpp"}
     texts = {name: render(template, **given) for name, template in templates.items()}
     # What is compared with others is checked after them.
     products = {f"{prefix}_{role}" for role in PRODUCTS}
     order = sorted(every, key=lambda f: (f.name in products, f.name != f"{prefix}_base_parameters"))
+    stored = {f"{prefix}_{name.removeprefix('at_')}" for name in values["vectors"]["tables"]}
+    order = [f for f in order if f.name in stored | products | {f"{prefix}_base_parameters"}]
     largest = max(f.outputs[0].size for f in every)
     checked = {"checked": order, "products": PRODUCTS, "turning": TURNING, "largest": largest}
     own = {name: example_values(spec, name) for name in examples} | {SELF_CHECK: checked}
@@ -284,17 +303,23 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
     if spec.control is not None:
         signature = text_digest(spec.to_json())
-    heads = [f"{spec.prefix}{unit}.h" for unit in ("", "_fitted", "_control", "_tile")]
-    public = [name for name in heads if name in code]
+    heads = [
+        f"{spec.prefix}{unit}.h"
+        for unit in ("", "_fitted", "_control", "_joints", "_batch", "_tile")
+    ]
+    public = [name for name in (*heads, "modeler_batch.h") if name in code]
     for name in public:  # grows while it is read
         included = re.findall(r'^#include "([^"]+)"', code[name], flags=re.MULTILINE)
         public += [h for h in included if h in code and h not in public]
+    own = spec.controller_sources
     return {
         "signature": signature,
         "version": package_version(signature),
-        "sources": [name for name in code if name.endswith(".c")],
+        "sources": [name for name in own if name.endswith(".c")],
+        "batch": [name for name in code if name.endswith(".c") and name not in own],
         "headers": [name for name in code if name.endswith(".h")],
-        "public": public,
+        "public": public
+        + ([f"{spec.prefix}_generator.h", f"{spec.prefix}.hpp"] if spec.control else []),
     }
 
 
@@ -307,10 +332,25 @@ def _operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
 # The example programs of a fitted module: which there are, and their calls as finished strings.
 
 
+_CALLED = {
+    "example_computed_torque": ("fitted_inverse_dynamics", "fitted_friction"),
+    "example_residual_observer": (
+        "fitted_momentum", "fitted_coriolis_transpose", "fitted_gravity", "fitted_friction",
+    ),
+    "example_cartesian": (
+        "pose", "jacobian_dot_qd", "fitted_operational_inverse", "fitted_inverse_dynamics",
+    ),
+    "example_adaptive": (
+        "slotine_li_regressor", "momentum_regressor", "momentum_rest_regressor",
+    ),
+}  # fmt: skip
+
+
 def examples_of(spec: ModuleSpec) -> tuple[str, ...]:
-    """Those of a module: none without values, nor where a joint of q has no motor to obey."""
+    """Those whose functions a module has; none where a joint of q has no motor to obey."""
+    roles = {f.name.removeprefix(f"{spec.prefix}_") for f in spec.every_function}
     every = all(joint.actuated for joint in spec.joints)
-    return EXAMPLES if spec.fitted is not None and every else ()
+    return tuple(name for name in EXAMPLES if every and roles.issuperset(_CALLED[name]))
 
 
 def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
@@ -320,7 +360,7 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     """
     if spec.closure is not None:
         return None
-    functions = spec.every_function
+    functions = [f for f in spec.every_function if not f.status]
     return {
         "states": 16,
         "largest": max(f.outputs[0].size for f in functions),
@@ -336,34 +376,56 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     }
 
 
+_LINES = {
+    "example_computed_torque": "q, qd, commanded q, qd, qdd",
+    "example_residual_observer": "q, qd, tau",
+    "example_cartesian": "q, qd, commanded [R | p], twist, acceleration",
+    "example_adaptive": "q, qd, commanded q, qd, qdd",
+}
+
+
 def example_values(spec: ModuleSpec, name: str) -> dict[str, Any]:
     """What the template of an example needs besides the values of all templates."""
-    assert spec.fitted is not None
-    roles = {f.name.removeprefix(f"{spec.prefix}_fitted_"): f for f in spec.fitted.functions}
+    roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.every_function}
     measured = [k for k, signal in enumerate(spec.signals) if signal.kind == "temperature"]
-    torque = name == EXAMPLES[0]
-    line = "q, qd, commanded q, qd, qdd" if torque else "q, qd, tau"
-    values = {"temperatures": measured, "line": f"{line}, temperatures" if measured else line}
-    if torque:
-        now = {"q": "now->q", "qd": "now->qd", "qdd": "v", "s": "own->s"}
+    line = _LINES[name]
+
+    def call(role: str, **named: str) -> str:
+        return call_head(roles[role], {"q": "now->q", "qd": "now->qd", "s": "own->s", **named})
+
+    values: dict[str, Any] = {"temperatures": measured}
+    values["line"] = f"{line}, temperatures" if measured else line
+    if name == "example_adaptive":
         return {
             **values,
-            "torque": call_head(roles["inverse_dynamics"], now),
-            "friction": call_head(roles["friction"], now),
-            "friction_d": call_head(roles["friction"], {**now, "qd": "now->qd_d"}),
+            "line": line,
+            "regressor": call("slotine_li_regressor"),
+            "momentum": call("momentum_regressor"),
+            "rest": call("momentum_rest_regressor"),
         }
-    now = {"qdd": "a", "s": "own->s"}
-    reads = {argument.name for argument in roles["friction"].inputs}
+    if name == "example_cartesian":
+        return {
+            **values,
+            "pose": call("pose"),
+            "rest": call("jacobian_dot_qd"),
+            "inverse": call("fitted_operational_inverse", damping="&own->damping"),
+            "torque": call("fitted_inverse_dynamics", qdd="v"),
+        }
+    if name == "example_computed_torque":
+        return {
+            **values,
+            "torque": call("fitted_inverse_dynamics", qdd="v"),
+            "friction": call("fitted_friction", qdd="v"),
+            "friction_d": call("fitted_friction", qd="now->qd_d", qdd="v"),
+        }
+    reads = {argument.name for argument in roles["fitted_friction"].inputs}
     return {
         **values,
-        "matrix": call_head(roles["inertia_matrix"], now),
-        "gravity": call_head(roles["gravity"], now),
-        "friction": call_head(roles["friction"], now),
-        "coriolis_ahead": call_head(roles["coriolis"], {**now, "qd": "ahead"}),
-        "coriolis_behind": call_head(roles["coriolis"], {**now, "qd": "behind"}),
+        **{role: call_head(roles[f"fitted_{role}"], {"qdd": "a", "s": "own->s"})
+           for role in ("momentum", "coriolis_transpose", "gravity", "friction")},
         "friction_reads_acceleration": "qdd" in reads,
         "uses_own": "s" in reads,
-    }
+    }  # fmt: skip
 
 
 def call_head(function: FunctionSpec, named: Mapping[str, str] | None = None) -> str:

@@ -37,6 +37,11 @@ class Target:
         smooth_sign: C name of the sign that turns over a width.
         spread: C text of a value of all lanes that are alike, of `{0}`, one number.
         constant: target of values that do not depend on the motion; None: this one.
+        point: True if a literal has a point before its exponent, 1.0E-05.
+        temporary: statement that names a value.
+        stored: statement that writes an output.
+        turn: statements that make sine and cosine of an angle.
+        remark: comment.
     """
 
     number: str
@@ -50,6 +55,11 @@ class Target:
     smooth_sign: str
     spread: str = "{0}"
     constant: "Target | None" = None
+    point: bool = False
+    temporary: str = "const {number} {name} = {text};"
+    stored: str = "{place} = {text};"
+    turn: tuple[str, str] = ("{number} s{name}, c{name};", "{sincos}({angle}, &s{name}, &c{name});")
+    remark: str = "/* {} */"
 
     @property
     def still(self) -> "Target":
@@ -79,7 +89,10 @@ class Target:
             EmitError: it is too large or too small.
         """
         self.nearest(Fraction(value))
-        return f"{value!r}{self.suffix}"
+        digits, power, exponent = repr(value).partition("e")
+        if power and self.point:
+            digits, power = digits if "." in digits else f"{digits}.0", "E"
+        return f"{digits}{power}{exponent}{self.suffix}"
 
     @property
     def words(self) -> dict[str, Any]:

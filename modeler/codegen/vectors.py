@@ -5,7 +5,8 @@ closed: nothing of the emitted C takes part, and the numbers are the same on eve
 are multiples of powers of 2, so that they are the same in both precisions.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cache
 from typing import Any
@@ -36,16 +37,21 @@ TURNING = ("fitted_inverse_dynamics", "fitted_friction", "fitted_platform_invers
 """Functions that read the widths of friction."""
 
 _OTHERWISE = (*PRODUCTS, "base_parameters")
+_ROWS = {"rows": "base_regressor"}
 _DIRECT = Closed("poses", "", "q")
 """Stands for what a tree's functions are: no loops are closed."""
 
 _BITS = 192
+_MANY, _DIGITS, _MANY_BITS = 50, 50, 320
 _FINE = 2.0**-14  # rad or m
 _REACHES = (0.1, 0.02, 0.004)  # rad, or share of the robot's size; near a singularity, the last
 _SEED = 5
 
 Table = list[list[float]]
 """Numbers by state."""
+
+Balls = list[list[Ball]]
+"""The same before they are rounded."""
 
 
 def stored_states(
@@ -62,7 +68,8 @@ def stored_states(
         EmitError: a number is none of the target, or the loops do not close beside home.
     """
     with flint().ctx.workprec(_BITS):
-        inputs, expected = _tables(model, functions)
+        inputs, balls = _tables(model, functions, STATES)
+    expected = {role: [_numbers(row) for row in rows] for role, rows in balls.items()}
     read = {argument.name for f in functions if not f.internal for argument in f.inputs}
     tables = {name: table for name, table in inputs.items() if name in read}
     tables |= {f"at_{role}": table for role, table in expected.items()}
@@ -73,18 +80,56 @@ def stored_states(
     return {"states": STATES, "tables": lines}
 
 
-def _inputs(model: SymbolicModel) -> dict[str, Table]:
+def vector_lines(
+    prefix: str, model: SymbolicModel, functions: Sequence[CFunction]
+) -> Iterator[str]:
+    """The lines of `vectors.csv`: name, state and numbers of an input, or of what a function gives.
+
+    Inputs are exact in both precisions, base parameters too; outputs have 50 digits.
+
+    Args:
+        prefix: of the module.
+        model: as derived.
+        functions: of the module, those with fitted values too.
+
+    Raises:
+        EmitError: the loops do not close beside home, or a number has fewer digits.
+    """
+    with flint().ctx.workprec(_MANY_BITS):
+        inputs, expected = _tables(model, functions, _MANY, exact=True)
+        public = {f.role: f for f in functions if not f.internal}
+        read = {argument.name for f in public.values() for argument in f.inputs}
+        for state in range(_MANY):
+            for name, table in inputs.items():
+                if name in read and state < len(table):
+                    yield ",".join([name, str(state), *map(repr, table[state])])
+            for role, rows in expected.items():
+                if role in public and state < len(rows):
+                    yield ",".join([f"{prefix}_{role}", str(state), *map(_digits, rows[state])])
+
+
+def _digits(x: Ball) -> str:
+    if x.contains(0):
+        return "0"
+    if x.rel_accuracy_bits() < _DIGITS / math.log10(2) + 1:
+        raise EmitError(
+            f"a number of the vectors is known as {x} only; fewer than {_DIGITS} digits"
+        )
+    return str(x.str(_DIGITS, radius=False))
+
+
+def _inputs(model: SymbolicModel, states: int) -> dict[str, Table]:
     """Numbers of order 1, none of them 0; then slow, where friction turns."""
     coordinates = len(model.robot.coordinates)
 
     def table(length: int, number: Callable[[int, int], float]) -> Table:
-        return [[number(i, state) for i in range(length)] for state in range(STATES)]
+        return [[number(i, state) for i in range(length)] for state in range(states)]
 
     def spread(factor: int, per: float) -> Callable[[int, int], float]:
-        return lambda i, state: ((factor * i + 7 * state + 3) % 23 - 11.5) * per
+        return lambda i, state: ((factor * i + 7 * state + 3) % 23 - 11.5 + state // 23 / 4) * per
 
     def speed(i: int, state: int) -> float:
-        return (-1) ** (i + state) * (1 + (5 * i + 3 * state) % 13 / 16) / 64**state
+        return (-1) ** (i + state) * (1 + (5 * i + 3 * state) % 13 / 16) / 64 ** (state % 3)
 
     return {
         "q": table(coordinates, spread(11, 1 / 8)),
@@ -100,16 +145,25 @@ def _inputs(model: SymbolicModel) -> dict[str, Table]:
 
 
 def _tables(
-    model: SymbolicModel, functions: Iterable[CFunction]
-) -> tuple[dict[str, Table], dict[str, Table]]:
-    """Inputs by name, and by role what the functions give there."""
+    model: SymbolicModel, functions: Iterable[CFunction], states: int, exact: bool = False
+) -> tuple[dict[str, Table], dict[str, Balls]]:
+    """Inputs by name, and by role what the functions give there.
+
+    Args:
+        model: as derived.
+        functions: of the module.
+        states: how many.
+        exact: base parameters have few digits, and every function is evaluated; else they follow
+            from `chi`, and those that are checked by their products are left out.
+    """
     roles = {f.role: f for f in functions}
     # A double counts as the decimal that it prints, which is what was written.
     symbols = {name: flint().arb(repr(x)) for name, x in model.geometry.values.items()}
 
     @cache
     def steps(role: str) -> Callable[[Mapping[str, Ball]], list[Ball]]:
-        return ball_function(model.graph, [value for _, value in roles[role].entries], symbols)
+        values = [value for _, value in roles[role].entries]
+        return ball_function(values[0].graph if values else model.graph, values, symbols)
 
     def outputs(role: str, values: Mapping[str, Ball]) -> list[Ball]:
         out = [exact_ball(0)] * roles[role].output.size
@@ -117,21 +171,23 @@ def _tables(
             out[place] = x
         return out
 
-    inputs, closure = _inputs(model), model.closure
+    inputs, closure = _inputs(model, states), model.closure
     chi = _named(chi=inputs["chi"][0])
-    beta = outputs("base_parameters", chi)
+    found = outputs("base_parameters", chi)
+    beta = [exact_ball(_fine(float(x))) for x in found] if exact else found
     constants = chi | {f"beta[{i}]": x for i, x in enumerate(beta)}
     inputs["beta"] = [_numbers(beta)]
     sets: dict[str, tuple[int, ...]] = {"q": ()}
     postures = [np.array(q) for q in inputs["q"]]
     if closure is not None:
-        postures = _postures(model, closure, symbols)
+        postures = _postures(model, closure, symbols, states)
         sets = {"q": closure.given} | ({"x": closure.platform} if closure.platform else {})
         for name, places in sets.items():
             inputs[name] = [[_fine(x) for x in u[list(places)]] for u in postures]
         inputs["xd"], inputs["xdd"] = inputs["qd"], inputs["qdd"]
         inputs["start"] = [u.tolist() for u in postures[::-1]]
-    expected: dict[str, Table] = {}
+    expected: dict[str, Balls] = {"base_parameters": [found]} if exact else {}
+    left = ("base_parameters",) if exact else _OTHERWISE
     for name, places in sets.items():
         enclosures = Enclosures(model, symbols, places)
         for k, near in enumerate(postures):
@@ -141,13 +197,13 @@ def _tables(
             signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")})
             for role, f in roles.items():
                 c = f.closed or _DIRECT
-                if f.internal or role in _OTHERWISE or c.q != name:
+                if f.internal or f.composed or role in left or c.q != name:
                     continue
                 state = standing if c.qdd == "standing" else moving
-                tree = f"{c.tree}_{c.role}" if f.closed else role
+                tree = role if not f.closed else f"{c.tree}_{_ROWS.get(c.kind, c.role)}"
                 given = {**constants, **signals, **state.inputs}
                 out = outputs(tree, given) if tree in roles else []
-                expected.setdefault(role, []).append(_numbers(_made(c.kind, state, out)))
+                expected.setdefault(role, []).append(_made(c.kind, state, out))
     return inputs, expected
 
 
@@ -165,14 +221,14 @@ def _made(kind: str, state: EnclosedState, out: list[Ball]) -> list[Ball]:
 
 
 def _postures(
-    model: SymbolicModel, closure: Closure, symbols: Mapping[str, Ball]
+    model: SymbolicModel, closure: Closure, symbols: Mapping[str, Ball], states: int
 ) -> list[np.ndarray]:
     """Closed postures around home, their coordinates rounded."""
     enclosures = Enclosures(model, symbols)
     home, given = np.array(closure.home), list(closure.given)
     for reach in _REACHES:
         random = np.random.default_rng(_SEED)
-        near = moved_postures(closure, home, random, STATES, reach)
+        near = moved_postures(closure, home, random, states, reach)
         with suppress(NotEnclosed):
             found = [_closed(closure, u, given, [_fine(x) for x in u[given]]) for u in near]
             return [np.array([float(x) for x in enclosures.posture(u)]) for u in found]

@@ -96,6 +96,7 @@ def generate(
     precision: Precision = "double",
     cuda: bool = False,
     control: "Control | None" = None,
+    structured_text: bool = False,
 ) -> Emitted:
     """The C module; written to `folder` if one is given, with the controller's unit.
 
@@ -107,6 +108,7 @@ def generate(
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
         control: what of the controller's unit is emitted; where a folder is given, all.
+        structured_text: add function blocks in Structured Text, of a robot without loops.
 
     Raises:
         ModelerError: the folder holds files of these names that no earlier `generate` wrote, or
@@ -118,7 +120,9 @@ def generate(
 
     if control is None and folder is not None:
         control = Control()
-    emitted = emit(derivation.model, derivation.base, fitted, precision, cuda, control)
+    emitted = emit(
+        derivation.model, derivation.base, fitted, precision, cuda, control, structured_text
+    )
     emitted = dataclasses.replace(emitted, log=derivation.robot.log_words)
     if folder is not None:
         write_emitted(emitted, Path(folder), force)

@@ -20,14 +20,20 @@ from modeler.core.result import Presented
 
 FORMAT = 2
 
-RUNTIME = ("modeler_real.h", "modeler_runtime.h", "modeler_sincos.h", "modeler_batch.c")
+RUNTIME = ("modeler_real.h", "modeler_runtime.h", "modeler_sincos.h")
 """Hand-written C files that stand beside every emitted module."""
 
+BATCH_RUNTIME = ("modeler_batch.h", "modeler_batch.c")
+"""Loops over samples, which a controller has no use for."""
+
 CLOSURE_RUNTIME = (
-    "modeler_kept.h", "modeler_closure.h", "modeler_workspace.h", "modeler_closure.c",
-    "modeler_closure_factor.c", "modeler_closure_batch.c",
+    "modeler_status.h", "modeler_kept.h", "modeler_closure.h", "modeler_workspace.h",
+    "modeler_closure.c", "modeler_closure_factor.c", "modeler_closure_motion.c",
 )  # fmt: skip
 """Those that stand beside a robot with loops."""
+
+CONTROL_RUNTIME = ("modeler_status.h", "modeler_solve.h")
+"""Those that stand beside the controller's unit."""
 
 CUDA_THREADS = 128
 """Threads of a block of the emitted kernels."""
@@ -200,6 +206,15 @@ class ControlSpec(Brief):
 
 
 @dataclass(frozen=True)
+class OriginSpec:
+    """What wrote a folder; no part of any signature."""
+
+    interface: int  # of the C: see `C_INTERFACE`
+    generator: str  # "modeler 0.1.0"
+    license: str  # SPDX identifier
+
+
+@dataclass(frozen=True)
 class ModuleSpec(Brief):
     """The manifest of one robot."""
 
@@ -220,6 +235,7 @@ class ModuleSpec(Brief):
     precision: Precision = "double"  # of all numbers of the C
     inertial_uncertainty: float | None = None  # of every body, over its scale
     control: ControlSpec | None = None  # where `modeler generate` wrote it
+    origin: OriginSpec | None = None  # in the file alone
 
     @property
     def every_function(self) -> tuple[FunctionSpec, ...]:
@@ -241,16 +257,25 @@ class ModuleSpec(Brief):
         )
 
     @property
-    def sources(self) -> tuple[str, ...]:
-        """Names of the C files that the library is compiled from, headers included."""
+    def controller_sources(self) -> tuple[str, ...]:
+        """Names of the C files of the controller's library, headers included."""
         units = [".h", ".c", "_regressor.c", "_base_regressor.c"]
         units += ["_fitted.h", "_fitted.c"] if self.fitted is not None else []
-        units += ["_control.h", "_control.c"] if self.control is not None else []
+        for unit in ("_control", "_joints") if self.control is not None else ():
+            units += [f"{unit}.h", f"{unit}.c"]
         runtime = list(RUNTIME)
         if self.closure is not None:
             units += ["_tree.h", "_loops.c"]
             runtime += CLOSURE_RUNTIME
+        if self.control is not None:
+            runtime += [name for name in CONTROL_RUNTIME if name not in runtime]
         return (*(self.prefix + unit for unit in units), *runtime)
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """Names of the C files that Python compiles: those, and the loops over samples."""
+        units = (f"{self.prefix}_batch.h", f"{self.prefix}_batch.c")
+        return (*self.controller_sources, *units, *BATCH_RUNTIME)
 
     @property
     def tile_sources(self) -> tuple[str, ...]:
@@ -267,7 +292,7 @@ class ModuleSpec(Brief):
     @cached_property
     def _text(self) -> str:
         entries = dataclasses.asdict(self)
-        for name in ("fitted", "control"):
+        for name in ("fitted", "control", "origin"):
             if entries[name] is None:
                 del entries[name]
         if self.precision == "double":
@@ -288,9 +313,9 @@ class ModuleSpec(Brief):
         controller's unit, and with it of the whole C text but these: two robots of the same
         signature have the same C. It is the same on every machine.
         """
-        if self.fitted is None and self.control is None:
+        if self.fitted is None and self.control is None and self.origin is None:
             return text_digest(self.to_json())
-        return dataclasses.replace(self, fitted=None, control=None).signature()
+        return dataclasses.replace(self, fitted=None, control=None, origin=None).signature()
 
 
 def text_digest(text: str) -> str:

@@ -36,6 +36,15 @@ from .field import (
     value_modulo as value_modulo,
     with_square as with_square,
 )
+from .frame_motion import (
+    BodyFrame as BodyFrame,
+    body_frame as body_frame,
+    frame_pose as frame_pose,
+    jacobian as jacobian,
+    jacobian_dot_qd as jacobian_dot_qd,
+    known_frames as known_frames,
+    twist as twist,
+)
 from .geometry import (
     Geometry as Geometry,
     GeometryRow as GeometryRow,
@@ -70,7 +79,22 @@ from .kinematics import (
 )
 from .labels import Label as Label
 from .lagrange import lagrange_torque as lagrange_torque
-from .model import SymbolicModel as SymbolicModel, along as along, effect_entries as effect_entries
+from .model import (
+    Entries as Entries,
+    SymbolicModel as SymbolicModel,
+    along as along,
+    effect_entries as effect_entries,
+)
+from .momenta import (
+    coriolis_matrix as coriolis_matrix,
+    coriolis_transpose as coriolis_transpose,
+    energy_regressor as energy_regressor,
+    momentum as momentum,
+    momentum_regressor as momentum_regressor,
+    momentum_rest_regressor as momentum_rest_regressor,
+    power_regressor as power_regressor,
+    slotine_li_regressor as slotine_li_regressor,
+)
 from .numeric_rank import random_states as random_states, regressor_values as regressor_values
 from .precise import (
     Ball as Ball,

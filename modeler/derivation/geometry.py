@@ -12,7 +12,7 @@ import sympy
 from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
-from modeler.robot import Joint, Robot, written_cell
+from modeler.robot import Joint, LinkFrame, Robot, written_cell
 
 # Cosine and sine of constant angles, exactly, with as few different ones as possible.
 #
@@ -301,6 +301,20 @@ def exact_geometry(robot: Robot, at_nominal: bool = False) -> Geometry:
         robot, rows, (gravity[0], gravity[1], gravity[2]),
         {name: numbers[name] for name in numbers if name in used}, forms,
     )  # fmt: skip
+
+
+def placement(
+    robot: Robot, frame: LinkFrame
+) -> tuple[tuple[sympy.Expr, ...], tuple[sympy.Expr, ...]]:
+    """Position, m, and angles roll, pitch, yaw of a frame on its row, exact.
+
+    Raises:
+        DerivationError: a cell is not finite.
+    """
+    numbers = robot.symbol_values()
+    cells = _Cells(_symbols(robot, numbers, False), numbers, partial(written_cell, robot))
+    position = tuple(folded(cell, cells.symbols) for cell in frame.position)
+    return position, tuple(cells.snapped(folded(cell, cells.symbols)) for cell in frame.angles)
 
 
 def _moved(row: GeometryRow, constants: Mapping[str, sympy.Expr], cells: "_Cells") -> GeometryRow:

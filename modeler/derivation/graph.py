@@ -16,6 +16,7 @@ compared with other derivations anyway.)
 
 import hashlib
 import operator
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -141,6 +142,7 @@ class Graph:
         nodes: the operations.
         labels: {node: what it is}, of those that were named; see `named`.
         links: {name: the row}, for those who write of them.
+        called: {quantity: another}, while speeds are put in the place of accelerations.
     """
 
     def __init__(self) -> None:
@@ -152,6 +154,7 @@ class Graph:
         self._plans: dict[tuple[int, ...], Plan] = {}
         self.labels: dict[int, Label] = {}
         self.links: dict[str, Link] = {}
+        self.called: Mapping[str, str] = {}
 
     def symbol(self, name: str, static: bool = False) -> "Expr":
         """The input of that name; `static` for geometric symbols."""
@@ -455,9 +458,17 @@ def named(
         if isinstance(value, Expr) and abs(value.ref) > 1:
             known = value.graph.labels.get(abs(value.ref))
             if known is None or (known.step and not step):
-                label = Label(quantity, link, component, step, of, value.ref < 0)
+                letter = value.graph.called.get(quantity, quantity)
+                label = Label(letter, link, component, step, of, value.ref < 0)
                 value.graph.labels[abs(value.ref)] = label
     return values
+
+
+def named_matrix(quantity: str, link: str, matrix: list[Any], step: str = "") -> list[Any]:
+    """The same of the rows of a 3 x 3 matrix."""
+    for line, axis in zip(matrix, "xyz", strict=True):
+        named(quantity, link, line, step, components=[axis + other for other in "xyz"])
+    return matrix
 
 
 def combination(graph: Graph, form: Mapping[int, Fraction], values: Any) -> Expr:
@@ -572,13 +583,20 @@ _EVERYWHERE = {"add", "mul", "div", "sin", "cos", "sqrt", "exp", "tan", "tanh"}
 """Operations that have a derivative wherever they have a value, for our purposes."""
 
 
-def derivatives(values: Sequence[Expr], direction: Mapping[str, Expr]) -> list[Expr]:
+def derivatives(
+    values: Sequence[Expr], direction: Mapping[str, Expr], kinks: bool = False
+) -> list[Expr]:
     """d values / ds where each symbol of `direction` moves with that speed; others stand still.
 
     With speeds 1 and 0 these are partial derivatives; with dq/dt they are time derivatives.
 
+    Args:
+        values: of one graph.
+        direction: {symbol: speed}.
+        kinks: True to take 0 for the derivative of a sign, and the sign for that of |x|.
+
     Raises:
-        DerivationError: a function that has no derivative everywhere (sign, abs).
+        DerivationError: a function that has no derivative everywhere (sign, abs), without `kinks`.
     """
     if not values:
         return []
@@ -591,14 +609,26 @@ def derivatives(values: Sequence[Expr], direction: Mapping[str, Expr]) -> list[E
             found[index] = direction.get(node.args[0], zero)
         elif node.static:
             found[index] = zero
-        elif node.op in _EVERYWHERE and not any(found[abs(ref)].ref for ref in node.args):
+        elif (kinks or node.op in _EVERYWHERE) and not any(
+            found[abs(ref)].ref for ref in node.args
+        ):
             found[index] = zero  # most nodes depend on few symbols
         else:
-            found[index] = _derivative(index, node, values[0], found)
+            found[index] = _derivative(index, node, values[0], found, kinks)
+            _name_derivative(graph, index, found[index], direction)
     return [found[abs(v.ref)] if v.ref >= 0 else -found[-v.ref] for v in values]
 
 
-def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr]) -> Expr:
+def _name_derivative(graph: Graph, index: int, slope: Expr, direction: Mapping[str, Expr]) -> None:
+    """Names it by what is derived, and by the one variable that moves, or the time."""
+    if label := graph.labels.get(index):
+        by = re.sub(r"\W", "", min(direction)) if len(direction) == 1 else "t"
+        value = [-slope if label.minus else slope]
+        step, of = f"{label.step}d", label.of + by
+        named(label.quantity, label.link, value, step, of, [label.component])
+
+
+def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr], kinks: bool) -> Expr:
     graph = like.graph
     args = [Expr(graph, ref) for ref in node.args]
     slopes = [found[abs(a.ref)] if a.ref >= 0 else -found[-a.ref] for a in args]
@@ -609,7 +639,7 @@ def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr]) -
     value = Expr(graph, index)
     if node.op == "div":
         return (slopes[0] - value * slopes[1]) / args[1]
-    rules = {
+    rules: dict[str, Callable[[Expr], Expr]] = {
         "sin": lambda x: graph.call("cos", x),
         "cos": lambda x: -graph.call("sin", x),
         "sqrt": lambda x: 1 / (2 * value),
@@ -617,6 +647,12 @@ def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr]) -
         "tan": lambda x: 1 + value * value,
         "tanh": lambda x: 1 - value * value,
     }
-    if node.op not in _EVERYWHERE:
+    if kinks:
+        rules |= {
+            "sign": lambda x: graph.constant(0),
+            "abs": lambda x: graph.call("sign", x),
+            "pow": lambda x: args[1] * graph.power(x, args[1] - 1),  # of constant exponents
+        }
+    if node.op not in rules:
         raise DerivationError(f"{node.op} has no derivative everywhere")
     return rules[node.op](args[0]) * slopes[0]

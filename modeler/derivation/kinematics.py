@@ -4,7 +4,7 @@ Everything is expressed in the link's own frame. Rotations are applied as their 
 rotations, so that right angles cost nothing and general ones eight multiplications.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -13,7 +13,7 @@ import sympy
 
 from modeler.core.brief import Brief
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin
-from modeler.derivation.graph import Algebra, Scalar, Vector, named
+from modeler.derivation.graph import Algebra, Scalar, Vector, named, named_matrix
 
 
 def cross(a: Vector, b: Vector) -> Vector:
@@ -56,6 +56,11 @@ class Pose(Brief):
         """R v: from frame j to the antecedent frame."""
         return _back_z(self.gamma, _back_x(self.alpha, _back_z(self.theta, v)))
 
+    def turned(self, J: Sequence[Vector]) -> list[Vector]:
+        """R J R^T, symmetric as J: from frame j to the antecedent frame."""
+        half = [self.to_antecedent(line) for line in J]
+        return [self.to_antecedent([half[0][i], half[1][i], half[2][i]]) for i in range(3)]
+
 
 def _turn_z(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
     c, s = angle
@@ -79,8 +84,8 @@ def _back_x(angle: tuple[Scalar, Scalar], v: Vector) -> Vector:
 
 def pose(row: GeometryRow, algebra: Algebra) -> Pose:
     """Pose of frame j in its antecedent, T = Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
-    gamma = _static_rotation(row.gamma, algebra)
-    alpha = _static_rotation(row.alpha, algebra)
+    gamma = static_rotation(row.gamma, algebra)
+    alpha = static_rotation(row.alpha, algebra)
     d, b = algebra.static(row.d), algebra.static(row.b)
     prismatic = row.index is not None and not row.joint.angular
     r = algebra.variable(row) if prismatic else algebra.static(row.r)
@@ -89,7 +94,8 @@ def pose(row: GeometryRow, algebra: Algebra) -> Pose:
     return Pose(gamma, alpha, algebra.cos_sin(row), p)
 
 
-def _static_rotation(angle: sympy.Expr, algebra: Algebra) -> tuple[Scalar, Scalar]:
+def static_rotation(angle: sympy.Expr, algebra: Algebra) -> tuple[Scalar, Scalar]:
+    """Cosine and sine of a constant angle."""
     c, s = cos_sin(angle)
     return algebra.static(c), algebra.static(s)
 
@@ -206,7 +212,7 @@ def poses_from(
         root: a row that all of `rows` descend from, or None for the base.
         rows: places in the table.
     """
-    found: dict[int | None, AxesOrigin] = {root: _still(algebra)}
+    found: dict[int | None, AxesOrigin] = {root: unit_axes(algebra)}
     needed = {k for row in rows for k in geometry.ancestors(row)}
     for k, (row, frame) in enumerate(zip(geometry.rows, frames, strict=True)):
         if k in needed and row.parent in found and k != root:
@@ -214,7 +220,8 @@ def poses_from(
     return found
 
 
-def _still(algebra: Algebra) -> AxesOrigin:
+def unit_axes(algebra: Algebra) -> AxesOrigin:
+    """Axes and origin of a frame in itself."""
     zero, one = algebra.static(sympy.Integer(0)), algebra.static(sympy.Integer(1))
     return [[one, zero, zero], [zero, one, zero], [zero, zero, one]], [zero] * 3
 
@@ -224,13 +231,13 @@ def _carried(parent: AxesOrigin, frame: Pose) -> AxesOrigin:
     (x, y, z), origin = parent
     for axis, length in zip((x, y, z), frame.p, strict=True):
         origin = plus(origin, times(length, axis))
-    x, y = _turned(frame.gamma, x, y)
-    y, z = _turned(frame.alpha, y, z)
-    x, y = _turned(frame.theta, x, y)
+    x, y = turned_axes(frame.gamma, x, y)
+    y, z = turned_axes(frame.alpha, y, z)
+    x, y = turned_axes(frame.theta, x, y)
     return [x, y, z], origin
 
 
-def _turned(angle: tuple[Scalar, Scalar], a: Vector, b: Vector) -> tuple[Vector, Vector]:
+def turned_axes(angle: tuple[Scalar, Scalar], a: Vector, b: Vector) -> tuple[Vector, Vector]:
     """Two axes turned in their plane, a towards b."""
     c, s = angle
     return plus(times(c, a), times(s, b)), plus(times(c, b), times(-s, a))
@@ -250,24 +257,35 @@ class Motion:
         w: angular velocity, rad/s.
         wd: angular acceleration, rad/s2.
         vd: acceleration of the origin minus gravity, m/s2.
+        ww: y z, x z and x y of w, rad2/s2.
         U: [wd x] + [w x][w x], rows of three.
         link: its name.
+        half: half the angular velocity of the second speeds; three times None without.
     """
 
     w: Vector
     wd: Vector
     vd: Vector
+    ww: Vector
     U: list[Vector]
+    half: Vector
     link: str = ""
 
 
 @dataclass(frozen=True)
 class MotionState:
-    """Joint speeds and accelerations, gravity in frame 0; zero where they are left out."""
+    """Joint speeds and accelerations, gravity in frame 0; zero where they are left out.
+
+    Attributes:
+        v: second speeds: every product of two speeds is then the mean of its two ways to take one
+            of `qd` and one of `v`. So torques are those of M qdd + C(q, qd) v + g, where C is the
+            Coriolis matrix of Christoffel symbols, which C(q, qd) v = C(q, v) qd defines.
+    """
 
     qd: Sequence[Scalar]
     qdd: Sequence[Scalar]
     gravity: Vector
+    v: Sequence[Scalar] | None = None
 
 
 def motions(
@@ -275,7 +293,9 @@ def motions(
 ) -> list[Motion]:
     """Motion of every row's link."""
     zero = algebra.static(sympy.Integer(0))
-    base = Motion([zero] * 3, [zero] * 3, [-g for g in state.gravity], [[zero] * 3] * 3)
+    none = [zero] * 3
+    half = [None] * 3 if state.v is None else none
+    base = Motion(none, none, [-g for g in state.gravity], none, [none] * 3, half)
     found: list[Motion] = []
     for row, frame in zip(geometry.rows, frames, strict=True):
         found.append(_next(base if row.parent is None else found[row.parent], row, frame, state))
@@ -285,35 +305,38 @@ def motions(
 def _next(a: Motion, row: GeometryRow, frame: Pose, state: MotionState) -> Motion:
     link = row.joint.name
     w, wd = named("w", link, frame.to_link(a.w), "b"), named("wd", link, frame.to_link(a.wd), "b")
+    half = a.half if state.v is None else frame.to_link(a.half)
     vd = named("vd", link, plus(a.vd, [dot(line, frame.p) for line in a.U]), "a")
     vd = named("vd", link, frame.to_link(vd), "b")
     if row.index is not None:
         qd, qdd = state.qd[row.index] * row.rate, state.qdd[row.index] * row.rate
+        v = None if state.v is None else state.v[row.index] * row.rate / 2
+        x, y = _product(w[1], qd, half[1], v), _product(w[0], qd, half[0], v)
         if row.joint.angular:
-            wd = [wd[0] + w[1] * qd, wd[1] - w[0] * qd, wd[2] + qdd]
+            wd = [wd[0] + x, wd[1] - y, wd[2] + qdd]
             w = [w[0], w[1], w[2] + qd]
+            half = half if v is None else [half[0], half[1], half[2] + v]
         else:
-            vd = [vd[0] + 2 * (w[1] * qd), vd[1] - 2 * (w[0] * qd), vd[2] + qdd]
+            vd = [vd[0] + 2 * x, vd[1] - 2 * y, vd[2] + qdd]
     named("w", link, w), named("wd", link, wd), named("vd", link, vd)
-    return Motion(w, wd, vd, _U(w, wd, link), link)
+    return _motion(w, wd, vd, half, link)
 
 
-def _U(w: Vector, wd: Vector, link: str) -> list[Vector]:
-    xx, yy, zz = w[0] * w[0], w[1] * w[1], w[2] * w[2]
-    xy, xz, yz = w[0] * w[1], w[0] * w[2], w[1] * w[2]
+def _product(a: Scalar, b: Scalar, half_a: Scalar, half_b: Scalar) -> Scalar:
+    """a b of the speeds; with halves of second speeds, the mean of the two mixed products."""
+    return a * b if half_a is None else a * half_b + half_a * b
+
+
+def _motion(w: Vector, wd: Vector, vd: Vector, half: Vector, link: str) -> Motion:
+    xx, yy, zz = (_product(w[i], w[i], half[i], half[i]) for i in range(3))
+    xy, xz, yz = (_product(w[i], w[j], half[i], half[j]) for i, j in ((0, 1), (0, 2), (1, 2)))
     named("ww", link, (xx, yy, zz, xy, xz, yz), components=("xx", "yy", "zz", "xy", "xz", "yz"))
     U = [
         [-(yy + zz), xy - wd[2], xz + wd[1]],
         [xy + wd[2], -(xx + zz), yz - wd[0]],
         [xz - wd[1], yz + wd[0], -(xx + yy)],
     ]
-    return _named_matrix("U", link, U)
-
-
-def _named_matrix(quantity: str, link: str, matrix: list[Vector], step: str = "") -> list[Vector]:
-    for line, axis in zip(matrix, "xyz", strict=True):
-        named(quantity, link, line, step, components=[axis + other for other in "xyz"])
-    return matrix
+    return Motion(w, wd, vd, [yz, xz, xy], named_matrix("U", link, U), half, link)
 
 
 def wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
@@ -329,10 +352,10 @@ def wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
 
 
 def _wrench_columns(motion: Motion) -> dict[str, tuple[Vector, Vector]]:
-    w, wd, vd, U = motion.w, motion.wd, motion.vd, motion.U
+    wd, vd, U = motion.wd, motion.vd, motion.U
     zero = 0 * vd[0]
     none = [zero, zero, zero]
-    yz, xz, xy = w[1] * w[2], w[0] * w[2], w[0] * w[1]
+    yz, xz, xy = motion.ww
     return {
         "XX": (none, [wd[0], xz, -xy]),
         "XY": (none, [-U[2][0], U[2][1], U[0][0] - U[1][1]]),
@@ -371,26 +394,44 @@ def inverse_dynamics(
     Returns:
         (joints,) torques in N m, forces in N.
     """
-    count = len(geometry.rows)
-    forces: list[Vector] = [[zero] * 3 for _ in range(count)]
-    moments: list[Vector] = [[zero] * 3 for _ in range(count)]
     tau = [zero] * geometry.joints
-    for k in reversed(range(count)):
+    for k, f, n in wrenches(geometry, frames, lambda k: link_wrench(moved[k], parameters[k], zero)):
         row = geometry.rows[k]
-        f, n = link_wrench(moved[k], parameters[k], zero)
-        link = row.joint.name
-        forces[k] = named("fc", link, plus(forces[k], f))
-        moments[k] = named("nc", link, plus(moments[k], n))
         if row.index is not None:
-            along = moments[k] if row.joint.angular else forces[k]
-            tau[row.index] = along[2] * row.rate
-        if row.parent is not None:
-            f = named("fc", link, frames[k].to_antecedent(forces[k]), "a")
-            n = plus(frames[k].to_antecedent(moments[k]), cross(frames[k].p, f))
-            named("nc", link, n, "a")
-            forces[row.parent] = plus(forces[row.parent], f)
-            moments[row.parent] = plus(moments[row.parent], n)
+            tau[row.index] = (n if row.joint.angular else f)[2] * row.rate
     return tau
+
+
+def wrenches(
+    geometry: Geometry,
+    frames: Sequence[Pose],
+    own: Callable[[int], tuple[Vector, Vector]],
+    quantities: tuple[str, str] = ("fc", "nc"),
+) -> Iterator[tuple[int, Vector, Vector]]:
+    """(row, force, moment at its origin) of every link with all that it carries, the last first.
+
+    Args:
+        geometry: the table.
+        frames: poses of the rows.
+        own: those of the row's link alone, in its frame.
+        quantities: what the two are called.
+    """
+    total: dict[int, tuple[Vector, Vector]] = {}
+    for k in reversed(range(len(geometry.rows))):
+        f, n = own(k)
+        if k in total:
+            f, n = plus(total[k][0], f), plus(total[k][1], n)
+        for quantity, vector in zip(quantities, (f, n), strict=True):
+            named(quantity, geometry.rows[k].joint.name, vector)
+        yield k, f, n
+        parent = geometry.rows[k].parent
+        if parent is not None:
+            f = frames[k].to_antecedent(f)
+            n = plus(frames[k].to_antecedent(n), cross(frames[k].p, f))
+            for quantity, vector in zip(quantities, (f, n), strict=True):
+                named(quantity, geometry.rows[k].joint.name, vector, "a")
+            before = total.get(parent)
+            total[parent] = (plus(before[0], f), plus(before[1], n)) if before else (f, n)
 
 
 def link_wrench(
@@ -427,17 +468,16 @@ class Composite:
         J += R J R^T + 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T) with S = R MS.
         """
         p, S = frame.p, named("MSc", other.link, frame.to_antecedent(other.MS), "a")
-        half = [frame.to_antecedent(line) for line in other.J]
-        turned = [frame.to_antecedent([half[0][i], half[1][i], half[2][i]]) for i in range(3)]
-        _named_matrix("Jc", other.link, turned, "a")
+        turned = frame.turned(other.J)
+        named_matrix("Jc", other.link, turned, "a")
         for i, row in enumerate("xyz"):
             for j, column in enumerate("xyz"):
-                both, shift = self.J[i][j] + turned[i][j], _steiner(p, S, other.M, i, j)
+                both, shift = self.J[i][j] + turned[i][j], steiner(p, S, other.M, i, j)
                 named("Js", other.link, [shift], components=[row + column])
                 self.J[i][j] = both + shift
         self.MS = plus(self.MS, plus(S, times(other.M, p)))
         self.M = self.M + other.M
-        _named_matrix("Jc", self.link, self.J)
+        named_matrix("Jc", self.link, self.J)
         named("MSc", self.link, self.MS)
         named("Mc", self.link, [self.M], components=[""])
 
@@ -449,7 +489,8 @@ class Composite:
         return [zero, zero, self.M * row.rate], [y * row.rate, -x * row.rate, zero]
 
 
-def _steiner(p: Vector, S: Vector, M: Scalar, i: int, j: int) -> Scalar:
+def steiner(p: Vector, S: Vector, M: Scalar, i: int, j: int) -> Scalar:
+    """Entry i, j of 2 (p.S) 1 - p S^T - S p^T + M (p.p 1 - p p^T)."""
     total = -(p[i] * S[j] + S[i] * p[j] + M * (p[i] * p[j]))
     if i == j:
         for k in range(3):

@@ -1,7 +1,7 @@
 """The symbolic model: tau = phi chi, column by column, and what else is computed from it."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -44,6 +44,8 @@ _REFERRED = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
 
 _SMOOTH = ("rigid_body", "rotor_inertia", "viscous")
 
+_OF_SPEEDS = {"wd": "w", "vd": "v", "U": "W", "f": "l", "n": "k", "fc": "lc", "nc": "kc"}
+
 Entries = Mapping[tuple[int, int], Expr]
 """Structural nonzeros of a regressor: (joint, column) -> expression."""
 
@@ -85,7 +87,7 @@ class SymbolicModel(Brief):
         return poses(self.geometry, self.algebra)
 
     def inputs(self, kind: str) -> list[Expr]:
-        """The symbols of `kind` "q", "qd" or "qdd", of the free variables."""
+        """The symbols of `kind` "q", "qd", "qdd", "v" or "a", of the free variables."""
         return [self.graph.symbol(f"{kind}[{k}]") for k in range(self.geometry.coordinates)]
 
     @cached_property
@@ -97,7 +99,7 @@ class SymbolicModel(Brief):
         """
         return closure_of(self.geometry, self.graph, self.frames, self.algebra)
 
-    def _free_efforts(self, rows: Sequence[Expr]) -> list[Expr]:
+    def free_efforts(self, rows: Sequence[Expr]) -> list[Expr]:
         """Torques along the free variables from those of the moving rows: F^T tau."""
         found = [self.graph.constant(0)] * self.geometry.coordinates
         for form, torque in zip(self.geometry.forms, rows, strict=True):
@@ -106,17 +108,27 @@ class SymbolicModel(Brief):
         return found
 
     def link_motions(
-        self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: bool = True
-    ) -> list[Motion]:
-        """Motion of every row's link for these speeds and accelerations of the free variables."""
+        self, qd: Sequence[Expr], qdd: Sequence[Expr], gravity: bool = True,
+        v: Sequence[Expr] | None = None,
+    ) -> list[Motion]:  # fmt: skip
+        """Motion of every row's link for these speeds and accelerations of the free variables.
+
+        Args:
+            qd: speeds.
+            qdd: accelerations.
+            gravity: False without gravity.
+            v: second speeds; see `MotionState`.
+        """
         zero = self.graph.constant(0)
         down = [self.algebra.static(x) if gravity else zero for x in self.geometry.gravity]
-        speeds, rates = (
-            [combination(self.graph, form, free) for form in self.geometry.forms]
-            for free in (qd, qdd)
+        state = MotionState(
+            self.of_rows(qd), self.of_rows(qdd), down, None if v is None else self.of_rows(v)
         )
-        state = MotionState(speeds, rates, down)
         return motions(self.geometry, self.frames, state, self.algebra)
+
+    def of_rows(self, free: Sequence[Expr]) -> list[Expr]:
+        """Speeds of the moving rows from those of the free variables: F u."""
+        return [combination(self.graph, form, free) for form in self.geometry.forms]
 
     @cached_property
     def regressor(self) -> Entries:
@@ -126,23 +138,48 @@ class SymbolicModel(Brief):
         projected on every joint below; effect columns from their definition.
         """
         moved = self.link_motions(self.inputs("qd"), self.inputs("qdd"))
+        found = self.entries(self.projected(moved), partial(effect_entries, self))
+        self._labels.update(self.graph.labels)
+        return found
+
+    def projected(self, moved: Sequence[Motion]) -> Callable[[LinkColumn], dict[int, Expr]]:
+        """{free variable: torque along it} per unit of a link's parameter, in this motion."""
         carried = self.carried
-        wrenches = [wrench_columns(motion) for motion in moved]
+        columns = [wrench_columns(motion) for motion in moved]
+
+        def found(part: LinkColumn) -> dict[int, Expr]:
+            force, moment = columns[part.row][part.prefix]
+            return {k: project(screw, force, moment) for k, screw in carried[part.row].items()}
+
+        return found
+
+    def entries(
+        self, link: Callable[[LinkColumn], Mapping[int, Expr]],
+        shaft: Callable[[ShaftColumn], Mapping[int, Expr]],
+    ) -> Entries:  # fmt: skip
+        """Structural nonzeros over all standard columns, by row of what the parts give.
+
+        Args:
+            link: {row: value} of a link's parameter.
+            shaft: of an effect's parameter.
+        """
         entries: dict[tuple[int, int], Expr] = {}
         for place, column in enumerate(self.columns):
             for part in column.parts:
-                if isinstance(part, ShaftColumn):
-                    values = effect_entries(self, part)
-                else:
-                    force, moment = wrenches[part.row][part.prefix]
-                    values = {
-                        k: project(screw, force, moment) for k, screw in carried[part.row].items()
-                    }
+                values = shaft(part) if isinstance(part, ShaftColumn) else link(part)
                 for k, value in values.items():
                     value = entries.get((k, place), self.graph.constant(0)) + value
                     entries[k, place] = value
-        self._labels.update(self.graph.labels)
         return {at: value for at, value in entries.items() if not value.is_zero}
+
+    @contextmanager
+    def speeds_for_accelerations(self) -> Iterator[None]:
+        """While recursions are given speeds as accelerations: labels say what comes of it."""
+        self.graph.called = _OF_SPEEDS
+        try:
+            yield
+        finally:
+            self.graph.called = {}
 
     @cached_property
     def _labels(self) -> dict[int, Label]:
@@ -211,7 +248,7 @@ class SymbolicModel(Brief):
             moved = self.link_motions(qd, qdd, gravity)
             rows = self.link_parameters(parameters)
             torques = inverse_dynamics(self.geometry, self.frames, moved, rows, zero)
-            tau = self._free_efforts(torques)
+            tau = self.free_efforts(torques)
         for place in parameters if effects else ():
             for part in self.columns[place].parts:
                 if isinstance(part, ShaftColumn):
@@ -233,15 +270,20 @@ class SymbolicModel(Brief):
         zero = self.graph.constant(0)
         rows = self.link_parameters(parameters)
         tree = inertia_matrix(self.geometry, self.frames, rows, zero)
-        half = [self._free_efforts(line) for line in tree]
-        matrix = [self._free_efforts([line[k] for line in half]) for k in range(len(half[0]))]
+        half = [self.free_efforts(line) for line in tree]
+        matrix = [self.free_efforts([line[k] for line in half]) for k in range(len(half[0]))]
+        for i, j, value in self.rotors(parameters):
+            matrix[i][j] = matrix[i][j] + value
+        return matrix
+
+    def rotors(self, parameters: Mapping[int, Expr]) -> Iterator[tuple[int, int, Expr]]:
+        """(row, column, value) of what rotor inertias add to M."""
         for place, value in parameters.items():
             for part in self.columns[place].parts:
                 if isinstance(part, ShaftColumn) and part.kind == "rotor_inertia":
                     for i, ci in part.shaft.items():
                         for j, cj in part.shaft.items():
-                            matrix[i][j] = matrix[i][j] + value * (ci * cj)
-        return matrix
+                            yield i, j, value * (ci * cj)
 
     def forward_kinematics(self) -> list[list[list[Expr]]]:
         """[R | p], 3 x 4, of every moving row's frame in frame 0, in table order.
@@ -259,21 +301,32 @@ class SymbolicModel(Brief):
 # Columns of effects as expressions of the graph, from the equations that define them.
 
 
-def effect_entries(model: SymbolicModel, column: ShaftColumn) -> dict[int, Expr]:
-    """{free variable: torque along it per unit of the column's parameter}."""
+_MEASURED = ("q", "qd", "qdd")
+
+
+def effect_entries(
+    model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED
+) -> dict[int, Expr]:
+    """{free variable: torque along it per unit of the column's parameter}.
+
+    Args:
+        model: the robot's.
+        column: of an effect.
+        motion: names of the inputs that are its position, speed and acceleration.
+    """
     if column.acts is Acts.POSITION:
         return _moved(model, column)
-    torque = _equation(model, column)
+    torque = _equation(model, column, motion)
     return {k: torque * coefficient for k, coefficient in column.shaft.items()}
 
 
-def _equation(model: SymbolicModel, column: ShaftColumn) -> Expr:
+def _equation(model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED) -> Expr:
     """The equation of the column on its shaft."""
     graph = model.graph
     values: dict[str, Expr] = {
         name: graph.constant(Fraction(repr(float(value)))) for name, value in column.shapes.items()
     }
-    for name, kind in (("q", "q"), ("v", "qd"), ("a", "qdd")):
+    for name, kind in zip(("q", "v", "a"), motion, strict=True):
         values[name] = along(model, column.shaft, kind)
     names = column.equation.names
     for name in ("load", "static", "torque"):

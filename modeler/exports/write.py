@@ -22,7 +22,7 @@ ENDINGS = {
 }  # fmt: skip
 """Formats by the ending of a file."""
 
-FORMATS = ("urdf", "mjcf", "sdf", "casadi", "fmu", "simulink")
+FORMATS = ("urdf", "mjcf", "sdf", "casadi", "fmu", "simulink", "ros2")
 """All that --to may name."""
 
 

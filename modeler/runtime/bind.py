@@ -114,14 +114,19 @@ class Library:
         """Call `function` for every sample.
 
         Args:
-            function: of the manifest, with 1 to 5 inputs.
+            function: of the manifest.
             inputs: C-contiguous float64; (n, length) per sample, or (length,) the same for all.
             out: C-contiguous float64, (n, ...).
             status: (n,) C int, of a function that returns one.
         """
         assert (status is not None) == function.status
-        assert len(inputs) == len(function.inputs) and len(inputs) in (1, 2, 3, 4, 5)
+        assert len(inputs) == len(function.inputs)
         runtime, arrays, result = self._runtime, self._own(inputs), self._place(out)
+        kind = "" if status is None else "status_"
+        if not hasattr(self._library, f"{runtime}_batch_{kind}{len(inputs)}"):
+            self._one_by_one(function, arrays, result, status)
+            self._give_back(result, out)
+            return
         given = self._ffi.new(f"{runtime}_input[]", len(arrays))
         for place, array in zip(given, arrays, strict=True):
             place.data = self._numbers(array)
@@ -130,11 +135,25 @@ class Library:
         step = out.size // samples if samples else 0
         pointer = self._ffi.cast("void *", getattr(self._library, function.name))
         arguments = [pointer, samples, given, self._numbers(result), step]
-        kind = ""
         if status is not None:
-            kind, arguments = "status_", [*arguments, self._integers(status)]
+            arguments.append(self._integers(status))
         getattr(self._library, f"{runtime}_batch_{kind}{len(inputs)}")(*arguments)
         self._give_back(result, out)
+
+    def _one_by_one(
+        self,
+        function: FunctionSpec,
+        arrays: Sequence[np.ndarray],
+        result: np.ndarray,
+        status: np.ndarray | None,
+    ) -> None:
+        """The same where the C has no loop over samples for such a function."""
+        call, rows = getattr(self._library, function.name), result.reshape(len(result), -1)
+        for sample, row in enumerate(rows):
+            own = (array[sample] if array.ndim == 2 else array for array in arrays)
+            told = call(*map(self._numbers, own), self._numbers(row))
+            if status is not None:
+                status[sample] = told
 
     def observation(
         self, states: Sequence[np.ndarray], W: np.ndarray, status: np.ndarray | None = None
@@ -219,7 +238,7 @@ def _declarations(spec: ModuleSpec) -> str:
     lines = [
         _INPUT,
         *(_BATCH.format(count, "") for count in range(1, 6)),
-        *(_BATCH.format(f"status_{count}", ", int *") for count in range(1, 5) if loops),
+        *(_BATCH.format(f"status_{count}", ", int *") for count in range(1, 6)),
         f"const char *{spec.prefix}_signature(void);",
         f"void {spec.prefix}_observation(size_t, const double *, const double *, const double *, "
         f"{signals}double *{', int *' if loops else ''});",
@@ -236,8 +255,8 @@ def _declarations(spec: ModuleSpec) -> str:
 
 _SOURCES = ("modeler_fused.c",)
 _HEADERS = (
-    "modeler_fused.h", "modeler_fused_body.h", "modeler_tile.h", "modeler_runtime.h",
-    "modeler_real.h",
+    "modeler_fused.h", "modeler_fused_body.h", "modeler_tile.h", "modeler_batch.h",
+    "modeler_runtime.h", "modeler_real.h",
 )  # fmt: skip
 _DECISIVE = ("CC", "CFLAGS", "PATH", "MODELER_CACHE", "XDG_CACHE_HOME", "HOME")
 """Variables that decide which library is meant, and where it is kept."""

@@ -11,7 +11,8 @@ import pytest
 
 from tests.repository import ROOT
 
-pytestmark = pytest.mark.slow  # a checker reads the whole package
+# A checker reads the whole package.
+pytestmark = [pytest.mark.slow, pytest.mark.in_turn("type checkers")]
 
 
 USES = """

@@ -10,6 +10,7 @@ from tests.bad_input.judge import disturbed, ending, faults
 from tests.bad_input.row import Result, Row, row as made
 from tests.bad_input.table import ROWS
 from tests.bad_input.yard import Ground, Yard
+from tests.turns import IN_TURN
 
 
 @pytest.fixture(scope="module")
@@ -29,9 +30,7 @@ def test_a_bad_input_ends_as_it_must(row, ground, tmp_path):
     assert not found, f"{row.command[:200]}\n" + "\n".join(found)
 
 
-@pytest.mark.parametrize(
-    ("count", "seed"), [(25, 90210), pytest.param(160, 7, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize(("count", "seed"), [(25, 90210), pytest.param(160, 7, marks=IN_TURN)])
 def test_mutants_of_every_format_end_in_one_line(count, seed, ground):
     """Always the same; `python -m tests.bad_input --mutants 500 --seed N` draws others."""
     assert run_mutants(count, seed, None, ground) == []

@@ -7,6 +7,7 @@ import pytest
 from pyarrow import parquet
 
 from modeler.cli import main
+from tests.turns import IN_TURN
 
 
 def run(capsys, *argv):
@@ -19,7 +20,7 @@ def run(capsys, *argv):
     ("options", "rank", "friction", "offset"),
     [
         ([], 90, 0, 0),
-        pytest.param(["--effects", "viscous,coulomb"], 106, 16, 0, marks=pytest.mark.slow),
+        pytest.param(["--effects", "viscous,coulomb"], 106, 16, 0, marks=IN_TURN),
         (["--effects", "viscous,coulomb,asymmetric_viscous,offset"], 122, 24, 8),
         (["--cut-loops"], 96, 0, 0),
     ],

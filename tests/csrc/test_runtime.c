@@ -1,5 +1,5 @@
 /* Tests of csrc/: loops over samples. Ends with the number of failed checks. */
-#include "modeler_runtime.h"
+#include "modeler_batch.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -24,7 +24,7 @@ from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from tests.measured_sets.sets import DATA
-from tests.turns import IN_TURN
+from tests.turns import IN_TURN, in_turn
 
 pytestmark = [
     pytest.mark.measured,
@@ -137,7 +137,7 @@ def test_held_out_errors_are_below_the_published_ones(results, robot):
     assert verdict.usable is (usable_for != "nothing")
 
 
-@pytest.mark.slow
+@in_turn("fits of measured logs")
 @pytest.mark.parametrize(
     ("robot", "log", "words"),
     [
@@ -155,7 +155,7 @@ def test_other_measured_logs_make_no_model(robot, log, words):
     assert line.startswith("not usable: ") and words in line
 
 
-@pytest.mark.slow
+@in_turn("fits of measured logs")
 def test_every_exception_is_still_needed(results):
     for (robot, joint), limit in EXCEPTIONS.items():
         found = 100 * results(robot)[1].joints[joint - 1].relative_error
@@ -195,7 +195,7 @@ def test_tx40_published_values(results):
         assert found[name] == pytest.approx(value, rel=0.1), name
 
 
-@pytest.mark.slow
+@in_turn("fits of measured logs")
 def test_the_readme_offsets_of_kinova_do_not_carry_over(results):
     """With the README's offsets on all joints, joint 1 is as bad as there: 28.8 % in the README."""
     run = RUNS["kinova_gen3"]

@@ -9,9 +9,10 @@ from modeler.cli import main
 from modeler.core.errors import TWO_STEPS
 from modeler.core.estimators import ABOUT
 from tests.modules import compiled
+from tests.turns import IN_TURN
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
-RESTING = [(1,), (0, 1, 2)]
+RESTING = [(1,), pytest.param((0, 1, 2), marks=pytest.mark.in_turn)]
 
 
 def written(place, rest, seed, load=0.0, kind="tau"):
@@ -70,7 +71,7 @@ OTHERS = [
 
 @pytest.mark.parametrize("rest", RESTING)
 @pytest.mark.parametrize(
-    "commands", [FITS, LOADED, OTHERS, pytest.param(BOTH, marks=pytest.mark.slow)],
+    "commands", [FITS, LOADED, OTHERS, pytest.param(BOTH, marks=IN_TURN)],
     ids=["fits", "loaded", "others", "currents"],
 )  # fmt: skip
 def test_a_result_or_one_clear_line(folder, rest, commands, capsys, monkeypatch):

@@ -10,7 +10,7 @@ from modeler.robot.read import read_robot
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.further_robots import FurtherRobots
 from tests.loops.chain import Chain, chain
-from tests.turns import IN_TURN
+from tests.turns import IN_TURN, in_turn
 
 
 def check(story: Chain) -> None:
@@ -34,7 +34,7 @@ def test_on_robots_from_elsewhere(
     check(chain(str(loop_robots_folder / f"{file}.toml"), tmp_path))
 
 
-@pytest.mark.slow
+@in_turn("logs of robots with loops")
 def test_joints_without_motor_that_swing(tmp_path: Path) -> None:
     """Their rows are 0 = W beta; a diagnosis must not be driven to beta = 0 by them."""
     check(chain("orthoglide-leg", tmp_path))
@@ -46,7 +46,7 @@ def logged(robot: str, folder: Path, name: str, seed: int, *hidden: str) -> str:
     return str(folder / name)
 
 
-@pytest.mark.slow
+@in_turn("logs of robots with loops")
 def test_what_is_found_and_cannot_be_added_is_left_out(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -66,7 +66,7 @@ def test_what_is_found_and_cannot_be_added_is_left_out(
     assert main(["compare", models[1], held_out]) == 0
 
 
-@pytest.mark.slow
+@in_turn("logs of robots with loops")
 def test_a_load_on_the_platform_is_called_a_load(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -28,6 +28,7 @@ from modeler.robot.read import robot_from_text
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.test_diagnose_effects import drift, motor_ripple, spring, stribeck
+from tests.turns import IN_TURN
 
 
 @cache
@@ -75,8 +76,7 @@ def series(panel: Panel, kind: type, label: str):
 
 
 @pytest.mark.parametrize(
-    "effect",
-    [pytest.param(e, marks=[pytest.mark.slow] * (e in ("drift", "presliding"))) for e in HIDDEN],
+    "effect", [pytest.param(e, marks=IN_TURN * (e in ("drift", "presliding"))) for e in HIDDEN]
 )
 def test_the_picture_convinces(case: Case, effect: str) -> None:
     torque, label = HIDDEN[effect]

@@ -16,6 +16,7 @@ from modeler.robot import robot_from_text
 from modeler.robot.edit import with_parameters
 from modeler.studio.project import FOLDERS, Project, ProjectLog, Step, Stretch, Workspace
 from tests.studio.window import Served, Window, served
+from tests.turns import in_turn
 
 FIT = ("fit", "robot.toml", "logs/monday.parquet", "--out", "models/1.json")
 ADD = ("add", "models/1.json", "load_friction", "logs/monday.parquet", "--joint", "2", "--holdout",
@@ -182,7 +183,7 @@ def test_the_robot_plays_along_and_its_joints_are_clicked(look) -> None:
     assert own.complaints == []
 
 
-@pytest.mark.slow
+@in_turn("screens of the studio")
 def test_days_models_and_drift_are_compared(look, studio) -> None:
     own = look()
     page = own.page
@@ -207,7 +208,7 @@ def test_days_models_and_drift_are_compared(look, studio) -> None:
     assert own.complaints == []
 
 
-@pytest.mark.slow
+@in_turn("screens of the studio")
 def test_what_drifted_is_named_with_its_picture(window: Callable[..., Window], tmp_path) -> None:
     """Two machines on five days; from the third on, joint 2 of r2 rubs by half as much again."""
     robot = load("two-link")

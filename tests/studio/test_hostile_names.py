@@ -24,7 +24,7 @@ FOLDER = f"{TAG} '+{RUN}+' {TEMPLATE}"
 CLOSING = f"</title></script><script>{RUN}</script>"
 
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.in_turn("screens of the studio")]
 
 
 @pytest.fixture(scope="module")

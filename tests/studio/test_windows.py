@@ -3,13 +3,12 @@
 import json
 from pathlib import Path
 
-import pytest
-
 from modeler.core.builtin import builtin_text
 from modeler.studio.motion_screen import changed_limits, excite
 from modeler.studio.project import Project, Step, Workspace
 from modeler.studio.studio import Hub, Studio
 from tests.studio.window import served
+from tests.turns import in_turn
 
 
 def test_a_second_window_reads_until_it_takes_over(tmp_path: Path, window) -> None:
@@ -30,7 +29,7 @@ def test_a_second_window_reads_until_it_takes_over(tmp_path: Path, window) -> No
         first.page.get_by_role("button", name="Take over").wait_for(state="hidden")
 
 
-@pytest.mark.slow
+@in_turn("screens of the studio")
 def test_a_second_studio_reads_and_follows_and_takes_over_when_the_first_ends(
     tmp_path: Path, window
 ) -> None:

@@ -26,7 +26,7 @@ int main(void)
 
 int main(void);
 
-static double q[N], qd[N], qdd[N], dq[N], dt[1], beta[SR400_TREE_BASE_PARAMETERS];
+static double q[N], qd[N], qdd[N], v[N], a[N], dq[N], dt[1], beta[SR400_TREE_BASE_PARAMETERS];
 static double chi[SR400_TREE_STANDARD_PARAMETERS], out[LARGEST];
 
 /* The debugger's service `what` of the machine. */
@@ -124,6 +124,8 @@ static void prepare(int state)
         q[i] = 0.1 * (double)(sign * (7 * state + 3 * i + 1));
         qd[i] = 0.3 * (double)(sign * (i + 1 + state));
         qdd[i] = 0.7 * (double)(state - i);
+        v[i] = 0.4 * (double)(sign * (state - i));
+        a[i] = 0.2 * (double)(state + i);
         dq[i] = 0.01 * (double)(sign * i);
     }
     dt[0] = 0.001;
@@ -361,7 +363,7 @@ static unsigned long count_forward_kinematics(void)
 int main(void)
 {
     say("/* Instructions of one call at most, counted in qemu:\n");
-    say(" * sr400_tree bdce896f9c70e246. */\n");
+    say(" * sr400_tree ca056ee18caf4cfe. */\n");
     say("#define SR400_TREE_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");

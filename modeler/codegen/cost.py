@@ -1,0 +1,165 @@
+"""What a call costs where it is compiled for: bytes of stack and of flash, instructions.
+
+The stack is the deepest way through the call graph that gcc writes (`-fcallgraph-info=su`), in which
+a call by address may reach every function whose address is taken; flash is what a linker keeps for
+one function alone (`--gc-sections`). Functions of the C library are named beside, not counted.
+"""
+
+import json
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from modeler.codegen.package import render
+from modeler.core.errors import BuildError, Machine
+from modeler.core.manifest import Emitted
+
+COST = "cost.json"
+"""Name of the file that holds the figures."""
+
+_CORTEX = ("-mthumb", "-mfloat-abi=hard", "-Os", "-ffp-contract=fast")
+_MACHINES: Mapping[Machine, tuple[str, tuple[str, ...]]] = {
+    "cortex-m7": ("arm-none-eabi-", ("-mcpu=cortex-m7", "-mfpu=fpv5-d16", *_CORTEX)),
+    "cortex-m4": ("arm-none-eabi-", ("-mcpu=cortex-m4", "-mfpu=fpv4-sp-d16", *_CORTEX)),
+    "host": ("", ("-O3", "-fno-tree-slp-vectorize", "-fno-math-errno", "-fno-trapping-math",
+                  "-ffp-contract=fast", "-fno-asynchronous-unwind-tables")),
+}  # fmt: skip
+"""Start of the names of the tools, and the flags of the folder's Makefile."""
+
+_SECTIONS = ("-std=c99", "-ffunction-sections", "-fdata-sections", "-fcallgraph-info=su")
+_NODE = re.compile(r'node: \{ title: "([^"]+)" label: "[^"]*\\n(\d+) bytes \((\w+)')
+_EDGE = re.compile(r'edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"')
+_RELOCATION = re.compile(r"^[0-9a-f]+ (R_\S+)\s+(\w+)", re.MULTILINE)
+_CALLS = ("_PLT32", "_CALL", "_JUMP24", "_CALL26", "_JUMP26")
+_INDIRECT = "__indirect_call"
+_INSTRUCTIONS = re.compile(r"#define (\w+)_INSTRUCTIONS (\d+)")
+
+
+@dataclass(frozen=True)
+class _Calls:
+    """The call graph of a library: bytes of each function's frame, and whom it calls."""
+
+    frames: Mapping[str, int]
+    edges: Mapping[str, frozenset[str]]
+
+    def deepest(self, name: str) -> tuple[int, frozenset[str]]:
+        """Bytes of stack of a call at most, and the functions outside that it may reach."""
+
+        @cache
+        def of(each: str) -> tuple[int, frozenset[str]]:
+            if each not in self.frames:
+                return 0, frozenset() if each == _INDIRECT else frozenset([each])
+            found = [of(callee) for callee in self.edges.get(each, ())]
+            deepest = max((stack for stack, _ in found), default=0)
+            return self.frames[each] + deepest, frozenset().union(*(out for _, out in found))
+
+        return of(name)
+
+
+def with_cost(emitted: Emitted, machine: Machine) -> Emitted:
+    """The module with `cost.json` and a table in its README.
+
+    Args:
+        emitted: as it will be written.
+        machine: what it is compiled for: this one, or a Cortex-M by arm-none-eabi-gcc.
+
+    Raises:
+        BuildError: a tool is missing, or the compiler refuses the C.
+    """
+    prefix, flags = _MACHINES[machine]
+    tools = {each: _tool(prefix + each) for each in ("gcc", "ld", "nm", "size", "objdump")}
+    with tempfile.TemporaryDirectory() as directory:
+        folder = Path(directory)
+        for name, text in emitted.files.items():
+            (folder / name).parent.mkdir(exist_ok=True)
+            (folder / name).write_text(text)
+        sources = [name for name in emitted.spec.controller_sources if name.endswith(".c")]
+        _run(folder, tools["gcc"], *_SECTIONS, *flags, "-c", *sources)
+        objects = [name.replace(".c", ".o") for name in sources]
+        calls = _call_graph(folder, tools["objdump"], objects)
+        counts = _instructions(folder, machine, emitted)
+        rows = []
+        for function in emitted.spec.every_function:
+            stack, outside = calls.deepest(function.name)
+            rows.append({
+                "name": function.name, "stack": stack, "outside": sorted(outside),
+                "flash": _flash(folder, tools, objects, function.name),
+                "instructions": counts.get(function.name.upper()),
+            })  # fmt: skip
+        compiler = _run(folder, tools["gcc"], "--version").splitlines()[0]
+    spec = emitted.spec
+    told = {
+        "robot": spec.robot, "signature": spec.signature(), "precision": spec.precision,
+        "machine": machine, "compiler": compiler, "flags": list(flags),
+        "evaluations": 5000 if spec.closure is not None else None, "functions": rows,
+    }  # fmt: skip
+    return _added(emitted, told)
+
+
+def _added(emitted: Emitted, told: Mapping[str, Any]) -> Emitted:
+    readme = emitted.files["README.md"] + render("cost.md", **told)
+    more = {COST: json.dumps(told, indent=1) + "\n", "README.md": readme}
+    return Emitted(emitted.spec, {**emitted.files, **more}, emitted.log)
+
+
+def _tool(name: str) -> str:
+    found = shutil.which(name)
+    if found is None:
+        package = "gcc-arm-none-eabi" if name.startswith("arm") else "gcc binutils"
+        raise BuildError(
+            f"--measure: {name} is not installed; install it (Debian: apt install {package}), or "
+            "measure for another machine"
+        )
+    return found
+
+
+def _run(folder: Path, *command: str) -> str:
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        first = (done.stderr.strip().splitlines() or ["no message"])[0]
+        raise BuildError(
+            f"--measure: {Path(command[0]).name} failed: {first}; check that it is a gcc of "
+            "version 10 or later"
+        )
+    return done.stdout
+
+
+def _call_graph(folder: Path, objdump: str, objects: Sequence[str]) -> _Calls:
+    frames: dict[str, int] = {}
+    edges: dict[str, set[str]] = {}
+    for name in objects:
+        text = (folder / name).with_suffix(".ci").read_text()
+        frames |= {node: int(size) for node, size, _ in _NODE.findall(text)}
+        for caller, callee in _EDGE.findall(text):
+            edges.setdefault(caller, set()).add(callee)
+    taken = {
+        symbol
+        for kind, symbol in _RELOCATION.findall(_run(folder, objdump, "-r", *objects))
+        if symbol in frames and not kind.endswith(_CALLS)
+    }
+    frames[_INDIRECT] = 0
+    edges[_INDIRECT] = taken
+    return _Calls(frames, {caller: frozenset(found) for caller, found in edges.items()})
+
+
+def _flash(folder: Path, tools: Mapping[str, str], objects: Sequence[str], name: str) -> int:
+    """Bytes of code and constants that are linked for one function alone."""
+    alone = "alone.o"
+    _run(folder, tools["ld"], "-r", "--gc-sections", "-u", name, "-e", name, *objects, "-o", alone)
+    text, data = _run(folder, tools["size"], alone).splitlines()[1].split()[:2]
+    return int(text) + int(data)
+
+
+def _instructions(folder: Path, machine: Machine, emitted: Emitted) -> dict[str, int]:
+    """{NAME: most of one call}, counted in qemu; {} where it is missing, or nothing is counted."""
+    counted = "programs/count_instructions.c" in emitted.files
+    if machine == "host" or not counted or shutil.which("qemu-system-arm") is None:
+        return {}
+    text = _run(folder, _tool("make"), "count", f"CPU={machine}")
+    return {name: int(count) for name, count in _INSTRUCTIONS.findall(text)}

@@ -1,0 +1,156 @@
+"""Functions of a controller that solve for accelerations, and can fail: robots without loops.
+
+The equations of forward dynamics are eliminated in the graph, from the last joint to the first,
+where no branch fills another's zeros (Featherstone 2008, 6.5): straight-line code that shares what
+M and the torques have in common, and gives its pivots beside the solution. What is written around
+it in C looks at these.
+"""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from modeler.codegen.functions import Arguments, CFunction, Composed, entries_of
+from modeler.core.manifest import ArgumentSpec
+from modeler.derivation import Expr, SymbolicModel, derivatives
+
+UNIT = "_control"
+"""C file of these functions, without the robot's name and `.c`."""
+
+TURNS = 30
+"""Corrections of the accelerations, at most, where effects read them."""
+
+
+_WITHOUT_VALUES = ("jacobian",)
+"""Functions that others call and that read no parameters."""
+
+
+@dataclass(frozen=True)
+class Efforts:
+    """tau = M qdd + bias(q, qd) + f(q, qd, qdd), as matrix and right side of one equation.
+
+    Attributes:
+        matrix: d tau/d qdd, (n, n).
+        rest: tau at qdd = 0; at the qdd that is read, where it `turns`.
+        turns: True if effects read qdd otherwise than linearly, or not by a symmetric matrix.
+    """
+
+    matrix: Sequence[Sequence[Expr]]
+    rest: Sequence[Expr]
+    turns: bool
+
+
+def efforts(model: SymbolicModel, beta: Mapping[int, Expr]) -> Efforts:
+    """Of the robot with these parameters by column."""
+    graph, n = model.graph, model.geometry.coordinates
+    matrix = model.inertia_matrix(beta)
+    losses = {k: v for k, v in beta.items() if model.columns[k].kind != "rotor_inertia"}
+    rest = model.torque(losses, accelerations=False)
+    symbols = {graph.symbol(f"qdd[{j}]").ref: j for j in range(n)}
+    if symbols.keys().isdisjoint(graph.reachable(rest)):
+        return Efforts(matrix, rest, turns=False)
+    one, more = graph.constant(1), model.torque(losses, links=False)
+    slopes = [derivatives(more, {f"qdd[{j}]": one}) for j in range(n)]
+    matrix = [[entry + slopes[j][i] for j, entry in enumerate(row)] for i, row in enumerate(matrix)]
+    return Efforts(matrix, model.torque(beta), turns=True)
+
+
+def solved(
+    matrix: Sequence[Sequence[Expr]], right: Sequence[Expr]
+) -> tuple[list[Expr], list[Expr]]:
+    """x of matrix x = right, and the pivots; one that is always 0 counts as 1 in x.
+
+    Gauss's elimination from the last row to the first. Equal expressions are one node of the graph,
+    so that a symmetric matrix costs half of one that is not.
+    """
+    n, one = len(right), right[0].graph.constant(1)
+    A, x = [list(row) for row in matrix], list(right)
+    inverse = [one] * n
+    for k in reversed(range(n)):
+        inverse[k] = one if A[k][k].is_zero else 1 / A[k][k]
+        for i in range(k):
+            if not A[i][k].is_zero:
+                share = A[i][k] * inverse[k]
+                A[i][:k] = [A[i][j] - share * A[k][j] for j in range(k)]
+                x[i] = x[i] - share * x[k]
+    for k in range(n):
+        for j in range(k):
+            x[k] = x[k] - A[k][j] * x[j]
+        x[k] = x[k] * inverse[k]
+    return x, [A[k][k] for k in range(n)]
+
+
+def forward_functions(
+    model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments
+) -> tuple[CFunction, ...]:
+    """Forward dynamics, its derivatives, inertia of the tool; internal functions first."""
+    n = model.geometry.coordinates
+    found = efforts(model, beta)
+    correction, pivots = solved(
+        found.matrix, [-r + model.graph.symbol(f"tau[{j}]") for j, r in enumerate(found.rest)]
+    )
+    diagonal = [found.matrix[k][k] for k in range(n)]
+    accelerations = (given.qdd,) if found.turns else ()
+    motion = (given.q, given.qd, *accelerations, given.tau, *given.signals)
+    step = CFunction(
+        UNIT, "forward_step", "Accelerations of these torques, pivots and diagonal of M.",
+        "M qdd = tau - c - g - f", (*motion, given.beta),
+        ArgumentSpec("step", (3 * n,), "SI", "accelerations, pivots, diagonal"),
+        entries_of([*correction, *pivots, *diagonal]), internal=True,
+    )  # fmt: skip
+    slopes = CFunction(
+        UNIT, "effort_slopes", "Derivatives of the torques by accelerations: M, and what effects add.",
+        "d tau/d qdd", (*given.motion, given.beta),
+        ArgumentSpec("A", (n, n), "SI", "derivatives"),
+        entries_of([x for row in found.matrix for x in row]), internal=True,
+    )  # fmt: skip
+    inputs = (given.q, given.qd, given.tau, *given.signals, given.beta)
+    matrix = slopes.role if found.turns else "inertia_matrix"
+    damping = ArgumentSpec("damping", (1,), "as J M^-1/2", "0, or what keeps L finite")
+    space, roles = (given.q, given.beta, damping), {"matrix": "inertia_matrix", "J": "jacobian"}
+
+    def composed(role: str, does: str, equation: str, reads: tuple[ArgumentSpec, ...],
+                 output: ArgumentSpec, **calls: str) -> CFunction:  # fmt: skip
+        made = Composed(role, calls, TURNS if found.turns else 1)
+        return CFunction(UNIT, role, does, equation, reads, output, (), composed=made)
+
+    return (
+        step, *((slopes,) if found.turns else ()),
+        composed(
+            "forward_dynamics", "Joint accelerations under these torques, friction included.",
+            "M(q) qdd = tau - c(q, qd) - g(q) - f(qd)", inputs, given.qdd, step=step.role,
+        ),
+        composed(
+            "forward_derivatives",
+            "Derivatives of the accelerations by positions, speeds and torques. A leap of friction "
+            "counts as level.", "D = [d qdd/d q, d qdd/d qd, d qdd/d tau]", inputs,
+            ArgumentSpec("D", (3, n, n), "acceleration per unit of q, qd, tau", "derivatives"),
+            step=step.role, dynamics="forward_dynamics", slopes="derivatives", matrix=matrix,
+        ),
+        composed(
+            "operational_inertia",
+            "Inertia that the tool's frame has for forces and moments on it, rows as of the "
+            "Jacobian.", "L = (J M^-1 J^T + damping^2 1)^-1", space,
+            ArgumentSpec("L", (6, 6), "kg, kg m, kg m2", "operational-space inertia"), **roles,
+        ),
+        composed(
+            "operational_inverse",
+            "Inverse of the Jacobian that moves the tool with the least kinetic energy (Khatib).",
+            "Jbar = M^-1 J^T (J M^-1 J^T + damping^2 1)^-1", space,
+            ArgumentSpec("Jbar", (n, 6), "unit of q per m or rad", "inverse Jacobian"), **roles,
+        ),
+    )  # fmt: skip
+
+
+def without_beta(function: CFunction) -> CFunction:
+    """The twin of a function that reads beta, for the fitted values."""
+    made = function.composed
+    if made is not None:
+        roles = {word: _twin(role) for word, role in made.roles.items()}
+        made = dataclasses.replace(made, roles=roles)
+    inputs = tuple(a for a in function.inputs if a.name != "beta")
+    return dataclasses.replace(function, role=_twin(function.role), inputs=inputs, composed=made)
+
+
+def _twin(role: str) -> str:
+    return role if role in _WITHOUT_VALUES else f"fitted_{role}"

@@ -1,0 +1,187 @@
+"""Names of temporaries and comments: they say what is true, cost nothing, and change no code."""
+
+import re
+import subprocess
+
+import numpy as np
+import pytest
+
+from modeler.codegen import naming
+from modeler.codegen.emit import emit
+from modeler.codegen.naming import Naming
+from modeler.codegen.workflow import derive, load
+from modeler.derivation.derive import derive_model
+from modeler.robot import robot_from_text
+from tests.codegen.fitted_library import SLOW, fitted_of
+from tests.modules import compiler, module
+
+_CONSTANT = re.compile(r"^ +const (?:double|float|modeler_lanes) (\w+)\s+?=", re.M)
+_NUMBERED = re.compile(r"[tk]\d+")
+
+
+def names_of(files) -> list[str]:
+    """Names of all temporaries of the robot's own files; no inputs, no lengths."""
+    own = [t for name, t in files.items() if re.fullmatch(r"(?!modeler)\w+\.c", name)]
+    found = [name for text in own for name in _CONSTANT.findall(text)]
+    return [
+        name for name in found if not re.fullmatch(r"(q|qd|qdd|s)_\d+|\w+_(geo|width)_\w+", name)
+    ]
+
+
+@pytest.mark.parametrize(("robot", "share"), [("ur10e", 0.75), ("puma560", 0.7), ("five-bar", 0.4)])
+def test_most_temporaries_say_what_they_are(robot: str, share: float) -> None:
+    names = names_of(module(robot).emitted.files)
+    told = [name for name in names if not _NUMBERED.fullmatch(name)]
+    assert len(names) > 100 and len(told) >= share * len(names)
+
+
+def test_names_in_a_function_are_unique_however_they_are_written() -> None:
+    for name in ("ur10e", "five-bar", "sr400-tree"):
+        for file, text in module(name).emitted.files.items():
+            if not file.endswith(".c") or file.startswith(("modeler", "programs")):
+                continue
+            for body in re.findall(r"^\{$(.*?)^\}$", text, re.M | re.S):
+                found = [each.lower() for each in _CONSTANT.findall(body)]
+                assert len(found) == len(set(found)), file
+
+
+@pytest.mark.parametrize("robot", ["ur10e", "scara", "five-bar"])
+def test_object_code_is_that_of_the_unnamed_text(robot, tmp_path, monkeypatch) -> None:
+    """Names and comments are no part of it: gcc makes the same bytes of numbered temporaries."""
+    made = module(robot)
+    fitted = fitted_of(made.emitted.spec)
+    named = emit(made.model, made.base, fitted)
+    monkeypatch.setattr(Naming, "written", lambda self, lines, remark: tuple(lines))
+    plain = emit(made.model, made.base, fitted)
+    assert "const double t1 = " in str(dict(plain.files)) and names_of(plain.files)
+    assert all(_NUMBERED.fullmatch(name) for name in names_of(plain.files))
+    objects = []
+    for folder, emitted in (("named", named), ("plain", plain)):
+        (tmp_path / folder).mkdir()
+        for name, text in emitted.files.items():
+            if name.endswith((".c", ".h")) and "/" not in name:
+                text = re.sub(r"\b(0x)?[0-9a-f]{8}(u|[0-9a-f]{8})\b", "0", text)  # signatures
+                (tmp_path / folder / name).write_text(text)
+        sources = sorted(path.name for path in (tmp_path / folder).glob("*.c"))
+        own = [name for name in sources if not name.startswith("modeler")]
+        words = [compiler("gcc"), "-std=gnu11", "-O1", "-c", *own]
+        subprocess.run(words, cwd=tmp_path / folder, check=True, capture_output=True)
+        objects.append({p.name: p.read_bytes() for p in (tmp_path / folder).glob("*.o")})
+    assert objects[0] == objects[1] and len(objects[0]) >= 4
+
+
+def test_the_text_does_not_depend_on_what_was_asked_of_the_model_before() -> None:
+    first = derive(load("scara"))
+    before = dict(emit(first.model, first.base).files)
+    assert dict(emit(first.model, first.base, fitted_of(module("scara").emitted.spec)).files)
+    first.closed_form()
+    first.model.forward_kinematics()
+    assert dict(emit(first.model, first.base).files) == before
+    second = derive(load("scara"))
+    second.closed_form()
+    second.regressor()
+    assert dict(emit(second.model, second.base).files) == before
+
+
+def values_at(model, refs, q, qd, qdd) -> np.ndarray:
+    known = dict(model.geometry.values)
+    for kind, row in (("q", q), ("qd", qd), ("qdd", qdd)):
+        known |= {f"{kind}[{i}]": x for i, x in enumerate(row)}
+    return np.array(model.graph.evaluate(refs, known), dtype=float)
+
+
+@pytest.mark.parametrize("robot", ["ur10e", "scara", "slow-arm"])
+def test_labels_tell_the_truth(robot: str) -> None:
+    """w, wd, vd, e and m against differences of the forward kinematics along a motion."""
+    model = derive_model(robot_from_text(SLOW, robot)) if robot == "slow-arm" else None
+    model = model or derive_model(load(robot))
+    with model.labelled():
+        labels = model.graph.labels.copy()
+    random = np.random.default_rng()
+    n = model.geometry.coordinates
+    q, qd, qdd = random.uniform(-1, 1, (3, n))
+    poses = np.array(model.forward_kinematics(), dtype=object)
+    names = [row.joint.name for row in model.geometry.rows if row.index is not None]
+
+    def pose(at, way) -> np.ndarray:
+        flat = values_at(model, list(poses.ravel()), at, 0 * at, 0 * at)
+        return flat.reshape(poses.shape)[names.index(way)]
+
+    h, down = (
+        1e-4,
+        np.array(
+            [
+                float(x)
+                for x in values_at(
+                    model, [model.algebra.static(x) for x in model.geometry.gravity], q, qd, qdd
+                )
+            ]
+        ),
+    )
+
+    def along(link, t) -> np.ndarray:
+        return pose(q + t * qd + t * t / 2 * qdd, link)
+
+    def spin(link, t, path=along) -> np.ndarray:
+        ahead, behind, now = path(link, t + h), path(link, t - h), path(link, t)
+        turning = now[:, :3].T @ (ahead - behind)[:, :3] / (2 * h)
+        return np.array([turning[2, 1], turning[0, 2], turning[1, 0]])
+
+    checked = set()
+    for node, label in labels.items():
+        if label.step or label.quantity not in ("w", "wd", "vd", "e", "m"):
+            continue
+        link, now = label.link, along(label.link, 0)
+        if label.quantity in ("e", "m"):
+            j = [joint.name for joint in model.robot.free].index(label.of)
+            unit = np.eye(n)[j]
+            path = lambda link, t, unit=unit: pose(q + t * unit, link)  # noqa: E731
+            moved = (path(link, h) - path(link, -h))[:, 3] / (2 * h)
+            expected = spin(link, 0, path) if label.quantity == "e" else now[:, :3].T @ moved
+        elif label.quantity == "w":
+            expected = spin(link, 0)
+        elif label.quantity == "wd":
+            expected = (spin(link, h) - spin(link, -h)) / (2 * h)
+        else:
+            second = (along(link, h) - 2 * now + along(link, -h))[:, 3] / h**2
+            expected = now[:, :3].T @ (second - down)
+        got = model.graph.evaluate(
+            [type(poses.flat[0])(model.graph, node)],
+            dict(model.geometry.values)
+            | {
+                f"{k}[{i}]": x
+                for k, row in (("q", q), ("qd", qd), ("qdd", qdd))
+                for i, x in enumerate(row)
+            },
+        )[0]
+        sign = -1.0 if label.minus else 1.0
+        assert sign * got == pytest.approx(expected["xyz".index(label.component)], abs=2e-5), label
+        checked.add(label.quantity)
+    assert checked >= {"w", "wd", "vd"} and len(labels) > 20
+
+
+def test_a_comment_states_the_equation_of_each_quantity_once() -> None:
+    text = module("ur10e").emitted.files["ur10e_base_regressor.c"]
+    body = text.split("void ur10e_base_regressor_nonzeros")[0]
+    assert body.count("/* link 3: angular velocity, w3 = R3' w2 + qd3 z */\n") == 1
+    assert body.index("angular velocity, w3 =") < body.index("const double w3_")
+    assert all(len(line) <= 100 for line in text.splitlines())
+    assert " *   wd     angular acceleration\n" in text  # the legend has what occurs
+    slides = module("scara").emitted.files["scara_base_regressor.c"]
+    assert " + 2 w" in slides or "qdd" in slides
+
+
+def test_names_are_c_names_and_differ_where_letters_fall_together() -> None:
+    label = naming.Label("w", "leg a", "x", "", "", True)
+    graph = module("wrist").model.graph
+    graph.links["leg a"] = next(iter(graph.links.values()))
+    with module("wrist").model.labelled():
+        graph.labels |= {2: label, 3: label, 4: label._replace(link="3", component="")}
+        made = Naming(graph, {"t1": 2, "t2": 3, "t3": 4}, ["W3 = 1;"])
+    lines = made.written([f"const double t{k} = {k}.0;" for k in (1, 2, 3)], "/* {} */")
+    assert [line.split()[-3] for line in lines] == [
+        "minus_w_lega_x",
+        "minus_w_lega_x_2",
+        "minus_w3",
+    ]
+    del graph.links["leg a"]

@@ -1,0 +1,127 @@
+"""Structured Text: read back by a reader of its own, it gives what the C gives."""
+
+import re
+
+import numpy as np
+import pytest
+
+from modeler.cli import main
+from modeler.codegen.emit import emit
+from modeler.codegen.structured_text import identifier
+from modeler.core.errors import EmitError
+from tests.codegen.fitted_library import Functions, fitted_of, motion, robot_module
+from tests.codegen.structured_text import Program, TextError
+from tests.modules import module
+
+ROLES = ("inverse_dynamics", "inertia_matrix", "gravity", "coriolis", "friction")
+
+
+def made_of(name: str, fitted: bool):
+    made = robot_module(name)
+    values = fitted_of(made.emitted.spec, seed=int(np.random.default_rng().integers(1000)))
+    return emit(made.model, made.base, values if fitted else None, structured_text=True)
+
+
+def called(program: Program, functions: Functions, role: str, given, **widths) -> np.ndarray:
+    """What the function block of that role writes, over the samples."""
+    spec = functions.spec
+    name = identifier(f"{spec.prefix}_{role}")
+    output = next(
+        f
+        for f in (*spec.functions, *(spec.fitted.functions if spec.fitted else ()))
+        if f.name == f"{spec.prefix}_{role}"
+    ).outputs[0]
+    found = []
+    for i in range(len(given["q"])):
+        arrays = {
+            a.name: given[a.name] if given[a.name].ndim == 1 else given[a.name][i]
+            for a in functions.inputs(role)
+        }
+        written = {output.name: [np.nan] * output.size}
+        arrays = {{"s": "signals"}.get(k, k): list(map(float, v)) for k, v in arrays.items()}
+        program(name, **arrays, **written, **widths)
+        found.append(written[output.name])
+    return np.array(found)
+
+
+@pytest.mark.parametrize("name", ["ur10e", "slow-arm", "sr400-tree"])
+def test_the_text_read_back_gives_what_the_c_gives(name: str) -> None:
+    emitted = made_of(name, fitted=False)
+    program, functions = Program(emitted.files[f"{emitted.spec.prefix}.st"]), Functions(emitted)
+    given = motion(name, samples=4, seed=int(np.random.default_rng().integers(1000)))
+    given["beta"] = np.random.default_rng().normal(size=len(emitted.spec.base))
+    given["chi"] = np.random.default_rng().normal(size=len(emitted.spec.standard))
+    for role in (*ROLES, "base_parameters"):
+        expected = functions(role, given).reshape(4, -1)
+        got = called(program, functions, role, given)
+        scale = max(1.0, float(np.abs(expected).max()))
+        assert np.abs(got - expected).max() <= 1e-12 * scale, role
+
+
+@pytest.mark.parametrize("name", ["two-link", "slow-arm"])
+def test_values_and_widths_are_those_of_the_fitted_c(name: str) -> None:
+    emitted = made_of(name, fitted=True)
+    text = emitted.files[f"{emitted.spec.prefix}.st"]
+    program, given = Program(text), motion(name, samples=3)
+    assert "Values of a test." in text and emitted.spec.fitted.signature in text
+    for width in (0.0, 0.3):
+        functions = Functions(emitted, **({"COULOMB_WIDTH": width} if width else {}))
+        for role in (f"fitted_{role}" for role in ROLES):
+            unit = program.units[identifier(f"{emitted.spec.prefix}_{role}")]
+            widths = {n: width for n, kind in unit.kinds.items() if kind == "var_input"}
+            assert bool(widths) == (role in ("fitted_friction", "fitted_inverse_dynamics"))
+            got = called(program, functions, role, given, **widths)
+            expected = functions(role, given).reshape(3, -1)
+            scale = max(1.0, float(np.abs(expected).max()))
+            assert np.abs(got - expected).max() <= 1e-12 * scale, role
+
+
+def test_nothing_is_kept_between_calls_and_each_function_is_declared_once() -> None:
+    text = made_of("scara", fitted=False).files["scara.st"]
+    assert len(re.findall(r"^FUNCTION_BLOCK", text, re.M)) == 6
+    assert not re.search(r"^VAR$", text.split("FUNCTION_BLOCK", 1)[1], re.M)  # VAR_TEMP alone
+    assert max(map(len, text.splitlines())) <= 100 and text.isascii()
+
+
+def test_another_parser_of_the_standard_reads_it() -> None:
+    blark = pytest.importorskip("blark.parse", reason="blark reads Structured Text: pip install it")
+    for name, fitted in (("slow-arm", True), ("scara", False)):
+        emitted = made_of(name, fitted)
+        read = blark.parse_source_code(emitted.files[f"{emitted.spec.prefix}.st"])
+        assert read.exception is None and read.tree is not None
+    with pytest.raises(Exception, match="No terminal"):
+        read = blark.parse_source_code("FUNCTION_BLOCK a VAR x : ; END_VAR END_FUNCTION_BLOCK")
+        raise read.exception
+
+
+def test_the_reader_refuses_what_is_not_of_the_standard() -> None:
+    head = (
+        "FUNCTION_BLOCK f\nVAR_IN_OUT\n q : ARRAY [0..1] OF LREAL;\nEND_VAR\n{}\nEND_FUNCTION_BLOCK"
+    )
+    Program(head.format("q[1] := q[0];"))
+    for wrong in ("q[2] := 1.0;", "q[0] := r;", "q[0] := 1e5;", "q[0] = 1.0;", "if := 1.0;",
+                  "a__b := 1.0;", "q[0] := tanh(q[1]);"):  # fmt: skip
+        with pytest.raises(TextError):
+            Program(head.format(wrong))
+
+
+def test_loops_and_single_precision_have_none() -> None:
+    loop, arm = module("five-bar"), module("wrist")
+    with pytest.raises(EmitError, match=r"five-bar has loops.*leave --structured-text out"):
+        emit(loop.model, loop.base, structured_text=True)
+    with pytest.raises(EmitError, match=r"LREAL.*leave out one of the two"):
+        emit(arm.model, arm.base, precision="single", structured_text=True)
+
+
+def test_the_command_writes_it_and_takes_it_away(capsys, tmp_path) -> None:
+    out = tmp_path / "arm"
+    words = ["generate", "two-link", "--out", str(out)]
+    assert main([*words, "--structured-text"]) == 0
+    assert "FUNCTION_BLOCK two_link_gravity" in (out / "two_link.st").read_text()
+    assert main(words) == 0 and not (out / "two_link.st").exists()
+    assert main(["generate", "five-bar", "--out", str(out), "--structured-text"]) == 1
+    assert "has loops" in capsys.readouterr().err
+
+
+def test_names_are_of_the_standard() -> None:
+    assert identifier("a__b_") == "a_b" and identifier("geo_L1") == "geo_L1"

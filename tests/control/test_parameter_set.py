@@ -1,0 +1,166 @@
+"""Parameters that change at run time: seal, check, a store without tears, payload by addition."""
+
+import subprocess
+import zlib
+
+import numpy as np
+import pytest
+
+from modeler.codegen import derive, generate
+from modeler.codegen.control import Control
+from tests.control.robots import controlled, in_pinocchio, physical, robot_of
+from tests.modules import STRICT, compiler
+
+NAME = "tree-1"
+PROGRAM = r"""
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+#include "tree_1_control.h"
+
+static tree_1_store store;
+static int over;
+
+/* A cycle: all of one set, or none. */
+static void *reader(void *counted)
+{
+    int cycles = 0;
+    while (!__atomic_load_n(&over, __ATOMIC_ACQUIRE)) {
+        const tree_1_set *const set = tree_1_set_current(&store);
+        if (set != NULL) {
+            const double first = set->beta[0];
+            for (int i = 0; i < TREE_1_BASE_PARAMETERS; i++)
+                if (set->beta[i] < first || set->beta[i] > first)
+                    return NULL;
+            cycles++;
+        }
+    }
+    *(int *)counted = cycles;
+    return NULL;
+}
+
+int main(void)
+{
+    tree_1_set set, other;
+    pthread_t thread;
+    int cycles = 0, published = 0;
+
+    memset(&set, 0, sizeof(set));
+    if (tree_1_set_current(&store) != NULL || tree_1_set_publish(&store, &set) != MODELER_FOREIGN)
+        return 1;
+    for (int i = 0; i < TREE_1_BASE_PARAMETERS; i++)
+        set.beta[i] = 0.5 + i;
+    for (size_t i = 0; i < sizeof(set.widths) / sizeof(*set.widths); i++)
+        set.widths[i] = 0.01;
+    tree_1_set_seal(&set);
+    printf("%lu %u", (unsigned long)set.checksum, (unsigned)(sizeof(set.widths) / sizeof(double)));
+    if (tree_1_set_check(&set) != MODELER_DONE)
+        return 2;
+    for (size_t byte = 0; byte < offsetof(tree_1_set, checksum); byte++) {
+        other = set;
+        ((unsigned char *)&other)[byte] ^= 4;
+        if (tree_1_set_check(&other) != MODELER_FOREIGN)
+            return 3;
+    }
+    other = set;
+    other.beta[1] = 1e300 * 1e300;
+    tree_1_set_seal(&other);
+    if (tree_1_set_check(&other) != MODELER_NOT_FINITE)
+        return 4;
+    if (tree_1_set_publish(&store, &set) != MODELER_DONE)
+        return 5;
+    if (tree_1_set_publish(&store, &set) != MODELER_UNFINISHED) /* nobody has taken it */
+        return 6;
+    if (tree_1_set_publish(&store, &other) != MODELER_NOT_FINITE)
+        return 7;
+    if (memcmp(tree_1_set_current(&store), &set, sizeof(set)) != 0)
+        return 8;
+    for (int i = 0; i < TREE_1_BASE_PARAMETERS; i++)
+        set.beta[i] = 0.0;
+    tree_1_set_seal(&set);
+    while (tree_1_set_publish(&store, &set) != MODELER_DONE || tree_1_set_current(&store) == NULL)
+        ;
+    if (pthread_create(&thread, NULL, reader, &cycles) != 0)
+        return 9;
+    while (published < 100) {
+        for (int i = 0; i < TREE_1_BASE_PARAMETERS; i++)
+            set.beta[i] = published;
+        tree_1_set_seal(&set);
+        published += tree_1_set_publish(&store, &set) == MODELER_DONE;
+    }
+    __atomic_store_n(&over, 1, __ATOMIC_RELEASE);
+    pthread_join(thread, NULL);
+    return cycles > 0 ? 0 : 10;
+}
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    where = tmp_path_factory.mktemp("set")
+    generate(derive(robot_of(NAME)), where, control=Control())
+    (where / "hammer.c").write_text(PROGRAM)
+    return where
+
+
+@pytest.mark.parametrize(
+    ("cc", "flags"),
+    [("gcc", ["-fsanitize=thread"]), ("gcc", ["-fsanitize=address,undefined"]), ("clang", [])],
+)
+def test_sets_are_checked_and_never_torn(folder, cc, flags):
+    sources = [str(folder / name) for name in ("hammer.c", "tree_1_control.c")]
+    strict = [flag for flag in STRICT if flag != "-Wpedantic"]
+    made = folder / f"hammer-{cc}{len(flags)}"
+    command = [compiler(cc), *strict, "-O1", "-g", *flags, f"-I{folder}", "-o", made, *sources]
+    subprocess.run([*command, "-lm", "-lpthread"], check=True)
+    done = subprocess.run([made], capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode == 0, done.stderr
+    checksum, widths = map(int, done.stdout.split())
+    spec = controlled(NAME).spec
+    numbers = [0.5 + i for i in range(len(spec.base))] + [0.01] * widths
+    words = [int(spec.signature()[i : i + 8], 16) for i in (0, 8)]
+    stated = np.array(words, np.uint32).tobytes() + np.array(numbers).tobytes()
+    assert checksum == zlib.crc32(stated)
+
+
+def test_widths_at_run_time():
+    model, random = controlled(NAME), np.random.default_rng(4)
+    chi = physical(model.spec, random)
+    beta, n = model.base_parameters([*chi.values()]), len(model.spec.joints)
+    q, qd, qdd = random.normal(size=(3, 20, n))
+    count = next(
+        f.inputs[-1].size for f in model.spec.control.functions if f.name.endswith("smooth_friction")
+    )
+    assert count == n
+    width = random.uniform(0.01, 1, n)
+    sharp = model.inverse_dynamics(q, qd, qdd, beta)
+    none = model.evaluate(
+        "smooth_inverse_dynamics", q=q, qd=qd, qdd=qdd, beta=beta, widths=np.zeros(n)
+    )
+    np.testing.assert_array_equal(none, sharp)
+    smooth = model.evaluate("smooth_friction", qd=qd, beta=beta, widths=width)
+    Fs = np.array([chi[f"Fs{j.name}"] for j in model.spec.joints])
+    expected = model.friction(qd, beta) + Fs * (np.tanh(qd / width) - np.sign(qd))
+    np.testing.assert_allclose(smooth, expected, atol=1e-12)
+    whole = model.evaluate(
+        "smooth_inverse_dynamics", q=q, qd=qd, qdd=qdd, beta=beta, widths=width
+    )
+    np.testing.assert_allclose(whole - sharp, smooth - model.friction(qd, beta), atol=1e-9)
+
+
+def test_a_payload_is_added_to_the_parameters():
+    """beta += K chi_load, against Pinocchio's robot with that body on its last link."""
+    pin = pytest.importorskip("pinocchio")
+    model, random = controlled("puma560"), np.random.default_rng(5)
+    chi, load = (physical(model.spec, random) for _ in range(2))
+    last = model.spec.joints[-1].name
+    inertial = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+    load = {name: v if name in {f"{p}{last}" for p in inertial} else 0.0 for name, v in load.items()}
+    beta = model.base_parameters([*chi.values()]) + model.base_parameters([*load.values()])
+    q, qd, qdd = random.normal(size=(3, 10, len(model.spec.joints)))
+    tau = model.inverse_dynamics(q, qd, qdd, beta) - model.friction(qd, beta)
+    other, rows = in_pinocchio(robot_of("puma560"), {k: chi[k] + load[k] for k in chi})
+    data = other.createData()
+    theirs = np.array([pin.rnea(other, data, *state) for state in zip(q, qd, qdd, strict=True)])
+    assert rows == list(range(6))
+    assert np.abs(tau - theirs).max() <= 1e-10 * np.abs(theirs).max()
