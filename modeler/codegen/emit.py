@@ -294,6 +294,9 @@ class _Written(CFunction):
     arguments: list[str]
     declaration: str
     definition: str
+    made: str  # prototypes of what is made of a closed posture, and of a state
+    at_declaration: str
+    at_definition: str
     lines: list[str]
     symbols: frozenset[str]
     additions: int
@@ -474,7 +477,7 @@ def _module(
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros] if shown else []),
         "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros] if shown else []),
-        "loops": closure_tables(model, solving, target) if solving else None,
+        "loops": closure_tables(model, base, solving, target) if solving else None,
         "names": constants,
         "signature": "",
         "blocks": blocks,
@@ -647,9 +650,30 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         definition=layout.prototype(
             name, layout.arguments(function, number, prefix, defined=True), returns
         ),
+        **_at_state(prefix, function, number),
         lines=[] if function.status else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
     )
+
+
+def _at_state(prefix: str, function: CFunction, number: str) -> dict[str, str]:
+    """Prototypes of what a function is made with where the loops are closed."""
+    closed = function.closed
+    if closed is None:
+        return dict.fromkeys(("made", "at_declaration", "at_definition"), "")
+    motion = (closed.q, closed.qd, closed.start)
+    kept = dataclasses.replace(
+        function, inputs=tuple(a for a in function.inputs if a.name not in motion)
+    )
+    name = f"{prefix}_{function.role}_at"
+    plain, state = layout.arguments(kept, number, prefix), f"struct {prefix}_state *state"
+    posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
+    own = layout.arguments(kept, number, prefix, defined=True)
+    return {
+        "made": layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
+        "at_declaration": layout.prototype(name, [state, *plain], "int"),
+        "at_definition": layout.prototype(name, [state, *own], "int"),
+    }
 
 
 def _letters(functions: Sequence[_Written]) -> list[str]:
