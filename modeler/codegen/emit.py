@@ -20,13 +20,13 @@ from modeler.codegen.control import (
     control_functions,
     fitted_control_functions,
 )
-from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_files, render
+from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states, vectors_text
@@ -334,6 +334,8 @@ def emit(
         every = [function for part in parts for function in part]
         units, kept = None, frozenset(f.role for f in every)
         if control is not None and control.only:
+            if cuda:
+                raise EmitError("--cuda: not with --only; generate two folders")
             kept = chosen(every, control.only, model.robot.name)
             units = {f.unit for f in every if f.role in kept} | {UNIT}
             units |= {"_batch"} if OBSERVATION in control.only else set()
@@ -354,7 +356,11 @@ def emit(
 
     def others() -> dict[str, str]:
         stored = stored_states(model, every, OF_PRECISION[precision], kept)
-        more = {"vectors.csv": vectors_text(spec.prefix, model, every, kept)} if control and control.vectors else {}
+        more = (
+            {"vectors.csv": vectors_text(spec.prefix, model, every, kept)}
+            if control and control.vectors
+            else {}
+        )
         return {
             **package_files(spec, code, {**values, "vectors": stored, "many_states": bool(more)}),
             **more,
@@ -468,7 +474,9 @@ def _module(
         ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros] if shown else []),
-        "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros] if shown else []),
+        "nonzero_columns": layout.name_lines(
+            [column for _, column in spec.nonzeros] if shown else []
+        ),
         "loops": closure_tables(model, solving, target) if solving else None,
         "names": constants,
         "signature": "",
@@ -482,10 +490,7 @@ def _module(
 
 
 def _fitted_unit(
-    model: SymbolicModel,
-    fitted: FittedSpec,
-    functions: Sequence[CFunction],
-    values: dict[str, Any],
+    model: SymbolicModel, fitted: FittedSpec, functions: Sequence[CFunction], values: dict[str, Any]
 ) -> tuple[ModuleSpec, dict[str, str]]:
     """The manifest with the values, and the C of the functions that have them."""
     spec: ModuleSpec = values["spec"]
@@ -569,7 +574,9 @@ def _control_unit(
     }
     files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
     known = [*values["blocks"], *values.get("fitted_blocks", ())]
-    control = manifest.ControlSpec(function_specs(prefix, blocks, known), manifest.code_digest(files))
+    control = manifest.ControlSpec(
+        function_specs(prefix, blocks, known), manifest.code_digest(files)
+    )
     return dataclasses.replace(spec, control=control), files
 
 

@@ -10,15 +10,12 @@ from typing import Any
 
 import jinja2
 
+from modeler import __version__
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
-from modeler import __version__
 from modeler.core.manifest import (
-    BATCH_RUNTIME,
-    CONTROL_RUNTIME,
     MANIFEST,
-    TILE_RUNTIME,
     Emitted,
     FunctionSpec,
     ModuleSpec,
@@ -304,7 +301,14 @@ def package_files(
     own |= {COUNT: count} if count is not None else {}
     own |= {VECTORS: {"largest": largest}} if values["many_states"] else {}
     programs = {f"{FOLDER}/{name}.c": more for name, more in own.items()}
-    given["files"] = {*code, *templates, *programs, "base_parameters.md", MANIFEST, *(("vectors.csv",) if values["many_states"] else ())}
+    given["files"] = {
+        *code,
+        *templates,
+        *programs,
+        "base_parameters.md",
+        MANIFEST,
+        *(("vectors.csv",) if values["many_states"] else ()),
+    }
     texts = {name: render(template, **given) for name, template in templates.items()}
     return texts | {
         path: render(f"{Path(path).name}", **given, **more) for path, more in programs.items()
@@ -320,7 +324,10 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
     if spec.control is not None:
         signature = text_digest(spec.to_json())
-    heads = [f"{spec.prefix}{unit}.h" for unit in ("", "_fitted", "_control", "_joints", "_batch", "_tile")]
+    heads = [
+        f"{spec.prefix}{unit}.h"
+        for unit in ("", "_fitted", "_control", "_joints", "_batch", "_tile")
+    ]
     public = [name for name in (*heads, "modeler_batch.h") if name in code]
     for name in public:  # grows while it is read
         included = re.findall(r'^#include "([^"]+)"', code[name], flags=re.MULTILINE)
@@ -332,7 +339,8 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
         "sources": [name for name in own if name.endswith(".c")],
         "batch": [name for name in code if name.endswith(".c") and name not in own],
         "headers": [name for name in code if name.endswith(".h")],
-        "public": public + ([f"{spec.prefix}_generator.h", f"{spec.prefix}.hpp"] if spec.control else []),
+        "public": public
+        + ([f"{spec.prefix}_generator.h", f"{spec.prefix}.hpp"] if spec.control else []),
     }
 
 
