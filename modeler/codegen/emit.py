@@ -21,13 +21,13 @@ from modeler.codegen.control import (
     control_functions,
     fitted_control_functions,
 )
-from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_files, render
+from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states, vectors_text
@@ -340,6 +340,8 @@ def emit(
         every = [function for part in parts for function in part]
         units, kept = None, frozenset(f.role for f in every)
         if control is not None and control.only:
+            if cuda:
+                raise EmitError("--cuda: not with --only; generate two folders")
             kept = chosen(every, control.only, model.robot.name)
             units = {f.unit for f in every if f.role in kept} | {UNIT}
             units |= {"_batch"} if OBSERVATION in control.only else set()
@@ -362,7 +364,11 @@ def emit(
 
     def others() -> dict[str, str]:
         stored = stored_states(model, every, OF_PRECISION[precision], kept)
-        more = {"vectors.csv": vectors_text(spec.prefix, model, every, kept)} if control and control.vectors else {}
+        more = (
+            {"vectors.csv": vectors_text(spec.prefix, model, every, kept)}
+            if control and control.vectors
+            else {}
+        )
         return {
             **package_files(spec, code, {**values, "vectors": stored, "many_states": bool(more)}),
             **more,
@@ -476,7 +482,9 @@ def _module(
         ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros] if shown else []),
-        "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros] if shown else []),
+        "nonzero_columns": layout.name_lines(
+            [column for _, column in spec.nonzeros] if shown else []
+        ),
         "loops": closure_tables(model, base, solving, target) if solving else None,
         "names": constants,
         "signature": "",
@@ -490,10 +498,7 @@ def _module(
 
 
 def _fitted_unit(
-    model: SymbolicModel,
-    fitted: FittedSpec,
-    functions: Sequence[CFunction],
-    values: dict[str, Any],
+    model: SymbolicModel, fitted: FittedSpec, functions: Sequence[CFunction], values: dict[str, Any]
 ) -> tuple[ModuleSpec, dict[str, str]]:
     """The manifest with the values, and the C of the functions that have them."""
     spec: ModuleSpec = values["spec"]

@@ -10,15 +10,12 @@ from typing import Any
 
 import jinja2
 
+from modeler import __version__
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
-from modeler import __version__
 from modeler.core.manifest import (
-    BATCH_RUNTIME,
-    CONTROL_RUNTIME,
     MANIFEST,
-    TILE_RUNTIME,
     Emitted,
     FunctionSpec,
     ModuleSpec,
@@ -304,7 +301,14 @@ def package_files(
     own |= {COUNT: count} if count is not None else {}
     own |= {VECTORS: {"largest": largest}} if values["many_states"] else {}
     programs = {f"{FOLDER}/{name}.c": more for name, more in own.items()}
-    given["files"] = {*code, *templates, *programs, "base_parameters.md", MANIFEST, *(("vectors.csv",) if values["many_states"] else ())}
+    given["files"] = {
+        *code,
+        *templates,
+        *programs,
+        "base_parameters.md",
+        MANIFEST,
+        *(("vectors.csv",) if values["many_states"] else ()),
+    }
     texts = {name: render(template, **given) for name, template in templates.items()}
     return texts | {
         path: render(f"{Path(path).name}", **given, **more) for path, more in programs.items()
