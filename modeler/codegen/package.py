@@ -10,11 +10,18 @@ from typing import Any
 
 import jinja2
 
+from modeler import __version__
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
-from modeler import __version__
-from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec, OriginSpec, text_digest
+from modeler.core.manifest import (
+    MANIFEST,
+    Emitted,
+    FunctionSpec,
+    ModuleSpec,
+    OriginSpec,
+    text_digest,
+)
 
 # The programs of a folder.
 
@@ -22,12 +29,15 @@ from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec, OriginSpec,
 FOLDER = "programs"
 """Of a module's folder, so that all C files beside the library's are the library's."""
 
-EXAMPLES = ("example_computed_torque", "example_residual_observer")
+EXAMPLES = (
+    "example_computed_torque", "example_residual_observer", "example_cartesian", "example_adaptive",
+)  # fmt: skip
 """Templates, and names of the programs."""
 
 SELF_CHECK = "self_check"
 COUNT = "count_instructions"
-PROGRAMS = (SELF_CHECK, COUNT, *EXAMPLES)
+VECTORS = "run_vectors"
+PROGRAMS = (SELF_CHECK, COUNT, VECTORS, *EXAMPLES)
 """All programs that a module may have."""
 
 # Which files of a folder an earlier `modeler generate` wrote, and as what.
@@ -129,7 +139,7 @@ def _unwanted(emitted: Emitted) -> set[str]:
     """
     prefix = emitted.spec.prefix
     names = {f"{prefix}_{unit}.{kind}" for unit in ("fitted", "control") for kind in "hc"}
-    names |= {f"{prefix}.cu", f"{prefix}.st"}
+    names |= {f"{prefix}.{kind}" for kind in ("cu", "st", "a2l")}
     names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
     return names - emitted.files.keys()
 
@@ -254,10 +264,13 @@ def package_files(
         "package": _package(spec, code),
         "folder": FOLDER,
         "examples": examples,
-        "programs": (SELF_CHECK, *examples),
+        "programs": (SELF_CHECK, *([VECTORS] if values["many_states"] else []), *examples),
         "counts": count is not None,
         "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in every},
         "every": every,
+        "roles": {f.name.removeprefix(f"{prefix}_") for f in every},
+        "batched": spec.has("_batch"),
+        "head": f"{prefix}{next((u for u in ('_control', '_fitted') if spec.has(u)), '')}",
         "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
         # Operations of closing loops: equations and derivatives, and the solution.
@@ -277,7 +290,6 @@ def package_files(
     }
     if spec.control is not None:
         templates |= {f"{prefix}_generator.h": "generator.h", f"{prefix}.hpp": "wrapper.hpp"}
-    texts = {name: render(template, **given) for name, template in templates.items()}
     # What is compared with others is checked after them.
     products = {f"{prefix}_{role}" for role in PRODUCTS}
     order = sorted(every, key=lambda f: (f.name in products, f.name != f"{prefix}_base_parameters"))
@@ -287,9 +299,20 @@ def package_files(
     checked = {"checked": order, "products": PRODUCTS, "turning": TURNING, "largest": largest}
     own = {name: example_values(spec, name) for name in examples} | {SELF_CHECK: checked}
     own |= {COUNT: count} if count is not None else {}
-    for name, more in own.items():
-        texts[f"{FOLDER}/{name}.c"] = render(f"{name}.c", **given, **more)
-    return texts
+    own |= {VECTORS: {"largest": largest}} if values["many_states"] else {}
+    programs = {f"{FOLDER}/{name}.c": more for name, more in own.items()}
+    given["files"] = {
+        *code,
+        *templates,
+        *programs,
+        "base_parameters.md",
+        MANIFEST,
+        *(("vectors.csv",) if values["many_states"] else ()),
+    }
+    texts = {name: render(template, **given) for name, template in templates.items()}
+    return texts | {
+        path: render(f"{Path(path).name}", **given, **more) for path, more in programs.items()
+    }
 
 
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
@@ -301,7 +324,10 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
     signature = spec.signature() if spec.fitted is None else spec.fitted.signature
     if spec.control is not None:
         signature = text_digest(spec.to_json())
-    heads = [f"{spec.prefix}{unit}.h" for unit in ("", "_fitted", "_control", "_joints", "_batch", "_tile")]
+    heads = [
+        f"{spec.prefix}{unit}.h"
+        for unit in ("", "_fitted", "_control", "_joints", "_batch", "_tile")
+    ]
     public = [name for name in (*heads, "modeler_batch.h") if name in code]
     for name in public:  # grows while it is read
         included = re.findall(r'^#include "([^"]+)"', code[name], flags=re.MULTILINE)
@@ -313,7 +339,8 @@ def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
         "sources": [name for name in own if name.endswith(".c")],
         "batch": [name for name in code if name.endswith(".c") and name not in own],
         "headers": [name for name in code if name.endswith(".h")],
-        "public": public + ([f"{spec.prefix}_generator.h", f"{spec.prefix}.hpp"] if spec.control else []),
+        "public": public
+        + ([f"{spec.prefix}_generator.h", f"{spec.prefix}.hpp"] if spec.control else []),
     }
 
 
@@ -326,10 +353,25 @@ def _operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
 # The example programs of a fitted module: which there are, and their calls as finished strings.
 
 
+_CALLED = {
+    "example_computed_torque": ("fitted_inverse_dynamics", "fitted_friction"),
+    "example_residual_observer": (
+        "fitted_momentum", "fitted_coriolis_transpose", "fitted_gravity", "fitted_friction",
+    ),
+    "example_cartesian": (
+        "pose", "jacobian_dot_qd", "fitted_operational_inverse", "fitted_inverse_dynamics",
+    ),
+    "example_adaptive": (
+        "slotine_li_regressor", "momentum_regressor", "momentum_rest_regressor",
+    ),
+}  # fmt: skip
+
+
 def examples_of(spec: ModuleSpec) -> tuple[str, ...]:
-    """Those of a module: none without values, nor where a joint of q has no motor to obey."""
+    """Those whose functions a module has; none where a joint of q has no motor to obey."""
+    roles = {f.name.removeprefix(f"{spec.prefix}_") for f in spec.every_function}
     every = all(joint.actuated for joint in spec.joints)
-    return EXAMPLES if spec.fitted is not None and every else ()
+    return tuple(name for name in EXAMPLES if every and roles.issuperset(_CALLED[name]))
 
 
 def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
@@ -340,6 +382,8 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     if spec.closure is not None:
         return None
     functions = [f for f in spec.every_function if not f.status]
+    if not functions:
+        return None
     return {
         "states": 16,
         "largest": max(f.outputs[0].size for f in functions),
@@ -355,34 +399,56 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     }
 
 
+_LINES = {
+    "example_computed_torque": "q, qd, commanded q, qd, qdd",
+    "example_residual_observer": "q, qd, tau",
+    "example_cartesian": "q, qd, commanded [R | p], twist, acceleration",
+    "example_adaptive": "q, qd, commanded q, qd, qdd",
+}
+
+
 def example_values(spec: ModuleSpec, name: str) -> dict[str, Any]:
     """What the template of an example needs besides the values of all templates."""
-    assert spec.fitted is not None
-    roles = {f.name.removeprefix(f"{spec.prefix}_fitted_"): f for f in spec.fitted.functions}
+    roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.every_function}
     measured = [k for k, signal in enumerate(spec.signals) if signal.kind == "temperature"]
-    torque = name == EXAMPLES[0]
-    line = "q, qd, commanded q, qd, qdd" if torque else "q, qd, tau"
-    values = {"temperatures": measured, "line": f"{line}, temperatures" if measured else line}
-    if torque:
-        now = {"q": "now->q", "qd": "now->qd", "qdd": "v", "s": "own->s"}
+    line = _LINES[name]
+
+    def call(role: str, **named: str) -> str:
+        return call_head(roles[role], {"q": "now->q", "qd": "now->qd", "s": "own->s", **named})
+
+    values: dict[str, Any] = {"temperatures": measured}
+    values["line"] = f"{line}, temperatures" if measured else line
+    if name == "example_adaptive":
         return {
             **values,
-            "torque": call_head(roles["inverse_dynamics"], now),
-            "friction": call_head(roles["friction"], now),
-            "friction_d": call_head(roles["friction"], {**now, "qd": "now->qd_d"}),
+            "line": line,
+            "regressor": call("slotine_li_regressor"),
+            "momentum": call("momentum_regressor"),
+            "rest": call("momentum_rest_regressor"),
         }
-    now = {"qdd": "a", "s": "own->s"}
-    reads = {argument.name for argument in roles["friction"].inputs}
+    if name == "example_cartesian":
+        return {
+            **values,
+            "pose": call("pose"),
+            "rest": call("jacobian_dot_qd"),
+            "inverse": call("fitted_operational_inverse", damping="&own->damping"),
+            "torque": call("fitted_inverse_dynamics", qdd="v"),
+        }
+    if name == "example_computed_torque":
+        return {
+            **values,
+            "torque": call("fitted_inverse_dynamics", qdd="v"),
+            "friction": call("fitted_friction", qdd="v"),
+            "friction_d": call("fitted_friction", qd="now->qd_d", qdd="v"),
+        }
+    reads = {argument.name for argument in roles["fitted_friction"].inputs}
     return {
         **values,
-        "matrix": call_head(roles["inertia_matrix"], now),
-        "gravity": call_head(roles["gravity"], now),
-        "friction": call_head(roles["friction"], now),
-        "coriolis_ahead": call_head(roles["coriolis"], {**now, "qd": "ahead"}),
-        "coriolis_behind": call_head(roles["coriolis"], {**now, "qd": "behind"}),
+        **{role: call_head(roles[f"fitted_{role}"], {"qdd": "a", "s": "own->s"})
+           for role in ("momentum", "coriolis_transpose", "gravity", "friction")},
         "friction_reads_acceleration": "qdd" in reads,
         "uses_own": "s" in reads,
-    }
+    }  # fmt: skip
 
 
 def call_head(function: FunctionSpec, named: Mapping[str, str] | None = None) -> str:

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from modeler.api import derive, fit, generate, observe
+from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.manifest import FittedParameter, FittedSpec
@@ -129,7 +130,7 @@ def true_folder(robot: Robot, standard: Mapping[str, float], folder: Path) -> No
         for base, value in zip(spec.base, beta, strict=True)
     )
     values = FittedSpec("weighted", True, "usable: true values", (), (), known)
-    write_emitted(emit(derivation.model, derivation.base, values), folder)
+    write_emitted(emit(derivation.model, derivation.base, values, control=Control()), folder)
 
 
 def rms(values: np.ndarray) -> np.ndarray:

@@ -8,19 +8,26 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.builtin import builtin_text
-from modeler.core.manifest import FittedSpec
 from modeler.robot.edit import with_effects
 from modeler.robot.read import read_robot, robot_from_text
+from modeler.runtime import load_folder
 from modeler.simulation import HiddenEffect, SimulationSettings
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.simulated_machine import Machine, fitted_folder, observed, rms, true_folder
-from tests.modules import compiler, module
+from tests.modules import compiler, loaded, module
 
 STRICT = "-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror"
 FROM = 1.5  # s, when the push begins
+TOOL = """
+[tool]
+x = 0.03
+z = 0.12
+pitch = 0.4
+"""
 BRISTLE = HiddenEffect("presliding", "2", {"distance": 0.01, "damping": 1.0})
 
 
@@ -150,21 +157,92 @@ def answered(program: Path, rows: list[np.ndarray]) -> tuple[str, np.ndarray, in
 
 def values_of(name: str):
     made = robot_module(name)
-    return emit(made.model, made.base, fitted_of(made.emitted.spec))
+    return emit(made.model, made.base, fitted_of(made.emitted.spec), control=Control())
 
 
 def test_a_robot_with_a_joint_that_nothing_drives_has_no_example_loop():
-    made = module("demo-arm")
-    spec = made.emitted.spec
-    passive = dataclasses.replace(spec.joints[1], actuated=False)
-    from modeler.codegen.package import examples_of
+    from modeler.codegen.package import EXAMPLES, examples_of
 
-    fitted: FittedSpec = fitted_of(spec)
-    whole = dataclasses.replace(spec, fitted=fitted)
-    assert examples_of(whole) == ("example_computed_torque", "example_residual_observer")
+    spec = values_of("demo-arm").spec
+    passive = dataclasses.replace(spec.joints[1], actuated=False)
+    assert examples_of(spec) == EXAMPLES
     joints = (spec.joints[0], passive, *spec.joints[2:])
-    assert examples_of(dataclasses.replace(whole, joints=joints)) == ()
-    assert examples_of(spec) == ()
+    assert examples_of(dataclasses.replace(spec, joints=joints)) == ()
+    assert examples_of(module("demo-arm").emitted.spec) == ()
+
+
+def test_the_adaptive_example_learns_the_parameters(tmp_path, capsys):
+    """From nothing: beta's error, weighed by what the motion tells, falls; so does tracking's.
+
+    Measured: 29 % after 1 s, 2 % after 6 s.
+    """
+    compiler("gcc")
+    settings = SimulationSettings(duration=6.0, rate=1000.0, seed=8)
+    robot = read_robot("demo-arm")
+    plant = Machine(robot, settings)
+    true_folder(robot, plant.standard, tmp_path)
+    make(tmp_path, "example_adaptive", optimised="-O2")
+    ref = plant.reference
+
+    def line(k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
+        return np.concatenate([q, qd, ref.q[k], ref.qd[k], ref.qdd[k]])
+
+    run = plant.drive([tmp_path / "example_adaptive", 10.0, 10.0, 0.001], line)
+    beta = run.answers[:, plant.joints :]
+    model = module("demo-arm")
+    spec = model.emitted.spec
+    true = loaded(model.emitted).base_parameters([plant.standard[p.name] for p in spec.standard])
+    W = loaded(model.emitted).observation(ref.q[::20], ref.qd[::20], ref.qdd[::20])
+    off = np.linalg.norm((beta - true) @ W.T, axis=1) / np.linalg.norm(W @ true)
+    with capsys.disabled():
+        for second in range(7):
+            now = off[min(1000 * second, len(off) - 1)]
+            print(f"{second} s: torques of beta {100 * now:.2f} % off")
+    assert off[-1] < 0.05
+    assert np.linalg.norm(run.error[-1000:]) < 0.5 * np.linalg.norm(run.error[:1000])
+
+
+def circle(time: np.ndarray, radius: float) -> list[np.ndarray]:
+    """Position, speed, acceleration, (n, 3), of one turn that begins and ends at rest."""
+    x = time / time[-1]
+    turn = 2 * np.pi * (10 * x**3 - 15 * x**4 + 6 * x**5)
+    rate = 2 * np.pi * 30 * x**2 * (1 - x) ** 2 / time[-1]
+    more = 2 * np.pi * 60 * x * (1 - x) * (1 - 2 * x) / time[-1] ** 2
+    c, s, none = np.cos(turn), np.sin(turn), 0 * turn
+    along = [
+        [c - 1, s, none],
+        [-s * rate, c * rate, none],
+        [-c * rate**2 - s * more, c * more - s * rate**2, none],
+    ]
+    return [radius * np.array(each).T for each in along]
+
+
+def test_the_tool_follows_a_path_in_space(tmp_path):
+    """A circle of 5 cm in 3 s with the wrist held still: measured below 0.1 mm rms."""
+    compiler("gcc")
+    text = builtin_text("puma560") + TOOL
+    robot = robot_from_text(text, "puma560")
+    plant = Machine(robot, SimulationSettings(duration=3.0, rate=1000.0, seed=5))
+    true_folder(robot, plant.standard, tmp_path)
+    make(tmp_path, "example_cartesian", optimised="-O1")
+    model = load_folder(tmp_path)
+    start = model.evaluate("pose", q=plant.reference.q[:1])[0]
+    path = circle(plant.reference.time, 0.05)
+    seen = []
+
+    def line(k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
+        seen.append(q)
+        T = start.copy()
+        T[:, 3] += path[0][k]
+        return np.concatenate([q, qd, T.ravel(), path[1][k], np.zeros(3), path[2][k], np.zeros(3)])
+
+    plant.drive([tmp_path / "example_cartesian", 3.0, 1e-3], line)
+    T = model.evaluate("pose", q=np.array(seen))
+    off = T[:, :, 3] - start[:, 3] - path[0]
+    turned = np.einsum("kij,il->kjl", T[:, :, :3], start[:, :3])
+    print(rms(off), np.abs(turned - np.eye(3)).max())
+    assert np.linalg.norm(rms(off)) < 3e-4
+    assert np.abs(turned - np.eye(3)).max() < 3e-3
 
 
 @pytest.mark.parametrize("name", ["slow-arm", "orthoglide-2003"])

@@ -69,9 +69,10 @@ static fmi3Status derived(robot_instance *robot)
     if (robot->now.current)
         return fmi3OK;
     int status = fmu_accelerations(x + Q, x + QD, x + TAU, x + BETA, x + WIDTH, x + QDD);
-    for (int i = 0; i < N && status == 0; i++)
-        status = isfinite(x[QDD + i]) ? 0 : 3;
-    if (status != 0) {
+    for (int i = 0; i < N && status == MODELER_DONE; i++) {
+        status = isfinite(x[QDD + i]) ? MODELER_DONE : MODELER_NOT_FINITE;
+    }
+    if (status != MODELER_DONE) {
         char text[96];
         snprintf(text, sizeof text, "no accelerations at time %g: status %d of %s", x[TIME],
                  status, FMU_FUNCTION);
