@@ -70,9 +70,8 @@ def _fmu(thing: Robot | IdentifiedModel) -> Exported:
     emitted = generate(derivation, control=Control())
     spec = emitted.spec
     values, told = _values(spec, thing if isinstance(thing, IdentifiedModel) else None)
-    home = (0.0,) * len(spec.joints)
-    widths: tuple[str, ...] = ()
-    texts = fmu_files(emitted, widths, home, [value.now for value in values])
+    beta = [value.now for value in values]
+    texts = fmu_files(emitted, derivation.model, derivation.base, beta)
     files, notes = {name: text.encode() for name, text in texts.items()}, [*told]
     system, ending = _BINARIES.get(sys.platform, (sys.platform, "so"))
     machine = platform.machine().lower()

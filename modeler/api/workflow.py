@@ -90,6 +90,7 @@ def generate(
     cuda: bool = False,
     structured_text: bool = False,
     a2l: bool = False,
+    frames: Sequence[str] = (),
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
@@ -104,6 +105,8 @@ def generate(
         cuda: add the base regressor in CUDA, of a robot without loops.
         structured_text: add function blocks in Structured Text, of a robot without loops.
         a2l: add a description of the controller's parameter set for calibration tools.
+        frames: rows, or links of [frames], whose pose, Jacobian and twist a controller reads
+            besides those of the tool.
 
     Raises:
         ManifestError: this version derives another manifest than the one that the values of the
@@ -113,10 +116,14 @@ def generate(
     if isinstance(source, Derivation):
         derivation, fitted = source, None
     else:
-        derivation, _ = emitted_anew(source)
-        fitted = model_file.fitted_spec(source)
+        derivation, fitted = emitted_anew(source)[0], model_file.fitted_spec(source)
+    control = None
+    if frames:
+        from modeler.codegen import Control  # who fits need not wait for it
+
+        control = Control(tuple(frames))
     return generate_robot(
-        derivation, folder, force, fitted, precision, cuda, structured_text=structured_text, a2l=a2l
+        derivation, folder, force, fitted, precision, cuda, control, structured_text, a2l
     )
 
 

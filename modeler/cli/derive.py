@@ -338,13 +338,16 @@ def run_generate(args: argparse.Namespace) -> Json:
         from modeler.api.workflow import generate as generate_of_model
 
         with working(f"deriving {model.spec.robot}"):
-            emitted = generate_of_model(model, args.out, args.force, **kinds)
+            emitted = generate_of_model(model, args.out, args.force, frames=args.frame, **kinds)
         for line in model.warning:
             print_error(line)
     else:
+        from modeler.codegen import Control
+
         robot = robot_of(args)
         with working(f"deriving {robot.name}"):
-            emitted = generate(derive(robot), args.out, args.force, **kinds)
+            control = Control(tuple(args.frame))
+            emitted = generate(derive(robot), args.out, args.force, control=control, **kinds)
     spec, fitted = emitted.spec, emitted.spec.fitted
     single = ", single precision" if spec.precision == "single" else ""
     say(f"{spec.robot}: {len(spec.base)} base parameters{single}, written to {args.out}:")

@@ -3,7 +3,7 @@
 from typing import get_args
 
 from modeler.cli import places
-from modeler.cli.options import Command, choice, flag, value
+from modeler.cli.options import Command, choice, flag, repeated, value
 from modeler.cli.shared_arguments import CHANGED, FORCE, REQUIRED, ROBOT_OR_MODEL
 from modeler.core import errors
 
@@ -25,6 +25,8 @@ GENERATE = Command(
         flag("--cuda", "also the base regressor for graphics processors"),
         flag("--structured-text", "also function blocks for a PLC, IEC 61131-3"),
         flag("--a2l", "also a description of the parameter set for calibration tools"),
+        repeated("--frame", "NAME", places.Word,
+                 "also pose, Jacobian and twist of this row, or link of [frames]; may be repeated"),
         FORCE,
     ),
     "write the manifest for machines",

@@ -11,8 +11,9 @@ import casadi
 
 from modeler.codegen import functions as layout
 from modeler.codegen.control import Control, control_functions
-from modeler.codegen.fitted import widths
+from modeler.codegen.forward import efforts
 from modeler.codegen.functions import CFunction
+from modeler.codegen.parameter_set import SMOOTH, smooth_functions, turning
 from modeler.core.manifest import ArgumentSpec
 from modeler.derivation import Arithmetic, BaseParameters, Closure, Expr, Plan, SymbolicModel
 
@@ -58,43 +59,35 @@ def casadi_functions(
 ) -> tuple[list[casadi.Function], tuple[str, ...]]:
     """The functions of a robot, and what is not among them; loops are closed by Newton from home.
 
-    Besides those of the C: `forward_dynamics(q, qd, tau, beta)`, qdd of M qdd = tau - c - g - f,
-    and of each function that reads the sign of a speed one named `smooth_`, with the input
-    `widths`, over which sign(v) turns as tanh(v/width).
+    `forward_dynamics` and `smooth_forward_dynamics` give qdd of M qdd = tau - c - g - f.
     """
     listed = [*layout.tree_functions(model, base), *control_functions(model, base, Control())]
-    functions = {f.role: f for f in listed}
-    turning = widths("", model, [functions["inverse_dynamics"]])
-    names = [width.constant for width in turning.values()]
-    places = {speed: names.index(width.constant) for speed, width in turning.items()}
-    found = {role: _function(model, f, role) for role, f in functions.items()}
-    if turning:
-        for role in ("inverse_dynamics", "friction"):
-            smooth = f"smooth_{role}"
-            found[smooth] = _function(model, functions[role], smooth, places)
+    beta, given = (layout.beta_symbols(model, base),
+                   layout.arguments_of(model.robot.free, model, base))  # fmt: skip
+    if model.closure is not None:
+        listed += smooth_functions(model, beta, given)
+    places = turning(model, base)
+    found = {f.role: _function(model, f, places) for f in listed
+             if not f.internal and f.composed is None}  # fmt: skip
     missing: tuple[str, ...] = ()
     if model.closure is not None:
         found = _closed(model, model.closure, found)
         missing = ("functions of the platform's coordinates, and those for controllers",)
-    qdd = functions["friction"].inputs
-    if any(argument.name == "qdd" for argument in qdd):
+    if efforts(model, beta).turns:
         missing += ("forward_dynamics: friction reads accelerations here; solve inverse_dynamics",)
     else:
-        for head in ("", "smooth_")[: 1 + bool(turning)]:
+        for head in ("", SMOOTH)[: 1 + bool(places)]:
             found[f"{head}forward_dynamics"] = _forward(head, found)
     return list(found.values()), missing
 
 
-def _function(
-    model: SymbolicModel, f: CFunction, name: str, places: Mapping[int, int] | None = None
-) -> casadi.Function:
+def _function(model: SymbolicModel, f: CFunction, places: Mapping[int, int]) -> casadi.Function:
     """One of the C; `places` says which entry of an input `widths` each speed turns over."""
     inputs = {a.name: casadi.SX.sym(a.name, a.size) for a in f.inputs}
     values = {f"{n}[{k}]": x[k] for n, x in inputs.items() for k in range(x.numel())}
     values |= {name: casadi.SX(x) for name, x in model.geometry.values.items()}
     arithmetic = _SYMBOLIC
-    if places is not None:
-        inputs["widths"] = casadi.SX.sym("widths", 1 + max(places.values()))
+    if "widths" in inputs:
         arithmetic = _turning(model, values, places, inputs["widths"])
     numbers = [casadi.SX(0)] * f.output.size
     outputs = Plan(model.graph, [value for _, value in f.entries], arithmetic)(values)
@@ -102,7 +95,7 @@ def _function(
         numbers[place] = x
     parts = _parts(f.output, numbers)
     given = list(inputs.values()), list(parts.values()), list(inputs), list(parts)
-    return casadi.Function(name, *given)
+    return casadi.Function(f.role, *given)
 
 
 def _closed(
@@ -119,7 +112,7 @@ def _closed(
         output = ArgumentSpec(name, (len(closure.equations), len(values) // len(closure.equations)),
                               "", "")  # fmt: skip
         function = CFunction("", name, "", "", inputs, output, layout.entries_of(values))
-        return _function(model, function, name)
+        return _function(model, function, {})
 
     residual = of_tree("residual", closure.equations, "q")
     J = of_tree("jacobian", [x for row in closure.jacobian for x in row], "q")

@@ -12,7 +12,7 @@ from fractions import Fraction
 from modeler import derivation
 from modeler.codegen import functions as layout
 from modeler.codegen.forward import forward_functions, without_beta
-from modeler.codegen.functions import Arguments, CFunction, entries_of
+from modeler.codegen.functions import Arguments, CFunction, Closed, entries_of
 from modeler.codegen.parameter_set import smooth_functions
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, FittedSpec
@@ -29,9 +29,57 @@ class Control:
 
     Attributes:
         frames: names of further frames whose Jacobians are wanted: rows, links of [frames].
+        only: roles of the functions that are wanted, and `observation`; empty: all.
+        vectors: add the table of `vectors.vector_lines` and the program that reads it.
     """
 
     frames: tuple[str, ...] = ()
+    only: tuple[str, ...] = ()
+    vectors: bool = False
+
+
+OBSERVATION = "observation"
+"""Of many samples; it stands in the library for these and calls the base regressor."""
+
+_OF_LOOPS = ("factor", "solve", "coupling", "turned", "spread")
+_ROWS = ("base_regressor", "base_regressor_nonzeros", "tree_base_regressor", "tree_drift")
+
+
+def chosen(functions: Sequence[CFunction], only: Sequence[str], robot: str) -> frozenset[str]:
+    """Roles of the functions that stay: those that are asked for, and what they call.
+
+    A role stands for its twin with fitted values too.
+
+    Args:
+        functions: of the module, all units.
+        only: roles.
+        robot: name, for messages.
+
+    Raises:
+        EmitError: a role is none of the robot's; the message lists them.
+    """
+    public = [f.role for f in functions if not f.internal]
+    unknown = [role for role in only if role not in (*public, OBSERVATION)]
+    if unknown:
+        raise EmitError(
+            f"--only: {robot} has no function {', '.join(unknown)}; expected some of "
+            f"{', '.join([*public, OBSERVATION])}"
+        )
+    called = {f.role: f.closed or f.composed for f in functions}
+    waiting = [role for role in public if role in only or role.removeprefix("fitted_") in only]
+    waiting += _ROWS if OBSERVATION in only else ()
+    kept: set[str] = set()
+    while waiting:
+        role = waiting.pop()
+        if role in called and role not in kept:
+            kept.add(role)
+            made = called[role]
+            waiting += made.calls if made is not None else ()
+            if isinstance(made, Closed):
+                head = made.loops.removesuffix("loops")
+                waiting += [f"tree_{head}{part}" for part in _OF_LOOPS]
+                waiting += _ROWS if made.kind == "rows" else ()
+    return frozenset(kept)
 
 
 def control_functions(

@@ -6,7 +6,7 @@ are multiples of powers of 2, so that they are the same in both precisions.
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from functools import cache
 from typing import Any
@@ -55,14 +55,15 @@ Balls = list[list[Ball]]
 
 
 def stored_states(
-    model: SymbolicModel, functions: Sequence[CFunction], target: Target
+    model: SymbolicModel, functions: Sequence[CFunction], target: Target, kept: Collection[str]
 ) -> dict[str, Any]:
     """What the template of the check stores: `tables` by name, and how many `states` they hold.
 
     Args:
         model: as derived.
-        functions: of the module, those with fitted values too.
+        functions: all of the robot, those with fitted values too.
         target: the number type.
+        kept: roles of those of the module.
 
     Raises:
         EmitError: a number is none of the target, or the loops do not close beside home.
@@ -70,9 +71,15 @@ def stored_states(
     with flint().ctx.workprec(_BITS):
         inputs, balls = _tables(model, functions, STATES)
     expected = {role: [_numbers(row) for row in rows] for role, rows in balls.items()}
-    read = {argument.name for f in functions if not f.internal for argument in f.inputs}
+    products = {role for role in kept if role in PRODUCTS}
+    shown = {*kept} | {
+        f"{'platform_' * role.startswith('platform_')}inverse_dynamics" for role in products
+    }
+    read = {a.name for f in functions if f.role in kept and not f.internal for a in f.inputs}
+    read |= {"beta"} if products - {"regressor"} or "base_parameters" in kept else set()
+    read |= {"chi"} if "regressor" in kept else set()
     tables = {name: table for name, table in inputs.items() if name in read}
-    tables |= {f"at_{role}": table for role, table in expected.items()}
+    tables |= {f"at_{role}": table for role, table in expected.items() if role in shown}
     lines = {
         key: name_lines([target.literal(x) for row in rows for x in row])
         for key, rows in tables.items()
@@ -80,32 +87,36 @@ def stored_states(
     return {"states": STATES, "tables": lines}
 
 
-def vector_lines(
-    prefix: str, model: SymbolicModel, functions: Sequence[CFunction]
-) -> Iterator[str]:
-    """The lines of `vectors.csv`: name, state and numbers of an input, or of what a function gives.
+def vectors_text(
+    prefix: str, model: SymbolicModel, functions: Sequence[CFunction], kept: Collection[str]
+) -> str:
+    """`vectors.csv`: in each line name, state and numbers of an input, or of what a function gives.
 
     Inputs are exact in both precisions, base parameters too; outputs have 50 digits.
 
     Args:
         prefix: of the module.
         model: as derived.
-        functions: of the module, those with fitted values too.
+        functions: all of the robot, those with fitted values too.
+        kept: roles of those of the module.
 
     Raises:
         EmitError: the loops do not close beside home, or a number has fewer digits.
     """
+    lines = []
     with flint().ctx.workprec(_MANY_BITS):
         inputs, expected = _tables(model, functions, _MANY, exact=True)
-        public = {f.role: f for f in functions if not f.internal}
-        read = {argument.name for f in public.values() for argument in f.inputs}
+        read = {a.name for f in functions if f.role in kept and not f.internal for a in f.inputs}
         for state in range(_MANY):
             for name, table in inputs.items():
                 if name in read and state < len(table):
-                    yield ",".join([name, str(state), *map(repr, table[state])])
+                    lines.append(",".join([name, str(state), *map(repr, table[state])]))
             for role, rows in expected.items():
-                if role in public and state < len(rows):
-                    yield ",".join([f"{prefix}_{role}", str(state), *map(_digits, rows[state])])
+                if role in kept and state < len(rows):
+                    lines.append(
+                        ",".join([f"{prefix}_{role}", str(state), *map(_digits, rows[state])])
+                    )
+    return "".join(f"{line}\n" for line in lines)
 
 
 def _digits(x: Ball) -> str:

@@ -9,7 +9,7 @@ fold numbers, so that symbolic lengths cost no more operations than numeric ones
 Two expressions are equal when they are equal as functions, however they are written: every node
 carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
 circle (those of a sum are composed of those of its terms), and a new node whose value is known is
-the known node. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
+the known node, unless that reads symbols which the new one does without. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
 rational functions of degree d share a value with a probability of about d * 2**-61; emitted code is
 compared with other derivations anyway.)
 """
@@ -151,6 +151,8 @@ class Graph:
         self._index: dict[tuple[str, tuple[Any, ...]], int] = {("num", one.args): 1}
         self._residue = [0, 1]
         self._by_residue = {0: 0, 1: 1}
+        self._read = [0, 0]  # symbols that a node reads, a bit for each
+        self._symbols = 0
         self._plans: dict[tuple[int, ...], Plan] = {}
         self.labels: dict[int, Label] = {}
         self.links: dict[str, Link] = {}
@@ -198,15 +200,31 @@ class Graph:
         ref = self._index.get(key)
         if ref is None:
             residue = self._modular(op, args)
+            read = self._bits(op, args)
             # Numbers are compared as numbers: two of them may well agree modulo the prime.
             ref = None if op == "num" else self._known(residue)
-            if ref is None:
+            if ref is None or self._read[abs(ref)] & ~read:
                 ref = len(self.nodes)
                 self.nodes.append(Node(op, args, static))
                 self._residue.append(residue)
-                self._by_residue.setdefault(residue, ref)
+                self._read.append(read)
+                if op == "num":
+                    self._by_residue.setdefault(residue, ref)
+                else:
+                    self._by_residue.pop(PRIME - residue, None)
+                    self._by_residue[residue] = ref
             self._index[key] = ref
         return ref
+
+    def _bits(self, op: str, args: tuple[Any, ...]) -> int:
+        """Which symbols an operation reads."""
+        if op == "sym":
+            self._symbols += 1
+            return 1 << self._symbols
+        read = 0
+        for arg in args if op not in ("num", "pi") else ():
+            read |= self._read[abs(arg)]
+        return read
 
     def _known(self, residue: int) -> int | None:
         if residue in self._by_residue:
