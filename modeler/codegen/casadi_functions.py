@@ -4,8 +4,8 @@ They stand here and not among the exports, since they are one more printer of th
 functions: what the C has they have, with its names, arguments and order of entries.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
-from fractions import Fraction
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import casadi
 
@@ -90,7 +90,9 @@ def _function(model: SymbolicModel, f: CFunction, places: Mapping[int, int]) -> 
     if "widths" in inputs:
         arithmetic = _turning(model, values, places, inputs["widths"])
     numbers = [casadi.SX(0)] * f.output.size
-    outputs = Plan(model.graph, [value for _, value in f.entries], arithmetic)(values)
+    entries = [value for _, value in f.entries]
+    graph = entries[0].graph if entries else model.graph
+    outputs = Plan(graph, entries, arithmetic)(values)
     for (place, _), x in zip(f.entries, outputs, strict=True):
         numbers[place] = x
     parts = _parts(f.output, numbers)
@@ -118,7 +120,7 @@ def _closed(
     J = of_tree("jacobian", [x for row in closure.jacobian for x in row], "q")
     drift = of_tree("drift", closure.drift, "q", "qd")
 
-    def assembled(some: casadi.SX, others: casadi.SX) -> casadi.SX:
+    def assembled(some: Any, others: Any) -> Any:
         rows = dict(zip([*given, *solved], casadi.vertsplit(casadi.vertcat(some, others)),
                         strict=True))  # fmt: skip
         return casadi.vertcat(*(rows[k] for k in range(n)))
@@ -195,33 +197,32 @@ def _parts(output: ArgumentSpec, numbers: Sequence[casadi.SX]) -> dict[str, casa
 def _forward(head: str, found: Mapping[str, casadi.Function]) -> casadi.Function:
     """Qdd of tau, by the LDL' factors of M."""
     torques = found[f"{head}inverse_dynamics"]
-    kind = casadi.SX if torques.is_a("SXFunction") else casadi.MX
-    given = {n: kind.sym(n, *torques.size_in(n)) for n in torques.name_in()}
-    qdd = given.pop("qdd")
+    given = _symbols(torques)
+    qdd, kind = given["qdd"], type(given["qdd"])
+    still = torques.call([*({**given, "qdd": kind.zeros(*qdd.shape)}.values())])[0]
+    M = found["inertia_matrix"].call([given["q"], given["beta"]])[0]
     tau = kind.sym("tau", *qdd.shape)
-    still = torques(*({**given, "qdd": kind.zeros(*qdd.shape)}[n] for n in torques.name_in()))
-    M = found["inertia_matrix"](given["q"], given["beta"])
-    given = {n: x for n, x in given.items() if n != "beta"} | {"tau": tau, "beta": given["beta"]}
-    if "widths" in given:
-        given["widths"] = given.pop("widths")  # last
-    right = tau - still
-    solved = (
-        casadi.ldl_solve(right, *casadi.ldl(M)) if kind is casadi.SX else casadi.solve(M, right)
-    )
-    name = f"{head}forward_dynamics"
-    return casadi.Function(name, list(given.values()), [solved], list(given), ["qdd"])
+    if kind is casadi.SX:
+        solved = casadi.ldl_solve(tau - still, *casadi.ldl(M))
+    else:
+        solved = casadi.solve(M, tau - still)
+    names = ["q", "qd", "tau", *(n for n in given if n not in ("q", "qd", "qdd"))]
+    inputs = [{**given, "tau": tau}[n] for n in names]
+    return casadi.Function(f"{head}forward_dynamics", inputs, [solved], names, ["qdd"])
 
 
 def _with_values(function: casadi.Function, values: Sequence[float]) -> casadi.Function:
     """The function without its argument beta."""
-    names = function.name_in()
-    if "beta" not in names:
+    given = _symbols(function)
+    if "beta" not in given:
         return function
+    beta = casadi.DM(list(map(float, values)))
+    out = function.call([*{**given, "beta": type(given["beta"])(beta)}.values()])
+    del given["beta"]
+    return casadi.Function(function.name(), [*given.values()], out, [*given], function.name_out())
+
+
+def _symbols(function: casadi.Function) -> dict[str, Any]:
+    """{input: a symbol of its size}, of SX or MX as the function is."""
     kind = casadi.SX if function.is_a("SXFunction") else casadi.MX
-    given = {n: kind.sym(n, *function.size_in(n)) for n in names}
-    beta = kind(list(map(float, values)))
-    out = function.call([{**given, "beta": beta}[n] for n in names])
-    kept = {n: x for n, x in given.items() if n != "beta"}
-    return casadi.Function(
-        function.name(), list(kept.values()), out, list(kept), function.name_out()
-    )
+    return {name: kind.sym(name, *function.size_in(name)) for name in function.name_in()}

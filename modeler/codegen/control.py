@@ -16,7 +16,7 @@ from modeler.codegen.functions import Arguments, CFunction, Closed, entries_of
 from modeler.codegen.parameter_set import smooth_functions
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, FittedSpec
-from modeler.derivation import BaseParameters, Entries, Expr, ShaftColumn, SymbolicModel
+from modeler.derivation import BaseParameters, Entries, Expr, Graph, ShaftColumn, SymbolicModel
 from modeler.effects import Acts
 
 UNIT = "_control"
@@ -97,6 +97,7 @@ def control_functions(
     """
     if model.closure is not None:
         return ()
+    model = _apart(model)
     given = layout.arguments_of(model.robot.free, model, base)
     beta = layout.beta_symbols(model, base)
     return (
@@ -114,6 +115,7 @@ def fitted_control_functions(
     """Twins of those that read beta, without it: the values are written into them."""
     if model.closure is not None:
         return ()
+    model = _apart(model)
     given = layout.arguments_of(model.robot.free, model, base)
     values = {
         parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
@@ -121,6 +123,11 @@ def fitted_control_functions(
     }
     found = (*_dynamics(model, values, given), *forward_functions(model, values, given))
     return tuple(map(without_beta, found))
+
+
+def _apart(model: SymbolicModel) -> SymbolicModel:
+    """The model in a graph of its own, so that what others left there cannot change the C."""
+    return dataclasses.replace(model, graph=Graph(apart=True))
 
 
 def _dynamics(

@@ -21,13 +21,13 @@ from modeler.codegen.control import (
     control_functions,
     fitted_control_functions,
 )
-from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_files, render
+from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states, vectors_text
@@ -295,6 +295,9 @@ class _Written(CFunction):
     arguments: list[str]
     declaration: str
     definition: str
+    made: str  # prototypes of what is made of a closed posture, and of a state
+    at_declaration: str
+    at_definition: str
     lines: list[str]
     symbols: frozenset[str]
     additions: int
@@ -341,6 +344,8 @@ def emit(
         every = [function for part in parts for function in part]
         units, kept = None, frozenset(f.role for f in every)
         if control is not None and control.only:
+            if cuda:
+                raise EmitError("--cuda: not with --only; generate two folders")
             kept = chosen(every, control.only, model.robot.name)
             units = {f.unit for f in every if f.role in kept} | {UNIT}
             units |= {"_batch"} if OBSERVATION in control.only else set()
@@ -487,7 +492,7 @@ def _module(
         "nonzero_columns": layout.name_lines(
             [column for _, column in spec.nonzeros] if shown else []
         ),
-        "loops": closure_tables(model, solving, target) if solving else None,
+        "loops": closure_tables(model, base, solving, target) if solving else None,
         "names": constants,
         "signature": "",
         "blocks": blocks,
@@ -657,9 +662,30 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         definition=layout.prototype(
             name, layout.arguments(function, number, prefix, defined=True), returns
         ),
+        **_at_state(prefix, function, number),
         lines=[] if function.status else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
     )
+
+
+def _at_state(prefix: str, function: CFunction, number: str) -> dict[str, str]:
+    """Prototypes of what a function is made with where the loops are closed."""
+    closed = function.closed
+    if closed is None:
+        return dict.fromkeys(("made", "at_declaration", "at_definition"), "")
+    motion = (closed.q, closed.qd, closed.start)
+    kept = dataclasses.replace(
+        function, inputs=tuple(a for a in function.inputs if a.name not in motion)
+    )
+    name = f"{prefix}_{function.role}_at"
+    plain, state = layout.arguments(kept, number, prefix), f"struct {prefix}_state *state"
+    posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
+    own = layout.arguments(kept, number, prefix, defined=True)
+    return {
+        "made": layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
+        "at_declaration": layout.prototype(name, [state, *plain], "int"),
+        "at_definition": layout.prototype(name, [state, *own], "int"),
+    }
 
 
 def _letters(functions: Sequence[_Written]) -> list[str]:

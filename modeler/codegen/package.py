@@ -10,15 +10,12 @@ from typing import Any
 
 import jinja2
 
+from modeler import __version__
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
-from modeler import __version__
 from modeler.core.manifest import (
-    BATCH_RUNTIME,
-    CONTROL_RUNTIME,
     MANIFEST,
-    TILE_RUNTIME,
     Emitted,
     FunctionSpec,
     ModuleSpec,
