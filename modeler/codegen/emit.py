@@ -40,6 +40,7 @@ from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec, ModuleSpec
 from modeler.derivation import (
     BaseParameters,
     Geometry,
+    Label,
     SymbolicModel,
     coefficient_text,
     geometric_symbol,
@@ -336,7 +337,10 @@ def emit(
         check_values(base, fitted)
     with model.labelled():
         solving = solving_of(model, base) if model.closure is not None else None
-        parts = _parts(model, base, solving, fitted, control)
+        parts, labels = list[Sequence[CFunction]](), list[dict[int, Label]]()
+        for part in _parts(model, base, solving, fitted, control):
+            parts.append(part)
+            labels.append(model.graph.labels.copy())  # without those of the parts to come
         every = [function for part in parts for function in part]
         units, kept = None, frozenset(f.role for f in every)
         if control is not None and control.only:
@@ -346,21 +350,24 @@ def emit(
             units = {f.unit for f in every if f.role in kept} | {UNIT}
             units |= {"_batch"} if OBSERVATION in control.only else set()
         main, twins, more = ([f for f in part if f.role in kept] for part in parts)
+        model.graph.labels = labels[0]
         values = _module(model, base, precision, solving, main, units)
         spec: ModuleSpec = values["spec"]
         code = _code(spec, values)
         kernels = cuda_files(values) if cuda else {}
         if fitted is not None:
+            model.graph.labels = labels[1]
             spec, unit = _fitted_unit(model, fitted, twins, values)
             code |= unit
         if control is not None:
+            model.graph.labels = labels[2]
             spec, unit = _control_unit(model, spec, more, values)
             code |= unit
         values |= {"spec": spec}
         if structured_text:
             kernels |= structured_texts(model, spec, values, twins)
         if a2l:
-            kernels |= a2l_files(model, spec, values, functions)
+            kernels |= a2l_files(model, spec, values, more)
 
     def others() -> dict[str, str]:
         stored = stored_states(model, every, OF_PRECISION[precision], kept)
@@ -385,17 +392,17 @@ def _parts(
     solving: Solving | None,
     fitted: FittedSpec | None,
     control: Control | None,
-) -> tuple[Sequence[CFunction], ...]:
+) -> Iterator[Sequence[CFunction]]:
     """The functions of the robot, those with its fitted values, those of the controller's unit."""
-    main = (
+    yield (
         layout.tree_functions(model, base) if solving is None
         else closed_functions(model, base, solving)
     )  # fmt: skip
-    twins = fitted_functions(model, base, fitted) if fitted is not None else ()
+    yield fitted_functions(model, base, fitted) if fitted is not None else ()
     more = control_functions(model, base, control) if control is not None else ()
     if control is not None and fitted is not None:
         more += fitted_control_functions(model, base, fitted)
-    return main, twins, more
+    yield more
 
 
 class _Files(Mapping[str, str]):
