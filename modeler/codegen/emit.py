@@ -12,6 +12,7 @@ import sympy
 from modeler.codegen import functions as layout
 from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import closed_functions, closure_tables, solving_of
+from modeler.codegen.closed_control import AtState
 from modeler.codegen.control import (
     UNIT as CONTROL_UNIT,
     Control,
@@ -339,7 +340,8 @@ def emit(
             code |= unit
         if control is not None:
             found = [*control_functions(model, base, control)]
-            found += fitted_control_functions(model, base, fitted) if fitted is not None else []
+            if fitted is not None:
+                found += fitted_control_functions(model, base, fitted, found)
             spec, unit = _control_unit(model, spec, found, values)
             functions += found
             code |= unit
@@ -615,9 +617,9 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
 def _at_state(prefix: str, function: CFunction, number: str) -> dict[str, str]:
     """Prototypes of what a function is made with where the loops are closed."""
     closed = function.closed
-    if closed is None:
+    if closed is None and not isinstance(function.composed, AtState):
         return dict.fromkeys(("made", "at_declaration", "at_definition"), "")
-    motion = (closed.q, closed.qd, closed.start)
+    motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
     kept = dataclasses.replace(
         function, inputs=tuple(a for a in function.inputs if a.name not in motion)
     )
