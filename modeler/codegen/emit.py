@@ -13,6 +13,7 @@ from modeler.codegen import functions as layout
 from modeler.codegen.a2l import a2l_files
 from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import Solving, closed_functions, closure_tables, solving_of
+from modeler.codegen.closed_control import AtState
 from modeler.codegen.control import (
     OBSERVATION,
     UNIT as CONTROL_UNIT,
@@ -401,7 +402,7 @@ def _parts(
     yield fitted_functions(model, base, fitted) if fitted is not None else ()
     more = control_functions(model, base, control) if control is not None else ()
     if control is not None and fitted is not None:
-        more += fitted_control_functions(model, base, fitted)
+        more = (*more, *fitted_control_functions(model, base, fitted, more))
     yield more
 
 
@@ -671,9 +672,9 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
 def _at_state(prefix: str, function: CFunction, number: str) -> dict[str, str]:
     """Prototypes of what a function is made with where the loops are closed."""
     closed = function.closed
-    if closed is None:
+    if closed is None and not isinstance(function.composed, AtState):
         return dict.fromkeys(("made", "at_declaration", "at_definition"), "")
-    motion = (closed.q, closed.qd, closed.start)
+    motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
     kept = dataclasses.replace(
         function, inputs=tuple(a for a in function.inputs if a.name not in motion)
     )
