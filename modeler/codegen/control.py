@@ -42,8 +42,8 @@ class Control:
 OBSERVATION = "observation"
 """Of many samples; it stands in the library for these and calls the base regressor."""
 
-_OF_LOOPS = ("factor", "solve", "coupling", "turned", "spread")
-_ROWS = ("base_regressor", "base_regressor_nonzeros", "tree_base_regressor", "tree_drift")
+_OF_LOOPS = ("closure", "residual", "factor", "solve", "coupling", "turned", "spread")
+_ROWS = ("base_regressor", "base_regressor_nonzeros", "tree_base_regressor", "tree_rows")
 
 
 def chosen(functions: Sequence[CFunction], only: Sequence[str], robot: str) -> frozenset[str]:
@@ -69,6 +69,7 @@ def chosen(functions: Sequence[CFunction], only: Sequence[str], robot: str) -> f
     called = {f.role: f.closed or f.composed for f in functions}
     waiting = [role for role in public if role in only or role.removeprefix("fitted_") in only]
     waiting += _ROWS if OBSERVATION in only else ()
+    waiting += ["tree_drift", *(f"tree_{part}" for part in _OF_LOOPS)]  # the state's
     kept: set[str] = set()
     while waiting:
         role = waiting.pop()

@@ -454,7 +454,12 @@ def _module(
         precision=precision,
         units=None if units is None else tuple(sorted(units)),
     )
-    shown = spec.has("_batch") or any(f.role == "base_regressor_nonzeros" for f in functions)
+    there = {f.role for f in functions}
+    shown = spec.has("_batch") or "base_regressor_nonzeros" in there
+    loops = closure_tables(model, base, solving, target) if solving else None
+    if loops is not None:
+        loops["sets"] = [each for each in loops["sets"] if f"tree_{each['head']}factor" in there]
+        loops["rowed"] = "tree_rows" in there
     symbols = symbol_lines(model, base, macros, target)
     written = [_written(prefix, f, block, target) for f, block in blocks]
     relations = [layout.relation(parameter) for parameter in base.parameters]
@@ -493,7 +498,7 @@ def _module(
         "nonzero_columns": layout.name_lines(
             [column for _, column in spec.nonzeros] if shown else []
         ),
-        "loops": closure_tables(model, base, solving, target) if solving else None,
+        "loops": loops,
         "names": constants,
         "signature": "",
         "blocks": blocks,
