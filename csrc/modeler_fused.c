@@ -50,8 +50,9 @@ int modeler_fused_level(int wanted)
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
         best = MODELER_AVX2;
         if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-            __builtin_cpu_supports("avx512dq"))
+            __builtin_cpu_supports("avx512dq")) {
             best = MODELER_AVX512;
+        }
     }
 #endif
     return wanted < best && wanted >= MODELER_BASELINE ? wanted : best;
@@ -73,10 +74,12 @@ static size_t padded(int entries)
 static void absorb(int level, shaft *own)
 {
     const size_t whole = (own->filled + 15) / 16 * 16, entries = (size_t)own->entries;
-    if (whole == 0)
+    if (whole == 0) {
         return;
-    for (size_t k = 0; k <= entries && whole > own->filled; k++)
+    }
+    for (size_t k = 0; k <= entries && whole > own->filled; k++) {
         memset(own->tile + k * STRIDE + own->filled, 0, (whole - own->filled) * sizeof(double));
+    }
     own->filled = 0;
 #ifdef DISPATCHED
     if (level == MODELER_AVX512) {
@@ -112,8 +115,9 @@ static void spoilt(int level, int entries, const double *values, double lanes[MO
 int modeler_fused_size(const modeler_source *source, int joint)
 {
     int entries = 0;
-    for (int k = 0; k < source->nonzeros; k++)
+    for (int k = 0; k < source->nonzeros; k++) {
         entries += source->row[k] == joint;
+    }
     return (int)padded(entries);
 }
 
@@ -146,8 +150,9 @@ static size_t group_doubles(const modeler_source *source)
 static size_t tile_doubles(const modeler_source *source)
 {
     size_t columns = 0;
-    for (int j = 0; j < source->joints; j++)
+    for (int j = 0; j < source->joints; j++) {
         columns += (size_t)modeler_fused_size(source, j);
+    }
     return columns * STRIDE;
 }
 
@@ -182,8 +187,9 @@ static group divided(const modeler_source *source, double *state, void *work)
     for (int j = 0; j < source->joints; j++) {
         shaft *joint = own.shafts + j;
         joint->first = entry;
-        while (entry < source->nonzeros && source->row[entry] == j)
+        while (entry < source->nonzeros && source->row[entry] == j) {
             entry++;
+        }
         joint->entries = entry - joint->first;
         joint->p = padded(joint->entries);
         joint->filled = 0;
@@ -199,8 +205,9 @@ static group divided(const modeler_source *source, double *state, void *work)
 static const double *lanes_of(const double *rows, size_t width, size_t first, size_t count,
                               double *copy)
 {
-    if (count == MODELER_LANES || rows == NULL)
+    if (count == MODELER_LANES || rows == NULL) {
         return rows == NULL ? NULL : rows + first * width;
+    }
     for (size_t lane = 0; lane < MODELER_LANES; lane++) {
         const size_t sample = first + (lane < count ? lane : count - 1);
         memcpy(copy + lane * width, rows + sample * width, width * sizeof *copy);
@@ -224,12 +231,14 @@ static void evaluate(const modeler_source *source, const modeler_samples *given,
     /* One sample after the other. */
     double *one = own->one;
     for (size_t lane = 0; lane < MODELER_LANES; lane++) {
-        if (source->entries_signals != NULL)
+        if (source->entries_signals != NULL) {
             source->entries_signals(q + lane * n, qd + lane * n, qdd + lane * n, s + lane * m, one);
-        else
+        } else {
             source->entries(q + lane * n, qd + lane * n, qdd + lane * n, one);
-        for (size_t k = 0; k < entries; k++)
+        }
+        for (size_t k = 0; k < entries; k++) {
             own->values[k * MODELER_LANES + lane] = one[k];
+        }
     }
 }
 
@@ -238,15 +247,17 @@ static void measure(const modeler_source *source, const modeler_samples *given, 
                     size_t count, const group *own)
 {
     const size_t n = (size_t)source->joints;
-    for (size_t j = 0; j < n; j++)
+    for (size_t j = 0; j < n; j++) {
         for (size_t lane = 0; lane < MODELER_LANES; lane++) {
             const size_t at = (first + (lane < count ? lane : count - 1)) * n + j;
             const int used = lane < count && (given->use == NULL || given->use[at]);
             own->use[j * MODELER_LANES + lane] = (unsigned char)used;
             own->torque[j * MODELER_LANES + lane] = given->tau[at];
         }
-    if (given->weight == NULL)
+    }
+    if (given->weight == NULL) {
         return;
+    }
     for (size_t j = 0; j < n; j++) {
         const shaft *joint = own->shafts + j;
         double *values = own->values + MODELER_LANES * (size_t)joint->first;
@@ -255,9 +266,11 @@ static void measure(const modeler_source *source, const modeler_samples *given, 
             weight[lane] = given->weight[(first + (lane < count ? lane : count - 1)) * n + j];
             own->torque[j * MODELER_LANES + lane] *= weight[lane];
         }
-        for (int k = 0; k < joint->entries; k++, values += MODELER_LANES)
-            for (size_t lane = 0; lane < MODELER_LANES; lane++)
+        for (int k = 0; k < joint->entries; k++, values += MODELER_LANES) {
+            for (size_t lane = 0; lane < MODELER_LANES; lane++) {
                 values[lane] *= weight[lane];
+            }
+        }
     }
 }
 
@@ -274,13 +287,16 @@ static size_t leave_out(const modeler_source *source, size_t count, int level, c
         const unsigned char *use = own->use + j * MODELER_LANES;
         memcpy(lanes, own->torque + j * MODELER_LANES, sizeof lanes);
         spoilt(level, joint->entries, own->values + MODELER_LANES * (size_t)joint->first, lanes);
-        for (size_t lane = 0; lane < MODELER_LANES; lane++)
+        for (size_t lane = 0; lane < MODELER_LANES; lane++) {
             bad[lane] |= (unsigned char)(use[lane] && !(lanes[lane] == 0.0));
+        }
     }
-    for (size_t lane = 0; lane < count; lane++)
+    for (size_t lane = 0; lane < count; lane++) {
         left += bad[lane];
-    for (size_t k = 0; left > 0 && k < n * MODELER_LANES; k++)
+    }
+    for (size_t k = 0; left > 0 && k < n * MODELER_LANES; k++) {
         own->use[k] = (unsigned char)(own->use[k] && !bad[k % MODELER_LANES]);
+    }
     return left;
 }
 
@@ -290,24 +306,29 @@ static size_t append(shaft *joint, const double *values, const double *torque,
 {
     const size_t entries = (size_t)joint->entries;
     size_t used = 0;
-    for (size_t lane = 0; lane < MODELER_LANES; lane++)
+    for (size_t lane = 0; lane < MODELER_LANES; lane++) {
         used += use[lane];
-    if (joint->filled + MODELER_LANES > MODELER_FUSED_ROWS)
+    }
+    if (joint->filled + MODELER_LANES > MODELER_FUSED_ROWS) {
         absorb(level, joint);
+    }
     if (used == MODELER_LANES) {
         double *place = joint->tile + joint->filled;
-        for (size_t k = 0; k < entries; k++)
+        for (size_t k = 0; k < entries; k++) {
             memcpy(place + k * STRIDE, values + k * MODELER_LANES, MODELER_LANES * sizeof *place);
+        }
         memcpy(place + entries * STRIDE, torque, MODELER_LANES * sizeof *place);
         joint->filled += MODELER_LANES;
         return used;
     }
     for (size_t lane = 0; lane < MODELER_LANES && used > 0; lane++) {
-        if (!use[lane])
+        if (!use[lane]) {
             continue;
+        }
         double *place = joint->tile + joint->filled++;
-        for (size_t k = 0; k < entries; k++)
+        for (size_t k = 0; k < entries; k++) {
             place[k * STRIDE] = values[k * MODELER_LANES + lane];
+        }
         place[entries * STRIDE] = torque[lane];
     }
     return used;
@@ -326,8 +347,9 @@ size_t modeler_fused_triangles(const modeler_source *source, size_t samples,
         evaluate(source, given, first, count, &own);
         measure(source, given, first, count, &own);
         left_out += leave_out(source, count, level, &own, left);
-        if (bad != NULL)
+        if (bad != NULL) {
             memcpy(bad + first, left, count);
+        }
         for (int j = 0; j < source->joints; j++) {
             shaft *joint = own.shafts + j;
             const size_t at = MODELER_LANES * (size_t)j;
@@ -335,8 +357,9 @@ size_t modeler_fused_triangles(const modeler_source *source, size_t samples,
                               own.torque + at, own.use + at, level);
         }
     }
-    for (int j = 0; j < source->joints; j++)
+    for (int j = 0; j < source->joints; j++) {
         absorb(level, own.shafts + j);
+    }
     return left_out;
 }
 
@@ -348,10 +371,12 @@ void modeler_fused_merge(const modeler_source *source, int level, double *state,
     for (int j = 0; j < source->joints; j++) {
         shaft *joint = own.shafts + j;
         for (size_t i = 0; i < joint->p; i++, other += joint->p) {
-            if (joint->filled == MODELER_FUSED_ROWS)
+            if (joint->filled == MODELER_FUSED_ROWS) {
                 absorb(level, joint);
-            for (size_t k = 0; k < joint->p; k++)
+            }
+            for (size_t k = 0; k < joint->p; k++) {
                 joint->tile[k * STRIDE + joint->filled] = other[k];
+            }
             joint->filled++;
         }
         absorb(level, joint);
@@ -378,8 +403,9 @@ size_t modeler_rows_triangle(const modeler_rows *given, int level, double *trian
     level = modeler_fused_level(level);
     memset(own.tile, 0, p * STRIDE * sizeof *own.tile);
     for (size_t i = 0; i < given->rows; i++) {
-        if (given->use != NULL && !given->use[i * given->use_step])
+        if (given->use != NULL && !given->use[i * given->use_step]) {
             continue;
+        }
         const double *row = given->W + i * given->step;
         double *place = own.tile + own.filled, good = 0.0;
         for (size_t k = 0; k <= columns; k++) {
@@ -393,8 +419,9 @@ size_t modeler_rows_triangle(const modeler_rows *given, int level, double *trian
             continue;
         }
         ++*added;
-        if (++own.filled == MODELER_FUSED_ROWS)
+        if (++own.filled == MODELER_FUSED_ROWS) {
             absorb(level, &own);
+        }
     }
     absorb(level, &own);
     return left_out;

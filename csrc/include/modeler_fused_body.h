@@ -44,8 +44,9 @@ TARGET static inline void OWN(sums)(double out[4], const VECTOR *a)
     out[0] = u[0], out[1] = u[1], out[2] = u[2], out[3] = u[3];
 #else
     out[0] = a[0][0], out[1] = a[1][0], out[2] = a[2][0], out[3] = a[3][0];
-    for (int lane = 1; lane < LANES; lane++)
+    for (int lane = 1; lane < LANES; lane++) {
         out[0] += a[0][lane], out[1] += a[1][lane], out[2] += a[2][lane], out[3] += a[3][lane];
+    }
 #endif
 }
 
@@ -76,10 +77,12 @@ TARGET static void OWN(reflections)(size_t rows, size_t stride, size_t p, double
         OWN(products)(rows, stride, x, i, d);
         const double alpha = row[i], square = alpha * alpha + d[i];
         made->z[i] = made->b[i] = 0.0;
-        for (int j = 0; j < i; j++)
+        for (int j = 0; j < i; j++) {
             made->g[j][i] = d[j];
-        if (!(d[i] > 0.0 && square > SMALLEST_SQUARE))
+        }
+        if (!(d[i] > 0.0 && square > SMALLEST_SQUARE)) {
             continue;
+        }
         const double nu = alpha > 0.0 ? -sqrt(square) : sqrt(square);
         const double z = alpha - nu, b = -1.0 / (nu * z);
         made->z[i] = z, made->b[i] = b, row[i] = nu;
@@ -88,8 +91,9 @@ TARGET static void OWN(reflections)(size_t rows, size_t stride, size_t p, double
             const double w = b * (z * row[j] + d[j]);
             double *other = x + (size_t)j * stride;
             row[j] -= w * z;
-            for (size_t r = 0; r < rows; r += LANES)
+            for (size_t r = 0; r < rows; r += LANES) {
                 AT(other, r) -= w * SEEN(own, r);
+            }
         }
     }
 }
@@ -99,14 +103,16 @@ TARGET static void OWN(reflections)(size_t rows, size_t stride, size_t p, double
 TARGET static inline void OWN(shares)(size_t p, double *R, const OWN(panel) *made,
                                       double d[COLUMNS][4], double w[4][COLUMNS])
 {
-    for (int c = 0; c < COLUMNS; c++)
+    for (int c = 0; c < COLUMNS; c++) {
         for (int i = 0; i < 4; i++) {
             double sum = d[c][i] + made->z[i] * R[(size_t)i * p + (size_t)c];
-            for (int j = 0; j < i; j++)
+            for (int j = 0; j < i; j++) {
                 sum -= w[j][c] * made->g[j][i];
+            }
             w[i][c] = made->b[i] * sum;
             R[(size_t)i * p + (size_t)c] -= w[i][c] * made->z[i];
         }
+    }
 }
 
 /* Applies the reflections of the panel x to COLUMNS columns. */
@@ -169,8 +175,9 @@ TARGET static void OWN(absorb)(size_t rows, size_t stride, size_t p, double *R, 
     for (size_t k = 0; k < p; k += 4) {
         double *x = tile + k * stride;
         OWN(reflections)(rows, stride, p, R + k * p + k, x, &made);
-        for (size_t c = k + 4; c < p; c += COLUMNS)
+        for (size_t c = k + 4; c < p; c += COLUMNS) {
             OWN(reflect)(rows, stride, p, R + k * p + c, x, tile + c * stride, &made);
+        }
     }
 }
 

@@ -29,10 +29,10 @@
 
 /* What is always 0 in an output is written between the arithmetic, where it costs no time; all at
  * once, and first, where the code is to be small. */
-#define MODELER_CLEAR(x, length) do { \
-        for (int i_ = 0; i_ < (length); i_++) \
-            (x)[i_] = 0; \
-    } while (0)
+#define MODELER_CLEAR(x, length) \
+    for (int i_ = 0; i_ < (length); i_++) { \
+        (x)[i_] = 0; \
+    }
 #ifdef __OPTIMIZE_SIZE__
 #define MODELER_ALL_ZEROS(x, length) MODELER_CLEAR(x, length)
 #define MODELER_ZEROS(x, length) (void)0

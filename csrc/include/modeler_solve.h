@@ -18,8 +18,9 @@ static inline int modeler_numbers(const modeler_real *x, int n)
 {
     int bad = 0;
 
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n; i++) {
         bad |= !(x[i] - x[i] == MODELER_REAL(0.0));
+    }
     return !bad;
 }
 
@@ -27,10 +28,12 @@ static inline int modeler_numbers(const modeler_real *x, int n)
  * MODELER_DONE. */
 static inline int modeler_outcome(int status, modeler_real *x, int n)
 {
-    if (status == MODELER_DONE && !modeler_numbers(x, n))
+    if (status == MODELER_DONE && !modeler_numbers(x, n)) {
         status = MODELER_NOT_FINITE;
-    for (int i = 0; status != MODELER_DONE && i < n; i++)
+    }
+    for (int i = 0; status != MODELER_DONE && i < n; i++) {
         x[i] = NAN;
+    }
     return status;
 }
 
@@ -39,9 +42,11 @@ static inline int modeler_pivots(const modeler_real *pivot, const modeler_real *
 {
     int status = modeler_numbers(pivot, n) ? MODELER_DONE : MODELER_NOT_FINITE;
 
-    for (int i = 0; status == MODELER_DONE && i < n; i++)
-        if (!(pivot[i] > MODELER_REAL(0.0)) || !(pivot[i] > MODELER_PIVOT * diagonal[i]))
+    for (int i = 0; status == MODELER_DONE && i < n; i++) {
+        if (!(pivot[i] > MODELER_REAL(0.0)) || !(pivot[i] > MODELER_PIVOT * diagonal[i])) {
             status = MODELER_SINGULAR;
+        }
+    }
     return status;
 }
 
@@ -56,8 +61,9 @@ static inline int modeler_factor(modeler_real *A, int n)
 
         for (int k = 0; k < i; k++) {
             row[k] *= A[k * n + k];
-            for (int j = k + 1; j < n; j++)
+            for (int j = k + 1; j < n; j++) {
                 row[j] -= row[k] * A[k * n + j];
+            }
         }
         status = modeler_pivots(row + i, &diagonal, 1);
         row[i] = MODELER_REAL(1.0) / row[i];
@@ -68,16 +74,22 @@ static inline int modeler_factor(modeler_real *A, int n)
 /* X = A^-1 X of the factors; X is n x columns. */
 static inline void modeler_solve(const modeler_real *A, int n, modeler_real *X, int columns)
 {
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < i; k++)
-            for (int j = 0; j < columns; j++)
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < i; k++) {
+            for (int j = 0; j < columns; j++) {
                 X[i * columns + j] -= A[i * n + k] * X[k * columns + j];
+            }
+        }
+    }
     for (int i = n - 1; i >= 0; i--) {
-        for (int k = i + 1; k < n; k++)
-            for (int j = 0; j < columns; j++)
+        for (int k = i + 1; k < n; k++) {
+            for (int j = 0; j < columns; j++) {
                 X[i * columns + j] -= A[i * n + k] * X[k * columns + j];
-        for (int j = 0; j < columns; j++)
+            }
+        }
+        for (int j = 0; j < columns; j++) {
             X[i * columns + j] *= A[i * n + i];
+        }
     }
 }
 

@@ -70,9 +70,8 @@ def _fmu(thing: Robot | IdentifiedModel) -> Exported:
     emitted = generate(derivation, control=Control())
     spec = emitted.spec
     values, told = _values(spec, thing if isinstance(thing, IdentifiedModel) else None)
-    home = (0.0,) * len(spec.joints)
-    widths: tuple[str, ...] = ()
-    texts = fmu_files(emitted, widths, home, [value.now for value in values])
+    beta = [value.now for value in values]
+    texts = fmu_files(emitted, derivation.model, derivation.base, beta)
     files, notes = {name: text.encode() for name, text in texts.items()}, [*told]
     system, ending = _BINARIES.get(sys.platform, (sys.platform, "so"))
     machine = platform.machine().lower()
@@ -95,7 +94,9 @@ def _ros2(thing: Robot | IdentifiedModel) -> Exported:
     emitted = generate(_derivation(thing))
     fitted = thing if isinstance(thing, IdentifiedModel) else None
     values, told = _values(emitted.spec, fitted)
-    source = "Values of the robot file" if fitted is None else f"Values of a fit, {fitted.fit.method}"
+    source = (
+        "Values of the robot file" if fitted is None else f"Values of a fit, {fitted.fit.method}"
+    )
     texts = ros2_files(emitted, [value.now for value in values], source)
     files = {name: text.encode() for name, text in texts.items()}
     notes = ("the ROS part was never built or run with ROS; see README.md of the package", *told)

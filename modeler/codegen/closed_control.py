@@ -71,9 +71,10 @@ def closed_control_functions(
         if form is None:
             continue
         names |= {a.name: dataclasses.replace(a, shape=(g,)) for a in f.inputs if a.name in "va"}
-        shape = tuple(g if size == n and form != "direct" else size for size in f.output.shape)
-        if form == "jacobian":
-            shape = (6, g)
+        shape = {
+            "direct": f.output.shape, "coriolis_matrix": (g, g), "jacobian": (6, g),
+            "jacobian_dot_qd": (6,),
+        }.get(form, (g, *f.output.shape[1:]))  # fmt: skip
         role = f"tree_{f.role}"
         made = AtState(
             "at_state", {"made": role}, form=form,

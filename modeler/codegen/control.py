@@ -13,11 +13,11 @@ from modeler import derivation
 from modeler.codegen import functions as layout
 from modeler.codegen.closed_control import closed_control_functions, fitted_closed
 from modeler.codegen.forward import forward_functions, without_beta
-from modeler.codegen.functions import Arguments, CFunction, entries_of
+from modeler.codegen.functions import Arguments, CFunction, Closed, entries_of
 from modeler.codegen.parameter_set import smooth_functions
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, FittedSpec
-from modeler.derivation import BaseParameters, Entries, Expr, ShaftColumn, SymbolicModel
+from modeler.derivation import BaseParameters, Entries, Expr, Graph, ShaftColumn, SymbolicModel
 from modeler.effects import Acts
 
 UNIT = "_control"
@@ -30,9 +30,58 @@ class Control:
 
     Attributes:
         frames: names of further frames whose Jacobians are wanted: rows, links of [frames].
+        only: roles of the functions that are wanted, and `observation`; empty: all.
+        vectors: add the table of `vectors.vector_lines` and the program that reads it.
     """
 
     frames: tuple[str, ...] = ()
+    only: tuple[str, ...] = ()
+    vectors: bool = False
+
+
+OBSERVATION = "observation"
+"""Of many samples; it stands in the library for these and calls the base regressor."""
+
+_OF_LOOPS = ("closure", "residual", "factor", "solve", "coupling", "turned", "spread")
+_ROWS = ("base_regressor", "base_regressor_nonzeros", "tree_base_regressor", "tree_rows")
+
+
+def chosen(functions: Sequence[CFunction], only: Sequence[str], robot: str) -> frozenset[str]:
+    """Roles of the functions that stay: those that are asked for, and what they call.
+
+    A role stands for its twin with fitted values too.
+
+    Args:
+        functions: of the module, all units.
+        only: roles.
+        robot: name, for messages.
+
+    Raises:
+        EmitError: a role is none of the robot's; the message lists them.
+    """
+    public = [f.role for f in functions if not f.internal]
+    unknown = [role for role in only if role not in (*public, OBSERVATION)]
+    if unknown:
+        raise EmitError(
+            f"--only: {robot} has no function {', '.join(unknown)}; expected some of "
+            f"{', '.join([*public, OBSERVATION])}"
+        )
+    called = {f.role: f.closed or f.composed for f in functions}
+    waiting = [role for role in public if role in only or role.removeprefix("fitted_") in only]
+    waiting += _ROWS if OBSERVATION in only else ()
+    waiting += ["tree_drift", *(f"tree_{part}" for part in _OF_LOOPS)]  # the state's
+    kept: set[str] = set()
+    while waiting:
+        role = waiting.pop()
+        if role in called and role not in kept:
+            kept.add(role)
+            made = called[role]
+            waiting += made.calls if made is not None else ()
+            if isinstance(made, Closed):
+                head = made.loops.removesuffix("loops")
+                waiting += [f"tree_{head}{part}" for part in _OF_LOOPS]
+                waiting += _ROWS if made.kind == "rows" else ()
+    return frozenset(kept)
 
 
 def control_functions(
@@ -48,6 +97,7 @@ def control_functions(
     Raises:
         EmitError: a frame is unknown, or two have one name in C.
     """
+    model = _apart(model)
     given = layout.arguments_of(model.robot.free, model, base)
     beta = layout.beta_symbols(model, base)
     found = (
@@ -78,6 +128,7 @@ def fitted_control_functions(
     """
     if model.closure is not None:
         return fitted_closed(plain)
+    model = _apart(model)
     given = layout.arguments_of(model.robot.free, model, base)
     values = {
         parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
@@ -89,6 +140,11 @@ def fitted_control_functions(
         *forward_functions(model, values, given),
     )
     return tuple(map(without_beta, found))
+
+
+def _apart(model: SymbolicModel) -> SymbolicModel:
+    """The model in a graph of its own, so that what others left there cannot change the C."""
+    return dataclasses.replace(model, graph=Graph(apart=True))
 
 
 def _dynamics(

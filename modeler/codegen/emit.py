@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -10,25 +10,28 @@ from typing import Any
 import sympy
 
 from modeler.codegen import functions as layout
+from modeler.codegen.a2l import a2l_files
 from modeler.codegen.block import Block, float_text, make_block
-from modeler.codegen.closed import closed_functions, closure_tables, solving_of
+from modeler.codegen.closed import Solving, closed_functions, closure_tables, solving_of
 from modeler.codegen.closed_control import AtState
 from modeler.codegen.control import (
+    OBSERVATION,
     UNIT as CONTROL_UNIT,
     Control,
+    chosen,
     control_functions,
     fitted_control_functions,
 )
-from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_files, render
+from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.targets import OF_PRECISION, Target
-from modeler.codegen.vectors import stored_states
+from modeler.codegen.vectors import stored_states, vectors_text
 from modeler.core import manifest
 from modeler.core.errors import EmitError, Precision
 from modeler.core.expression import Expression
@@ -38,6 +41,7 @@ from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec, ModuleSpec
 from modeler.derivation import (
     BaseParameters,
     Geometry,
+    Label,
     SymbolicModel,
     coefficient_text,
     geometric_symbol,
@@ -310,6 +314,7 @@ def emit(
     cuda: bool = False,
     control: Control | None = None,
     structured_text: bool = False,
+    a2l: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -321,6 +326,7 @@ def emit(
         cuda: add the kernels of `codegen.cuda`, of a robot without loops.
         control: add the controller's unit.
         structured_text: add the function blocks of `codegen.structured_text`.
+        a2l: add the description of the controller's parameter set, of `codegen.a2l`.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -328,37 +334,76 @@ def emit(
     """
     if not base.parameters:
         raise EmitError(f"{model.robot.name} has no base parameters: nothing to emit")
+    if fitted is not None:
+        check_values(base, fitted)
     with model.labelled():
-        values = _module(model, base, precision)
+        solving = solving_of(model, base) if model.closure is not None else None
+        parts, labels = list[Sequence[CFunction]](), list[dict[int, Label]]()
+        for part in _parts(model, base, solving, fitted, control):
+            parts.append(part)
+            labels.append(model.graph.labels.copy())  # without those of the parts to come
+        every = [function for part in parts for function in part]
+        units, kept = None, frozenset(f.role for f in every)
+        if control is not None and control.only:
+            if cuda:
+                raise EmitError("--cuda: not with --only; generate two folders")
+            kept = chosen(every, control.only, model.robot.name)
+            units = {f.unit for f in every if f.role in kept} | {UNIT}
+            units |= {"_batch"} if OBSERVATION in control.only else set()
+        main, twins, more = ([f for f in part if f.role in kept] for part in parts)
+        model.graph.labels = labels[0]
+        values = _module(model, base, precision, solving, main, units)
         spec: ModuleSpec = values["spec"]
         code = _code(spec, values)
         kernels = cuda_files(values) if cuda else {}
-        functions = [function for function, _ in values["blocks"]]
         if fitted is not None:
-            spec, unit = _fitted_unit(model, base, fitted, values)
-            functions += fitted_functions(model, base, fitted)
+            model.graph.labels = labels[1]
+            spec, unit = _fitted_unit(model, fitted, twins, values)
             code |= unit
         if control is not None:
-            found = [*control_functions(model, base, control)]
-            if fitted is not None:
-                found += fitted_control_functions(model, base, fitted, found)
-            spec, unit = _control_unit(model, spec, found, values)
-            functions += found
+            model.graph.labels = labels[2]
+            spec, unit = _control_unit(model, spec, more, values)
             code |= unit
         values |= {"spec": spec}
         if structured_text:
-            twins = fitted_functions(model, base, fitted) if fitted is not None else ()
             kernels |= structured_texts(model, spec, values, twins)
+        if a2l:
+            kernels |= a2l_files(model, spec, values, more)
 
     def others() -> dict[str, str]:
-        stored = {**values, "vectors": stored_states(model, functions, OF_PRECISION[precision])}
+        stored = stored_states(model, every, OF_PRECISION[precision], kept)
+        more = (
+            {"vectors.csv": vectors_text(spec.prefix, model, every, kept)}
+            if control and control.vectors
+            else {}
+        )
         return {
-            **package_files(spec, code, stored),
+            **package_files(spec, code, {**values, "vectors": stored, "many_states": bool(more)}),
+            **more,
             "base_parameters.md": render("base_parameters.md", **values),
             manifest.MANIFEST: dataclasses.replace(spec, origin=origin_of()).to_json(),
         }
 
     return Emitted(spec, _Files({**code, **kernels}, others))
+
+
+def _parts(
+    model: SymbolicModel,
+    base: BaseParameters,
+    solving: Solving | None,
+    fitted: FittedSpec | None,
+    control: Control | None,
+) -> Iterator[Sequence[CFunction]]:
+    """The functions of the robot, those with its fitted values, those of the controller's unit."""
+    yield (
+        layout.tree_functions(model, base) if solving is None
+        else closed_functions(model, base, solving)
+    )  # fmt: skip
+    yield fitted_functions(model, base, fitted) if fitted is not None else ()
+    more = control_functions(model, base, control) if control is not None else ()
+    if control is not None and fitted is not None:
+        more = (*more, *fitted_control_functions(model, base, fitted, more))
+    yield more
 
 
 class _Files(Mapping[str, str]):
@@ -386,23 +431,35 @@ class _Files(Mapping[str, str]):
         return dict, (dict(self),)
 
 
-def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) -> dict[str, Any]:
+def _module(
+    model: SymbolicModel,
+    base: BaseParameters,
+    precision: Precision,
+    solving: Solving | None,
+    functions: Sequence[CFunction],
+    units: Collection[str] | None,
+) -> dict[str, Any]:
     """What the templates read; the functions' bodies and the places of symbols with it."""
     prefix, target = layout.module_prefix(model.robot.name), OF_PRECISION[precision]
     macros = layout.symbol_macros(prefix, model.robot.symbols)
     parameters = [f"beta[{i}]" for i in range(base.rank)]
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
-    solving = solving_of(model, base) if model.closure is not None else None
     parameters += solving.symbols if solving is not None else []
     parameters += ["dt[0]", *(f"s[{k}]" for k in range(len(model.signals)))]
     constants = layout.symbol_constants(prefix, model.geometry.values)
     places = layout.graph_places(model.geometry.coordinates, constants, parameters)
-    functions = (
-        closed_functions(model, base, solving) if solving is not None
-        else layout.tree_functions(model, base)
-    )  # fmt: skip
     blocks = [(f, _block(f, places, target)) for f in functions]
-    spec = dataclasses.replace(module_spec(model, base, blocks), precision=precision)
+    spec = dataclasses.replace(
+        module_spec(model, base, blocks),
+        precision=precision,
+        units=None if units is None else tuple(sorted(units)),
+    )
+    there = {f.role for f in functions}
+    shown = spec.has("_batch") or "base_regressor_nonzeros" in there
+    loops = closure_tables(model, base, solving, target) if solving else None
+    if loops is not None:
+        loops["sets"] = [each for each in loops["sets"] if f"tree_{each['head']}factor" in there]
+        loops["rowed"] = "tree_rows" in there
     symbols = symbol_lines(model, base, macros, target)
     written = [_written(prefix, f, block, target) for f, block in blocks]
     relations = [layout.relation(parameter) for parameter in base.parameters]
@@ -437,14 +494,16 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
             for restrict in ("", _RESTRICT)
         ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
-        "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros]),
-        "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros]),
-        "loops": closure_tables(model, base, solving, target) if solving else None,
+        "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros] if shown else []),
+        "nonzero_columns": layout.name_lines(
+            [column for _, column in spec.nonzeros] if shown else []
+        ),
+        "loops": loops,
         "names": constants,
         "signature": "",
         "blocks": blocks,
         "places": places,
-        "tile": None if target.suffix else tile_of(functions, places, spec.nonzeros),
+        "tile": tile_of(functions, places, spec.nonzeros) if spec.tile_sources else None,
     }
     spec = dataclasses.replace(spec, code=manifest.code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
@@ -452,13 +511,11 @@ def _module(model: SymbolicModel, base: BaseParameters, precision: Precision) ->
 
 
 def _fitted_unit(
-    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec, values: dict[str, Any]
+    model: SymbolicModel, fitted: FittedSpec, functions: Sequence[CFunction], values: dict[str, Any]
 ) -> tuple[ModuleSpec, dict[str, str]]:
     """The manifest with the values, and the C of the functions that have them."""
     spec: ModuleSpec = values["spec"]
     prefix, target = spec.prefix, OF_PRECISION[spec.precision]
-    check_values(base, fitted)
-    functions = fitted_functions(model, base, fitted)
     found = widths(prefix, model, functions)
     turning = {speed: width.constant for speed, width in found.items()}
     every = tuple(dict.fromkeys(found.values()))
@@ -533,6 +590,7 @@ def _control_unit(
     files = {
         f"{prefix}_{unit}.{kind}": render(f"{unit}.{kind}", **values)
         for unit in ("control", "joints")
+        if unit == "joints" or spec.units is None or CONTROL_UNIT in spec.units
         for kind in "hc"
     }
     files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
@@ -556,10 +614,12 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
     files = {f"{prefix}.h": render("module.h", **values)}
     for unit in ("", "_regressor", "_base_regressor"):
         own = [f for f in functions if f.unit == unit]
+        if unit and not spec.has(unit):
+            continue
         more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
         more["letters"] = _letters(own)
         files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
-    for kind in ("h", "c"):
+    for kind in "hc" if spec.has("_batch") else "":
         files[f"{prefix}_batch.{kind}"] = render(f"batch.{kind}", **values)
     runtime: tuple[str, ...] = (*manifest.RUNTIME, *manifest.BATCH_RUNTIME)
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops

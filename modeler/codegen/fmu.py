@@ -9,10 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from xml.sax.saxutils import escape
 
+from modeler.codegen.forward import efforts
+from modeler.codegen.functions import beta_symbols
 from modeler.codegen.package import render
+from modeler.codegen.parameter_set import turning_joints
 from modeler.core.errors import EmitError
 from modeler.core.files import resource_dir
 from modeler.core.manifest import Emitted, ModuleSpec, text_digest
+from modeler.derivation import BaseParameters, SymbolicModel
 
 HEADERS = ("fmi3Functions.h", "fmi3FunctionTypes.h", "fmi3PlatformTypes.h")
 """Of FMI 3.0, as they were published; see templates/fmi3."""
@@ -50,28 +54,39 @@ class _Variable:
 
 
 def fmu_files(
-    emitted: Emitted, widths: Sequence[str], home: Sequence[float], beta: Sequence[float]
+    emitted: Emitted, model: SymbolicModel, base: BaseParameters, beta: Sequence[float]
 ) -> dict[str, str]:
     """{place in the unit: text} of all but the binary.
 
     Args:
         emitted: the module, with the controller's unit.
-        widths: names of the joints whose friction turns over a width, in the order of the C.
-        home: (joints,) positions at the start.
-        beta: the base parameters at the start.
+        model: as derived.
+        base: the base parameters of the same model.
+        beta: their values at the start.
 
     Raises:
-        EmitError: effects that read signals, which nothing gives here.
+        EmitError: loops; effects that read signals, which nothing gives here, or accelerations.
     """
     spec = emitted.spec
+    if model.closure is not None:
+        raise EmitError(
+            f"{spec.robot} has loops, and the FMU is that of trees; cut the loops in the robot file"
+        )
     if spec.signals:
         raise EmitError(
             f"{spec.robot}: its effects read {spec.signals[0].kind}, which an FMU is not given; "
             "leave them out of [effects]"
         )
+    if efforts(model, beta_symbols(model, base)).turns:
+        raise EmitError(
+            f"{spec.robot}: its effects read accelerations, as load friction does, which the FMU "
+            "does not solve for; leave them out of [effects]"
+        )
     roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.every_function}
     smooth = roles.get("smooth_inverse_dynamics", roles["inverse_dynamics"])
     reads = [argument.name for argument in smooth.inputs]
+    home = (0.0,) * len(spec.joints)
+    widths = turning_joints(model, base)
     variables = list(_variables(spec, widths, home, beta))
     code = {name: emitted.code[name] for name in spec.sources}
     token = text_digest("".join(code.values()) + repr(variables))
@@ -83,7 +98,7 @@ def fmu_files(
         "torques": smooth.name, "reads": reads,
     }  # fmt: skip
     code["fmu_model.h"] = render("fmu_model.h", **values)
-    code["modeler_fmu.c"] = (resource_dir("csrc") / "modeler_fmu.c").read_text("utf-8")
+    code["modeler_fmu.c"] = (resource_dir("csrc") / "fmu" / "modeler_fmu.c").read_text("utf-8")
     vendored = resource_dir("templates") / "fmi3"
     code |= {name: (vendored / name).read_text("utf-8") for name in HEADERS}
     values["sources"] = sorted(name for name in code if name.endswith(".c"))
@@ -129,9 +144,9 @@ def _variables(
         about = " + ".join(f"{term.coefficient}*{term.parameter}" for term in base.terms)
         yield _Variable(base.name, base.unit, about, "parameter", float(value))
     units = {joint.name: joint.unit for joint in spec.joints}
-    for joint in widths:
-        about = f"width over which the Coulomb friction of joint {joint} turns"
-        yield _Variable(f"width{joint}", f"{units.get(joint, 'rad')}/s", about, "parameter", WIDTH)
+    for name in widths:
+        about = f"width over which the Coulomb friction of joint {name} turns"
+        yield _Variable(f"width{name}", f"{units.get(name, 'rad')}/s", about, "parameter", WIDTH)
 
 
 def _attributes(place: int, variables: Sequence[_Variable], n: int) -> list[tuple[str, str]]:

@@ -10,7 +10,7 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from modeler.codegen.functions import Arguments, CFunction, Composed, entries_of
+from modeler.codegen.functions import Arguments, CFunction, Composed, comment_text, entries_of
 from modeler.core.manifest import ArgumentSpec
 from modeler.derivation import Expr, SymbolicModel, derivatives
 
@@ -112,7 +112,7 @@ def forward_functions(
     def composed(role: str, does: str, equation: str, reads: tuple[ArgumentSpec, ...],
                  output: ArgumentSpec, **calls: str) -> CFunction:  # fmt: skip
         made = Composed(role, calls, TURNS if found.turns else 1)
-        return CFunction(UNIT, role, does, equation, reads, output, (), composed=made)
+        return CFunction(UNIT, role, comment_text(does), equation, reads, output, (), composed=made)
 
     return (
         step, *((slopes,) if found.turns else ()),

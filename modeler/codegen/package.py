@@ -10,11 +10,18 @@ from typing import Any
 
 import jinja2
 
+from modeler import __version__
 from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
-from modeler import __version__
-from modeler.core.manifest import Emitted, FunctionSpec, ModuleSpec, OriginSpec, text_digest
+from modeler.core.manifest import (
+    MANIFEST,
+    Emitted,
+    FunctionSpec,
+    ModuleSpec,
+    OriginSpec,
+    text_digest,
+)
 
 # The programs of a folder.
 
@@ -29,7 +36,8 @@ EXAMPLES = (
 
 SELF_CHECK = "self_check"
 COUNT = "count_instructions"
-PROGRAMS = (SELF_CHECK, COUNT, *EXAMPLES)
+VECTORS = "run_vectors"
+PROGRAMS = (SELF_CHECK, COUNT, VECTORS, *EXAMPLES)
 """All programs that a module may have."""
 
 # Which files of a folder an earlier `modeler generate` wrote, and as what.
@@ -131,7 +139,7 @@ def _unwanted(emitted: Emitted) -> set[str]:
     """
     prefix = emitted.spec.prefix
     names = {f"{prefix}_{unit}.{kind}" for unit in ("fitted", "control") for kind in "hc"}
-    names |= {f"{prefix}.cu", f"{prefix}.st"}
+    names |= {f"{prefix}.{kind}" for kind in ("cu", "st", "a2l")}
     names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
     return names - emitted.files.keys()
 
@@ -256,10 +264,13 @@ def package_files(
         "package": _package(spec, code),
         "folder": FOLDER,
         "examples": examples,
-        "programs": (SELF_CHECK, *examples),
+        "programs": (SELF_CHECK, *([VECTORS] if values["many_states"] else []), *examples),
         "counts": count is not None,
         "call": {f.name.removeprefix(f"{prefix}_"): call_head(f) for f in every},
         "every": every,
+        "roles": {f.name.removeprefix(f"{prefix}_") for f in every},
+        "batched": spec.has("_batch"),
+        "head": f"{prefix}{next((u for u in ('_control', '_fitted') if spec.has(u)), '')}",
         "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
         # Operations of closing loops: equations and derivatives, and the solution.
@@ -279,7 +290,6 @@ def package_files(
     }
     if spec.control is not None:
         templates |= {f"{prefix}_generator.h": "generator.h", f"{prefix}.hpp": "wrapper.hpp"}
-    texts = {name: render(template, **given) for name, template in templates.items()}
     # What is compared with others is checked after them.
     products = {f"{prefix}_{role}" for role in PRODUCTS}
     order = sorted(every, key=lambda f: (f.name in products, f.name != f"{prefix}_base_parameters"))
@@ -289,9 +299,20 @@ def package_files(
     checked = {"checked": order, "products": PRODUCTS, "turning": TURNING, "largest": largest}
     own = {name: example_values(spec, name) for name in examples} | {SELF_CHECK: checked}
     own |= {COUNT: count} if count is not None else {}
-    for name, more in own.items():
-        texts[f"{FOLDER}/{name}.c"] = render(f"{name}.c", **given, **more)
-    return texts
+    own |= {VECTORS: {"largest": largest}} if values["many_states"] else {}
+    programs = {f"{FOLDER}/{name}.c": more for name, more in own.items()}
+    given["files"] = {
+        *code,
+        *templates,
+        *programs,
+        "base_parameters.md",
+        MANIFEST,
+        *(("vectors.csv",) if values["many_states"] else ()),
+    }
+    texts = {name: render(template, **given) for name, template in templates.items()}
+    return texts | {
+        path: render(f"{Path(path).name}", **given, **more) for path, more in programs.items()
+    }
 
 
 def _package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:
@@ -361,6 +382,8 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     if spec.closure is not None:
         return None
     functions = [f for f in spec.every_function if not f.status]
+    if not functions:
+        return None
     return {
         "states": 16,
         "largest": max(f.outputs[0].size for f in functions),

@@ -7,10 +7,10 @@ import dataclasses
 from collections.abc import Mapping
 
 from modeler.codegen import functions as layout
-from modeler.codegen.fitted import widths
+from modeler.codegen.fitted import Width, widths
 from modeler.codegen.functions import Arguments, CFunction
 from modeler.core.manifest import ArgumentSpec
-from modeler.derivation import Expr, SymbolicModel
+from modeler.derivation import BaseParameters, Expr, SymbolicModel
 
 UNIT = "_control"
 """C file of these functions, without the robot's name and `.c`."""
@@ -38,3 +38,22 @@ def smooth_functions(
         )
         for function in found if count
     )  # fmt: skip
+
+
+def turning(model: SymbolicModel, base: BaseParameters) -> dict[int, int]:
+    """{speed: which of `widths` its sign turns over}, of the smooth functions."""
+    found = _widths_of(model, base)
+    places = {width: k for k, width in enumerate(dict.fromkeys(found.values()))}
+    return {speed: places[width] for speed, width in found.items()}
+
+
+def turning_joints(model: SymbolicModel, base: BaseParameters) -> list[str]:
+    """Names of the joints, or motors, that `widths` are of, in its order."""
+    every = dict.fromkeys(_widths_of(model, base).values())
+    return [width.macro.removeprefix("_COULOMB_WIDTH_") for width in every]
+
+
+def _widths_of(model: SymbolicModel, base: BaseParameters) -> Mapping[int, Width]:
+    beta = layout.beta_symbols(model, base)
+    given = layout.arguments_of(model.robot.free, model, base)
+    return widths("", model, smooth_functions(model, beta, given))

@@ -38,7 +38,7 @@ def ros2_files(emitted: Emitted, beta: Sequence[float], source: str) -> dict[str
         )
     roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.functions}
     status = roles["inverse_dynamics"].status
-    calls = []
+    calls: list[str] = []
     for role, out, speed in (
         ("inverse_dynamics", "tau", "qd"), ("friction", "f", "qd"),
         ("friction", "f_d", "wanted.qd"),

@@ -6,7 +6,7 @@ are multiples of powers of 2, so that they are the same in both precisions.
 """
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from functools import cache
 from typing import Any
@@ -55,14 +55,15 @@ Balls = list[list[Ball]]
 
 
 def stored_states(
-    model: SymbolicModel, functions: Sequence[CFunction], target: Target
+    model: SymbolicModel, functions: Sequence[CFunction], target: Target, kept: Collection[str]
 ) -> dict[str, Any]:
     """What the template of the check stores: `tables` by name, and how many `states` they hold.
 
     Args:
         model: as derived.
-        functions: of the module, those with fitted values too.
+        functions: all of the robot, those with fitted values too.
         target: the number type.
+        kept: roles of those of the module.
 
     Raises:
         EmitError: a number is none of the target, or the loops do not close beside home.
@@ -70,9 +71,15 @@ def stored_states(
     with flint().ctx.workprec(_BITS):
         inputs, balls = _tables(model, functions, STATES)
     expected = {role: [_numbers(row) for row in rows] for role, rows in balls.items()}
-    read = {argument.name for f in functions if not f.internal for argument in f.inputs}
+    products = {role for role in kept if role in PRODUCTS}
+    shown = {*kept} | {
+        f"{'platform_' * role.startswith('platform_')}inverse_dynamics" for role in products
+    }
+    read = {a.name for f in functions if f.role in kept and not f.internal for a in f.inputs}
+    read |= {"beta"} if products - {"regressor"} or "base_parameters" in kept else set()
+    read |= {"chi"} if "regressor" in kept else set()
     tables = {name: table for name, table in inputs.items() if name in read}
-    tables |= {f"at_{role}": table for role, table in expected.items()}
+    tables |= {f"at_{role}": table for role, table in expected.items() if role in shown}
     lines = {
         key: name_lines([target.literal(x) for row in rows for x in row])
         for key, rows in tables.items()
@@ -80,32 +87,36 @@ def stored_states(
     return {"states": STATES, "tables": lines}
 
 
-def vector_lines(
-    prefix: str, model: SymbolicModel, functions: Sequence[CFunction]
-) -> Iterator[str]:
-    """The lines of `vectors.csv`: name, state and numbers of an input, or of what a function gives.
+def vectors_text(
+    prefix: str, model: SymbolicModel, functions: Sequence[CFunction], kept: Collection[str]
+) -> str:
+    """`vectors.csv`: in each line name, state and numbers of an input, or of what a function gives.
 
     Inputs are exact in both precisions, base parameters too; outputs have 50 digits.
 
     Args:
         prefix: of the module.
         model: as derived.
-        functions: of the module, those with fitted values too.
+        functions: all of the robot, those with fitted values too.
+        kept: roles of those of the module.
 
     Raises:
         EmitError: the loops do not close beside home, or a number has fewer digits.
     """
+    lines = []
     with flint().ctx.workprec(_MANY_BITS):
         inputs, expected = _tables(model, functions, _MANY, exact=True)
-        public = {f.role: f for f in functions if not f.internal}
-        read = {argument.name for f in public.values() for argument in f.inputs}
+        read = {a.name for f in functions if f.role in kept and not f.internal for a in f.inputs}
         for state in range(_MANY):
             for name, table in inputs.items():
                 if name in read and state < len(table):
-                    yield ",".join([name, str(state), *map(repr, table[state])])
+                    lines.append(",".join([name, str(state), *map(repr, table[state])]))
             for role, rows in expected.items():
-                if role in public and state < len(rows):
-                    yield ",".join([f"{prefix}_{role}", str(state), *map(_digits, rows[state])])
+                if role in kept and state < len(rows):
+                    lines.append(
+                        ",".join([f"{prefix}_{role}", str(state), *map(_digits, rows[state])])
+                    )
+    return "".join(f"{line}\n" for line in lines)
 
 
 def _digits(x: Ball) -> str:
@@ -137,10 +148,18 @@ def _inputs(model: SymbolicModel, states: int) -> dict[str, Table]:
         "qdd": table(coordinates, spread(5, 1 / 4)),
         "v": table(coordinates, lambda i, state: speed(i + 2, state)),
         "a": table(coordinates, spread(9, 1 / 4)),
+        "tau": table(coordinates, spread(13, 2.0)),
+        "damping": table(1, lambda i, state: (state % 7 + 1) / 8),
         "s": table(len(model.signals), lambda i, state: (i + 1 + 2 * state) / 16),
         "dq": table(coordinates, spread(3, 1 / 512)),
         "dt": table(1, lambda i, state: (state + 1) / 256),
-        "chi": [[1 + (40503 * k + 977) % 4096 / 4096 for k in range(len(model.columns))]],
+        # Inertias of bodies that can be: their matrix is positive definite.
+        "chi": [
+            [
+                1 + (40503 * k + 977) % 4096 / 4096 + 32 * name.startswith(("XX", "YY", "ZZ"))
+                for k, name in enumerate(model.names)
+            ]
+        ],
     }
 
 
@@ -172,6 +191,8 @@ def _tables(
         return out
 
     inputs, closure = _inputs(model, states), model.closure
+    smooth = [a.size for f in functions for a in f.inputs if a.name == "widths"]
+    inputs["widths"] = [[0.0] * size for size in smooth[:1]] * states  # then signs leap
     chi = _named(chi=inputs["chi"][0])
     found = outputs("base_parameters", chi)
     beta = [exact_ball(_fine(float(x))) for x in found] if exact else found
@@ -197,14 +218,56 @@ def _tables(
             signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")})
             for role, f in roles.items():
                 c = f.closed or _DIRECT
-                if f.internal or f.composed or role in left or c.q != name:
+                if f.internal or role in left or c.q != name:
+                    continue
+                if f.composed:
+                    own = {**constants, **signals, **_named(tau=inputs["tau"][k]), **moving.inputs}
+                    made = _solved(f, own, _named(damping=inputs["damping"][k]), outputs)
+                    expected.setdefault(role, []).extend([made] if made else [])
                     continue
                 state = standing if c.qdd == "standing" else moving
                 tree = role if not f.closed else f"{c.tree}_{_ROWS.get(c.kind, c.role)}"
                 given = {**constants, **signals, **state.inputs}
                 out = outputs(tree, given) if tree in roles else []
                 expected.setdefault(role, []).append(_made(c.kind, state, out))
-    return inputs, expected
+    # Where a matrix is not positive definite, its functions have no number.
+    return inputs, {
+        role: rows
+        for role, rows in expected.items()
+        if len(rows) == (1 if role == "base_parameters" else states)
+    }
+
+
+def _solved(
+    f: CFunction,
+    given: Mapping[str, Ball],
+    damping: Mapping[str, Ball],
+    outputs: Callable[[str, Mapping[str, Ball]], list[Ball]],
+) -> list[Ball]:
+    """Output of a function that solves with the inertia matrix; [] where that has no meaning."""
+    assert f.composed is not None
+    head = "fitted_" * f.role.startswith("fitted_")
+    M = outputs(f"{head}inertia_matrix", given)
+    n, matrix = math.isqrt(len(M)), flint().arb_mat
+    pivots = np.linalg.eigvalsh(np.reshape(_numbers(M), (n, n)))
+    if f.composed.turns > 1 or pivots[0] < 1e-6 * pivots[-1]:
+        return []
+    inverse = matrix(n, n, M).inv()
+    if f.composed.kind.startswith("operational"):
+        J = matrix(6, n, outputs("jacobian", given))
+        square = damping["damping[0]"] * damping["damping[0]"]
+        add = matrix(6, 6, [square if i % 7 == 0 else exact_ball(0) for i in range(36)])
+        L = (J * inverse * J.transpose() + add).inv()
+        return list((L if f.output.name == "L" else inverse * J.transpose() * L).entries())
+    still = {**given, **{f"qdd[{j}]": exact_ball(0) for j in range(n)}}
+    rest = outputs(f"{head}inverse_dynamics", still)
+    qdd = (inverse * matrix(n, 1, [given[f"tau[{j}]"] - x for j, x in enumerate(rest)])).entries()
+    if f.composed.kind == "forward_dynamics":
+        return list(qdd)
+    moving = {**given, **{f"qdd[{j}]": x for j, x in enumerate(qdd)}}
+    slopes = outputs(f"{head}derivatives", moving)
+    parts = [matrix(n, n, [-x for x in slopes[k : k + n * n]]) for k in (0, n * n)]
+    return [x for part in parts for x in (inverse * part).entries()] + list(inverse.entries())
 
 
 def _made(kind: str, state: EnclosedState, out: list[Ball]) -> list[Ball]:

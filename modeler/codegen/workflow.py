@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from modeler.core.errors import Precision
+from modeler.core.errors import Machine, Precision
 from modeler.core.formula import Formulas
 from modeler.core.manifest import Emitted, FittedSpec
 from modeler.core.result import Presented
@@ -97,6 +97,8 @@ def generate(
     cuda: bool = False,
     control: "Control | None" = None,
     structured_text: bool = False,
+    a2l: bool = False,
+    measure: Machine | None = None,
 ) -> Emitted:
     """The C module; written to `folder` if one is given, with the controller's unit.
 
@@ -109,8 +111,11 @@ def generate(
         cuda: add the base regressor in CUDA, of a robot without loops.
         control: what of the controller's unit is emitted; where a folder is given, all.
         structured_text: add function blocks in Structured Text, of a robot without loops.
+        a2l: add a description of the controller's parameter set for calibration tools.
+        measure: add what calls cost on this machine or a Cortex-M, with the controller's unit.
 
     Raises:
+        BuildError: the compiler for that machine is missing.
         ModelerError: the folder holds files of these names that no earlier `generate` wrote, or
             that were edited since, and `force` is not given; or it cannot be written.
     """
@@ -121,8 +126,12 @@ def generate(
     if control is None and folder is not None:
         control = Control()
     emitted = emit(
-        derivation.model, derivation.base, fitted, precision, cuda, control, structured_text
+        derivation.model, derivation.base, fitted, precision, cuda, control, structured_text, a2l
     )
+    if measure is not None:
+        from modeler.codegen.cost import with_cost
+
+        emitted = with_cost(emitted, measure)
     emitted = dataclasses.replace(emitted, log=derivation.robot.log_words)
     if folder is not None:
         write_emitted(emitted, Path(folder), force)

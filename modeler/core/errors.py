@@ -85,6 +85,9 @@ ModelKind = Literal["torque", "energy"]
 Precision = Literal["double", "single"]
 """Of the emitted C: its numbers are `double`, or `float`."""
 
+Machine = Literal["cortex-m7", "cortex-m4", "host"]
+"""What the cost of the emitted C is measured for; host: this machine."""
+
 GAIN_METHOD = "tls"
 """Total least squares, for drive gains besides."""
 

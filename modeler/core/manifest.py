@@ -236,6 +236,7 @@ class ModuleSpec(Brief):
     inertial_uncertainty: float | None = None  # of every body, over its scale
     control: ControlSpec | None = None  # where `modeler generate` wrote it
     origin: OriginSpec | None = None  # in the file alone
+    units: tuple[str, ...] | None = None  # "_control", ...: of some functions; None: all there are
 
     @property
     def every_function(self) -> tuple[FunctionSpec, ...]:
@@ -256,13 +257,19 @@ class ModuleSpec(Brief):
             if joint in base.rows
         )
 
+    def has(self, unit: str) -> bool:
+        """True if the C file of that name, after the robot's, is part of the module."""
+        there = {"_fitted": self.fitted, "_control": self.control, "_loops": self.closure}
+        return (self.units is None or unit in self.units) and there.get(unit, self) is not None
+
     @property
     def controller_sources(self) -> tuple[str, ...]:
         """Names of the C files of the controller's library, headers included."""
-        units = [".h", ".c", "_regressor.c", "_base_regressor.c"]
-        units += ["_fitted.h", "_fitted.c"] if self.fitted is not None else []
-        for unit in ("_control", "_joints") if self.control is not None else ():
-            units += [f"{unit}.h", f"{unit}.c"]
+        units = [".h", ".c"]
+        units += [f"{unit}.c" for unit in ("_regressor", "_base_regressor") if self.has(unit)]
+        headed = [unit for unit in ("_fitted", "_control") if self.has(unit)]
+        headed += ["_joints"] if self.control is not None else []
+        units += [f"{unit}.{kind}" for unit in headed for kind in "hc"]
         runtime = list(RUNTIME)
         if self.closure is not None:
             units += ["_tree.h", "_loops.c"]
@@ -274,13 +281,13 @@ class ModuleSpec(Brief):
     @property
     def sources(self) -> tuple[str, ...]:
         """Names of the C files that Python compiles: those, and the loops over samples."""
-        units = (f"{self.prefix}_batch.h", f"{self.prefix}_batch.c")
+        units = [f"{self.prefix}_batch.{kind}" for kind in "hc" if self.has("_batch")]
         return (*self.controller_sources, *units, *BATCH_RUNTIME)
 
     @property
     def tile_sources(self) -> tuple[str, ...]:
         """Names of the C files of the tiles, which can be a library of their own; () if none."""
-        if self.closure is not None or self.precision != "double":
+        if self.closure is not None or self.precision != "double" or not self.has("_batch"):
             return ()
         units = (f"{self.prefix}_tile.h", f"{self.prefix}_tile.c")
         return (*units, *TILE_RUNTIME, *(name for name in RUNTIME if name.endswith(".h")))
@@ -292,7 +299,7 @@ class ModuleSpec(Brief):
     @cached_property
     def _text(self) -> str:
         entries = dataclasses.asdict(self)
-        for name in ("fitted", "control", "origin"):
+        for name in ("fitted", "control", "origin", "units"):
             if entries[name] is None:
                 del entries[name]
         if self.precision == "double":

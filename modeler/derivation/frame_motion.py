@@ -41,9 +41,9 @@ class BodyFrame:
 
 
 def known_frames(robot: Robot) -> dict[str, LinkFrame | None]:
-    """Names of the frames that move: rows of the table (None), and links of `[frames]`."""
+    """Names of the frames that move: rows of the table (None), then links of `[frames]`."""
     links = {name: frame for name, frame in robot.frames.items() if frame.row != "0"}
-    return {**links, **{joint.name: None for joint in robot.joints}}
+    return links | {joint.name: None for joint in robot.joints}
 
 
 def body_frame(model: SymbolicModel, name: str = "") -> BodyFrame:
@@ -58,17 +58,23 @@ def body_frame(model: SymbolicModel, name: str = "") -> BodyFrame:
         raise DerivationError(
             f'frame "{name}": {robot.name} has none of that name; expected {", ".join(known)}'
         )
-    link = known[name] if name else getattr(robot, "tool", None)
-    axes, origin = unit_axes(model.algebra)
+    link = known[name] if name else robot.tool
+    row = link.row if link else name or names[-1]
+    return BodyFrame(names.index(row), *_on_row(model, link))
+
+
+def _on_row(model: SymbolicModel, link: LinkFrame | None) -> AxesOrigin:
+    """Axes and origin of a frame in that of its row."""
     if link is None:
-        return BodyFrame(names.index(name or names[-1]), axes, origin)
-    position, angles = placement(robot, link)
-    x, y, z = axes
+        return unit_axes(model.algebra)
+    at = _on_row(model, link.on)
+    position, angles = placement(model.robot, link)
+    x, y, z = at[0]
     roll, pitch, yaw = (static_rotation(angle, model.algebra) for angle in angles)
     x, y = turned_axes(yaw, x, y)
     z, x = turned_axes(pitch, z, x)
     y, z = turned_axes(roll, y, z)
-    return BodyFrame(names.index(link.row), [x, y, z], list(map(model.algebra.static, position)))
+    return [x, y, z], plus(at[1], _turned(at, list(map(model.algebra.static, position))))
 
 
 def frame_pose(model: SymbolicModel, frame: BodyFrame) -> list[list[Expr]]:

@@ -143,14 +143,21 @@ class Graph:
         labels: {node: what it is}, of those that were named; see `named`.
         links: {name: the row}, for those who write of them.
         called: {quantity: another}, while speeds are put in the place of accelerations.
+
+    Args:
+        apart: True for functions of different inputs: a known node is taken only where it reads no
+            symbol that the new one does without. (What qdd cancels out of may be written with it.)
     """
 
-    def __init__(self) -> None:
+    def __init__(self, apart: bool = False) -> None:
         one = Node("num", (Fraction(1),), True)
         self.nodes: list[Node] = [Node("num", (Fraction(0),), True), one]
         self._index: dict[tuple[str, tuple[Any, ...]], int] = {("num", one.args): 1}
         self._residue = [0, 1]
         self._by_residue = {0: 0, 1: 1}
+        self._apart = apart
+        self._read = [0, 0]  # symbols that a node reads, a bit for each
+        self._symbols = 0
         self._plans: dict[tuple[int, ...], Plan] = {}
         self.labels: dict[int, Label] = {}
         self.links: dict[str, Link] = {}
@@ -198,15 +205,32 @@ class Graph:
         ref = self._index.get(key)
         if ref is None:
             residue = self._modular(op, args)
+            read = self._bits(op, args) if self._apart else 0
             # Numbers are compared as numbers: two of them may well agree modulo the prime.
             ref = None if op == "num" else self._known(residue)
-            if ref is None:
+            if ref is None or self._read[abs(ref)] & ~read:
                 ref = len(self.nodes)
                 self.nodes.append(Node(op, args, static))
                 self._residue.append(residue)
-                self._by_residue.setdefault(residue, ref)
+                self._read.append(read)
+                if op == "num":
+                    self._by_residue.setdefault(residue, ref)
+                else:
+                    if ref is not None:
+                        self._by_residue.pop(PRIME - residue, None)
+                    self._by_residue[residue] = ref
             self._index[key] = ref
         return ref
+
+    def _bits(self, op: str, args: tuple[Any, ...]) -> int:
+        """Which symbols an operation reads."""
+        if op == "sym":
+            self._symbols += 1
+            return 1 << self._symbols
+        read = 0
+        for arg in args if op not in ("num", "pi") else ():
+            read |= self._read[abs(arg)]
+        return read
 
     def _known(self, residue: int) -> int | None:
         if residue in self._by_residue:

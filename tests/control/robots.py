@@ -18,11 +18,16 @@ TREE = ("sr400-tree", "orthoglide-leg-tree", "tree-1", "tree-2", "tree-3", "tree
 
 
 def tree_text(seed: int) -> str:
-    """A drawn tree of turning and sliding joints; every link branches sooner or later."""
+    """A drawn tree of turning and sliding joints.
+
+    Rows of even seeds go through one branch after another, as some of Pinocchio's algorithms want
+    it; those of odd seeds do not.
+    """
     random = np.random.default_rng(seed)
-    rows = []
+    rows, way = [], [0]
     for j in range(1, 7 + seed % 3):
-        before = int(random.integers(max(0, j - 3), j))
+        before = int(random.choice(way) if seed % 2 == 0 else random.integers(max(0, j - 3), j))
+        way = [*way[: way.index(before) + 1], j] if seed % 2 == 0 else way
         slides = random.random() < 0.25
         cells = [f"{x:.2f}" for x in random.normal(0, 0.8, 5)]
         gamma, b, alpha, d, still = (f'"{cell}"' for cell in cells)

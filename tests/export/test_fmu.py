@@ -1,10 +1,17 @@
 """The FMU in FMPy: valid, and it moves as our own integration of the same equations."""
 
+import hashlib
+import shutil
+import subprocess
+import zipfile
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from modeler.api import compile_model, derive, export, generate, load
+from modeler.core.files import resource_dir
+from tests.repository import ROOT
 
 fmpy = pytest.importorskip("fmpy", reason="NOT CHECKED: no FMPy")
 validation = pytest.importorskip("fmpy.validation", reason="NOT CHECKED: no FMPy")
@@ -54,7 +61,9 @@ class Plant:
         return np.array(rows)
 
 
-@pytest.fixture(scope="module", params=["puma560", "demo-arm"])
+@pytest.fixture(
+    scope="module", params=["demo-arm", pytest.param("puma560", marks=pytest.mark.slow)]
+)
 def unit(request, tmp_path_factory):
     """A robot as FMU, its equations, a state and torques over time."""
     robot = load(request.param)
@@ -113,3 +122,94 @@ def test_model_exchange_follows_the_equations(unit) -> None:
     )  # fmt: skip
     assert np.abs(found - state).max() > 1e-2
     assert np.abs(found - ours.y.T).max() < 1e-6 * np.abs(ours.y).max()
+
+
+def test_simulink_is_the_same_unit(unit) -> None:
+    place, plant, *_ = unit
+    found = export(load(plant.spec.robot), to="simulink")
+    assert found.data == place.read_bytes() and "Simulink" in found.notes[0]
+
+
+def opened(place, folder, told: list[str]):
+    """An instance before its initialization; `told` gets what it says."""
+    unpacked = fmpy.extract(str(place), str(folder))
+    description = fmpy.read_model_description(unpacked)
+    slave = fmpy.fmi3.FMU3Slave(
+        guid=description.guid, unzipDirectory=unpacked, instanceName="robot",
+        modelIdentifier=description.coSimulation.modelIdentifier,
+    )  # fmt: skip
+
+    def log(environment, status, category, message) -> None:
+        told.append(message.decode())
+
+    told_to = fmpy.fmi3.fmi3LogMessageCallback(log)
+    slave.instantiate(logMessage=told_to)
+    slave.kept = told_to  # while it may be called
+    return slave, {v.name: v.valueReference for v in description.modelVariables}
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "words"),
+    [
+        ("tau1", np.nan, "is not finite"),
+        ("width1", 0.0, "widths of the Coulomb friction must be positive"),
+        ("step", -1e-3, "step must be positive"),
+        ("qdd1", 1.0, "time and derivatives cannot be set"),
+    ],
+)
+def test_values_that_make_no_sense_are_refused(unit, tmp_path, name, value, words) -> None:
+    told: list[str] = []
+    slave, places = opened(unit[0], tmp_path, told)
+    if name not in places:
+        pytest.skip("no Coulomb friction")
+    with pytest.raises(fmpy.fmi1.FMICallException, match="status 3"):
+        slave.setFloat64([places[name]], [value])
+    assert words in told[-1]
+    slave.freeInstance()
+
+
+def test_a_step_without_accelerations_is_discarded(unit, tmp_path) -> None:
+    told: list[str] = []
+    slave, places = opened(unit[0], tmp_path, told)
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    slave.doStep(0.0, 0.01)
+    with pytest.raises(fmpy.fmi1.FMICallException):
+        slave.setFloat64([places["q1"]], [1.0])
+    assert "before the initialization ends" in told[-1]
+    kept = slave.getFMUState()
+    before = slave.getFloat64([places["q1"]])
+    for base in unit[1].spec.base:
+        slave.setFloat64([places[base.name]], [0.0])  # no masses
+    with pytest.raises(fmpy.fmi1.FMICallException, match="status 2"):
+        slave.doStep(0.01, 0.01)
+    assert "no accelerations at time 0.01: status 2" in told[-1]
+    assert slave.getFloat64([places["q1"]]) == before
+    slave.setFMUState(kept)
+    slave.freeFMUState(kept)
+    slave.doStep(0.01, 0.01)
+    assert slave.getFloat64([places["q1"]]) != before
+    slave.freeInstance()
+
+
+@pytest.mark.parametrize("compiler", ["gcc", "clang"])
+def test_the_sources_compile_without_a_warning(unit, tmp_path, compiler) -> None:
+    if shutil.which(compiler) is None:
+        pytest.skip(f"NOT CHECKED: no {compiler}")
+    with zipfile.ZipFile(unit[0]) as archive:
+        archive.extractall(tmp_path)
+    sources, vendored = tmp_path / "sources", tmp_path / "fmi"
+    vendored.mkdir()
+    for header in sources.glob("fmi3*.h"):
+        header.rename(vendored / header.name)
+    words = [compiler, "-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Wundef"]
+    words += ["-Werror", "-fsyntax-only", "-isystem", vendored, sources / "modeler_fmu.c"]
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_headers_are_those_that_were_published() -> None:
+    docs = (ROOT / "docs" / "exporting.md").read_text(encoding="utf-8")
+    for path in (resource_dir("templates") / "fmi3").iterdir():
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        assert f"| `{path.name}` | `{digest}` |" in docs
