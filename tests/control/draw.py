@@ -8,6 +8,7 @@ from modeler.codegen import Control, derive, generate, load
 from modeler.core.manifest import Emitted
 from modeler.robot import Robot, robot_from_text
 
+
 def drawn(seed: int, tree: bool = False) -> Robot:
     """Three to six joints, some of which slide, count backwards or follow others."""
     rng = np.random.default_rng([31, seed])

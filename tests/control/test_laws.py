@@ -13,7 +13,6 @@ from tests.control.draw import emitted
 from tests.elementary_motions import frames, shift, turn
 from tests.modules import loaded
 
-
 SMOOTH = ("viscous", "rotor_inertia", "offset")
 
 
@@ -49,7 +48,8 @@ def test_regressors_without_accelerations_balance_a_simulated_log():
 def test_derivatives_go_through_friction_that_reads_loads_and_powers():
     effects = {
         "viscous": "all", "load_friction": [{"joint": "1", "w": 0.0}],
-        "nonlinear_viscous": [{"joint": "2", "p": 0.5}], "spring": [{"joint": "2", "q0": 0.5, "h": 0.1}],
+        "nonlinear_viscous": [{"joint": "2", "p": 0.5}],
+        "spring": [{"joint": "2", "q0": 0.5, "h": 0.1}],
         "stribeck": [{"joint": "1", "vs": 0.6, "d": 1.5}], "rotor_inertia": "all",
     }  # fmt: skip
     text = load("two-link").text + "\n[reference]\n"
