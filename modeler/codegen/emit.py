@@ -21,6 +21,7 @@ from modeler.codegen.control import (
     chosen,
     control_functions,
     fitted_control_functions,
+    plain_effects,
 )
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
@@ -500,6 +501,7 @@ def _module(
         ),
         "loops": loops,
         "names": constants,
+        "plain": plain_effects(model),
         "signature": "",
         "blocks": blocks,
         "places": places,
