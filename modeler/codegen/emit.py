@@ -20,13 +20,13 @@ from modeler.codegen.control import (
     control_functions,
     fitted_control_functions,
 )
-from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
 from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_files, render
+from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states, vectors_text
@@ -569,7 +569,8 @@ def _control_unit(
     }
     files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
     known = [*values["blocks"], *values.get("fitted_blocks", ())]
-    control = manifest.ControlSpec(function_specs(prefix, blocks, known), manifest.code_digest(files))
+    specs = function_specs(prefix, blocks, known)
+    control = manifest.ControlSpec(specs, manifest.code_digest(files))
     return dataclasses.replace(spec, control=control), files
 
 
