@@ -597,9 +597,8 @@ def _control_unit(
     }
     files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
     known = [*values["blocks"], *values.get("fitted_blocks", ())]
-    control = manifest.ControlSpec(
-        function_specs(prefix, blocks, known), manifest.code_digest(files)
-    )
+    specs = function_specs(prefix, blocks, known)
+    control = manifest.ControlSpec(specs, manifest.code_digest(files))
     return dataclasses.replace(spec, control=control), files
 
 
