@@ -20,8 +20,9 @@ static modeler_real largest(const modeler_closure *loops, const modeler_workspac
 
     for (int j = 0; j < loops->solved; j++) {
         const modeler_real size = modeler_fabs(x[j]) * w->share[j];
-        if (size > found || isnan(size))
+        if (size > found || isnan(size)) {
             found = size;
+        }
     }
     return found;
 }
@@ -29,8 +30,9 @@ static modeler_real largest(const modeler_closure *loops, const modeler_workspac
 /* Takes the step from w->trial. */
 static void correct(const modeler_closure *loops, const modeler_workspace *w)
 {
-    for (int j = 0; j < loops->solved; j++)
+    for (int j = 0; j < loops->solved; j++) {
         w->trial[loops->solved_places[j]] -= w->step[j];
+    }
 }
 
 /* 1 if a correction is not within `allowed`, or does not contract from the one before. */
@@ -49,14 +51,17 @@ static int corrected(const modeler_closure *loops, modeler_workspace *w, modeler
 
     for (int round = 0; round < NEWTON && w->left-- > 0; round++) {
         loops->closure(w->trial, w->values[w->at]);
-        if (!modeler_factors(loops, w, w->at))
+        if (!modeler_factors(loops, w, w->at)) {
             return 0;
+        }
         modeler_solution(loops, w, w->at, w->values[w->at], w->step);
         const modeler_real size = largest(loops, w, w->step);
-        if (diverges(size, before, round, allowed))
+        if (diverges(size, before, round, allowed) != 0) {
             return 0;
-        if (size <= MODELER_EXACT || (size <= MODELER_CONVERGED && polished++ >= POLISHED))
+        }
+        if (size <= MODELER_EXACT || (size <= MODELER_CONVERGED && polished++ >= POLISHED)) {
             return 1;
+        }
         correct(loops, w);
         before = size;
     }
@@ -70,18 +75,21 @@ static int neared(const modeler_closure *loops, modeler_workspace *w, modeler_re
 {
     modeler_real before = MODELER_REAL(0.0);
 
-    if (length > NEAR)
+    if (length > NEAR) {
         return 1;
+    }
     for (int round = 0; round < NEWTON && w->left-- > 0; round++) {
         loops->residual(w->trial, w->right);
         modeler_solution(loops, w, 1 - w->at, w->right, w->step);
         const modeler_real size = largest(loops, w, w->step);
-        if (diverges(size, before, round, allowed))
+        if (diverges(size, before, round, allowed) != 0) {
             return 0;
+        }
         correct(loops, w);
         const modeler_real rate = round > 0 ? size / before : TURNING * length;
-        if (!(size * rate > MODELER_REAL(0.1) * MODELER_EXACT) || (round > 0 && rate > NEAR))
+        if (!(size * rate > MODELER_REAL(0.1) * MODELER_EXACT) || (round > 0 && rate > NEAR)) {
             return 1;
+        }
         before = size;
     }
     return 1;
@@ -92,12 +100,16 @@ static int closed(const modeler_closure *loops, const modeler_workspace *w)
 {
     const modeler_real *const f = w->values[w->at], *const cosine = f + loops->equations;
 
-    for (int i = 0; i < loops->equations; i++)
-        if (!(modeler_fabs(f[i]) <= loops->tolerance))
+    for (int i = 0; i < loops->equations; i++) {
+        if (!(modeler_fabs(f[i]) <= loops->tolerance)) {
             return 0;
-    for (int i = 0; i < loops->alignments; i++)
-        if (!(cosine[i] > MODELER_REAL(0.0)))
+        }
+    }
+    for (int i = 0; i < loops->alignments; i++) {
+        if (!(cosine[i] > MODELER_REAL(0.0))) {
             return 0;
+        }
+    }
     return 1;
 }
 
@@ -110,11 +122,14 @@ static modeler_real spread(const modeler_closure *loops, const modeler_workspace
 
     for (int j = 0; j < m; j++) {
         const int k = loops->solved_places[j];
-        for (int i = 0; i < m; i++)
+        for (int i = 0; i < m; i++) {
             w->right[i] = MODELER_REAL(0.0);
-        for (int i = 0; i < loops->nonzeros; i++)
-            if (loops->column[i] == k)
+        }
+        for (int i = 0; i < loops->nonzeros; i++) {
+            if (loops->column[i] == k) {
                 w->right[loops->row[i]] = J[i];
+            }
+        }
         modeler_solution(loops, w, 1 - w->at, w->right, w->step);
         for (int i = 0; i < m; i++) {
             const modeler_real x = w->step[i] * w->share[i] * loops->scale[k] -
@@ -135,25 +150,31 @@ static int alike(const modeler_closure *loops, const modeler_workspace *w)
                                                                          loops, w, w->at);
     modeler_real sum = MODELER_REAL(0.0);
 
-    if (w->kept->dense[first])
+    if (w->kept->dense[first] != 0) {
         return spread(loops, w) <= TURNED * TURNED;
+    }
     loops->turned(J, K, w->lu[first], w->step);
-    for (int j = 0; j < loops->solved; j++)
+    for (int j = 0; j < loops->solved; j++) {
         sum += w->step[j] * w->step[j];
-    if (!(sum <= TURNED * TURNED))
+    }
+    if (!(sum <= TURNED * TURNED)) {
         loops->spread(J, K, w->lu[first], &sum);
+    }
     return sum <= TURNED * TURNED;
 }
 
 /* The tangent, from G at hand. */
 static void along_coupling(const modeler_closure *loops, const modeler_workspace *w)
 {
-    for (int k = 0; k < loops->unknowns; k++)
+    for (int k = 0; k < loops->unknowns; k++) {
         w->whole[k] = MODELER_REAL(0.0);
-    for (int k = 0; k < loops->couplings; k++)
+    }
+    for (int k = 0; k < loops->couplings; k++) {
         w->whole[loops->coupling_row[k]] += w->coupled[k] * w->change[loops->coupling_column[k]];
-    for (int j = 0; j < loops->solved; j++)
+    }
+    for (int j = 0; j < loops->solved; j++) {
         w->along[j] = w->whole[loops->solved_places[j]];
+    }
 }
 
 /* The tangent, from the factors. */
@@ -161,14 +182,18 @@ static void along_solution(const modeler_closure *loops, const modeler_workspace
 {
     const modeler_real *const J = modeler_jacobian(loops, w, w->at);
 
-    for (int k = 0; k < loops->unknowns; k++)
+    for (int k = 0; k < loops->unknowns; k++) {
         w->whole[k] = MODELER_REAL(0.0);
-    for (int j = 0; j < loops->given; j++)
+    }
+    for (int j = 0; j < loops->given; j++) {
         w->whole[loops->given_places[j]] = w->change[j];
-    for (int i = 0; i < loops->solved; i++)
+    }
+    for (int i = 0; i < loops->solved; i++) {
         w->right[i] = MODELER_REAL(0.0);
-    for (int k = 0; k < loops->nonzeros; k++)
+    }
+    for (int k = 0; k < loops->nonzeros; k++) {
         w->right[loops->row[k]] -= J[k] * w->whole[loops->column[k]];
+    }
     modeler_solution(loops, w, w->at, w->right, w->along);
 }
 
@@ -179,23 +204,28 @@ static modeler_real arrive(const modeler_closure *loops, modeler_workspace *w,
 {
     modeler_real length;
 
-    for (int k = 0; k < loops->unknowns; k++)
+    for (int k = 0; k < loops->unknowns; k++) {
         w->start[k] = w->trial[k];
-    for (int j = 0; j < loops->given; j++)
+    }
+    for (int j = 0; j < loops->given; j++) {
         w->change[j] = q[j] - w->start[loops->given_places[j]];
-    if (w->kept->coupled)
+    }
+    if (w->kept->coupled != 0) {
         along_coupling(loops, w);
-    else
+    } else {
         along_solution(loops, w);
+    }
     w->kept->coupled = 0;
     w->at = 1 - w->at;
     length = largest(loops, w, w->along);
     for (int j = 0; j < loops->given; j++) {
         const modeler_real own = modeler_fabs(w->change[j]) / loops->scale[loops->given_places[j]];
-        if (own > STEP * (modeler_real)w->left)
+        if (own > STEP * (modeler_real)w->left) {
             return INFINITY;
-        if (own > length || isnan(own))
+        }
+        if (own > length || isnan(own)) {
             length = own;
+        }
     }
     return length;
 }
@@ -205,8 +235,9 @@ static modeler_real straight(const modeler_closure *loops, const modeler_workspa
 {
     modeler_real own = MODELER_REAL(0.0), last = MODELER_REAL(0.0), both = MODELER_REAL(0.0);
 
-    if (!w->kept->bent)
+    if (!w->kept->bent) {
         return MODELER_REAL(0.0);
+    }
     for (int j = 0; j < loops->given; j++) {
         const modeler_real scale = loops->scale[loops->given_places[j]];
         const modeler_real x = w->change[j] / scale, y = w->last[j] / scale;
@@ -214,8 +245,9 @@ static modeler_real straight(const modeler_closure *loops, const modeler_workspa
         last += y * y;
         both += x * y;
     }
-    if (!(last > MODELER_REAL(0.0)) || own * last - both * both > STRAIGHT * STRAIGHT * own * last)
+    if (!(last > MODELER_REAL(0.0)) || own * last - both * both > STRAIGHT * STRAIGHT * own * last) {
         return MODELER_REAL(0.0);
+    }
     return both / last;
 }
 
@@ -240,10 +272,12 @@ static void advance(const modeler_closure *loops, modeler_workspace *w, const mo
 /* The step is done: the next one may bend like it. */
 static void remember(const modeler_closure *loops, modeler_workspace *w, modeler_real share)
 {
-    for (int j = 0; j < loops->solved; j++)
+    for (int j = 0; j < loops->solved; j++) {
         w->bend[j] = share * w->along[j];
-    for (int j = 0; j < loops->given; j++)
+    }
+    for (int j = 0; j < loops->given; j++) {
         w->last[j] = share * w->change[j];
+    }
     w->kept->bent = 1;
 }
 
@@ -254,8 +288,9 @@ static int stepped(const modeler_closure *loops, modeler_workspace *w, const mod
     const modeler_real allowed = MODELER_REAL(0.5) * share * length + INEXACT;
 
     advance(loops, w, q, share);
-    if (!w->brief && !neared(loops, w, allowed, share * length))
+    if (!w->brief && !neared(loops, w, allowed, share * length)) {
         advance(loops, w, q, share);
+    }
     return corrected(loops, w, allowed) && alike(loops, w) && closed(loops, w);
 }
 
@@ -269,22 +304,27 @@ static int walk(const modeler_closure *loops, modeler_workspace *w, const modele
     do {
         const modeler_real length = arrive(loops, w, q);
 
-        if (!isfinite(length))
+        if (!isfinite(length)) {
             return MODELER_UNFINISHED;
+        }
         share = modeler_fmin(MODELER_REAL(1.0), MODELER_REAL(2.0) * share);
-        if (share * length > STEP)
+        if (share * length > STEP) {
             share = STEP / length;
+        }
         while (!stepped(loops, w, q, share, length)) {
             share *= MODELER_REAL(0.5);
-            if (w->left <= 0)
+            if (w->left <= 0) {
                 return MODELER_UNFINISHED;
-            if (share < MODELER_SHORTEST)
+            }
+            if (share < MODELER_SHORTEST) {
                 return MODELER_OPEN;
+            }
         }
         remember(loops, w, share);
     } while (share < MODELER_REAL(1.0));
-    for (int k = 0; k < loops->unknowns; k++)
+    for (int k = 0; k < loops->unknowns; k++) {
         u[k] = w->trial[k];
+    }
     w->kept->valid = 1;
     w->kept->at = w->at;
     return MODELER_CLOSED;
@@ -297,17 +337,22 @@ int modeler_close(const modeler_closure *loops, const modeler_real *q, const mod
     modeler_workspace w;
 
     *work->kept = nothing;
-    if (!modeler_finite(q, (size_t)loops->given) || !modeler_finite(start, (size_t)loops->unknowns))
+    if (!modeler_finite(q, (size_t)loops->given) || !modeler_finite(start, (size_t)loops->unknowns)) {
         return MODELER_NOT_FINITE;
+    }
     w = modeler_parts(loops, work);
-    for (int j = 0; j < loops->solved; j++)
+    for (int j = 0; j < loops->solved; j++) {
         w.bend[j] = MODELER_REAL(0.0);
-    for (int j = 0; j < loops->solved; j++)
+    }
+    for (int j = 0; j < loops->solved; j++) {
         w.share[j] = MODELER_REAL(1.0) / loops->scale[loops->solved_places[j]];
-    for (int k = 0; k < loops->unknowns; k++)
+    }
+    for (int k = 0; k < loops->unknowns; k++) {
         w.trial[k] = start[k];
-    if (!corrected(loops, &w, INEXACT))
+    }
+    if (!corrected(loops, &w, INEXACT)) {
         return modeler_factors(loops, &w, w.at) ? MODELER_OPEN : MODELER_SINGULAR;
+    }
     return walk(loops, &w, q, u);
 }
 
@@ -318,16 +363,21 @@ static int next(const modeler_closure *loops, const modeler_real *q, modeler_rea
     int moved = 0;
 
     w.brief = brief;
-    if (!modeler_finite(q, (size_t)loops->given))
+    if (!modeler_finite(q, (size_t)loops->given)) {
         return MODELER_NOT_FINITE;
-    if (!w.kept->valid)
+    }
+    if (!w.kept->valid) {
         return MODELER_OPEN;
-    for (int j = 0; j < loops->given; j++)
+    }
+    for (int j = 0; j < loops->given; j++) {
         moved |= !(q[j] == w.trial[loops->given_places[j]]);
-    if (moved)
+    }
+    if (moved != 0) {
         return walk(loops, &w, q, u);
-    for (int k = 0; k < loops->unknowns; k++)
+    }
+    for (int k = 0; k < loops->unknowns; k++) {
         u[k] = w.trial[k];
+    }
     return MODELER_CLOSED;
 }
 

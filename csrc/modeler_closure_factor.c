@@ -58,39 +58,49 @@ static int pivoted(const modeler_closure *loops, const modeler_workspace *w, int
     int *const order = w->order[at];
     modeler_real largest = MODELER_REAL(0.0);
 
-    for (int k = 0; k < loops->unknowns; k++)
+    for (int k = 0; k < loops->unknowns; k++) {
         w->places[k] = -1;
-    for (int j = 0; j < m; j++)
+    }
+    for (int j = 0; j < m; j++) {
         w->places[loops->solved_places[j]] = j;
+    }
     for (int i = 0; i < m; i++) {
         norm[i] = MODELER_REAL(0.0);
         order[i] = i;
     }
-    for (int k = 0; k < m * m; k++)
+    for (int k = 0; k < m * m; k++) {
         lu[k] = MODELER_REAL(0.0);
+    }
     for (int k = 0; k < loops->nonzeros; k++) {
         const int place = w->places[loops->column[k]];
         const modeler_real value = J[k] * loops->scale[loops->column[k]];
         norm[loops->row[k]] += value * value;
-        if (place >= 0)
+        if (place >= 0) {
             lu[loops->row[k] * m + place] = value;
+        }
     }
     for (int i = 0; i < m; i++) {
         norm[i] = modeler_sqrt(norm[i]);
-        if (!(norm[i] > MODELER_REAL(0.0)))
+        if (!(norm[i] > MODELER_REAL(0.0))) {
             return 0;
-        for (int j = 0; j < m; j++)
+        }
+        for (int j = 0; j < m; j++) {
             lu[i * m + j] /= norm[i];
+        }
     }
     for (int j = 0; j < m; j++) {
         int pivot = j;
-        for (int i = j + 1; i < m; i++)
-            if (modeler_fabs(lu[i * m + j]) > modeler_fabs(lu[pivot * m + j]))
+        for (int i = j + 1; i < m; i++) {
+            if (modeler_fabs(lu[i * m + j]) > modeler_fabs(lu[pivot * m + j])) {
                 pivot = i;
-        if (modeler_fabs(lu[pivot * m + j]) > largest)
+            }
+        }
+        if (modeler_fabs(lu[pivot * m + j]) > largest) {
             largest = modeler_fabs(lu[pivot * m + j]);
-        if (!(modeler_fabs(lu[pivot * m + j]) > MODELER_FLAT * largest))
+        }
+        if (!(modeler_fabs(lu[pivot * m + j]) > MODELER_FLAT * largest)) {
             return 0;
+        }
         if (pivot != j) {
             const int row = order[j];
             order[j] = order[pivot];
@@ -104,8 +114,9 @@ static int pivoted(const modeler_closure *loops, const modeler_workspace *w, int
         for (int i = j + 1; i < m; i++) {
             const modeler_real share = lu[i * m + j] / lu[j * m + j];
             lu[i * m + j] = share;
-            for (int k = j + 1; k < m; k++)
+            for (int k = j + 1; k < m; k++) {
                 lu[i * m + k] -= share * lu[j * m + k];
+            }
         }
     }
     return 1;
@@ -116,8 +127,9 @@ int modeler_factors(const modeler_closure *loops, const modeler_workspace *w, in
     int small = 0;
 
     loops->factor(modeler_jacobian(loops, w, at), w->lu[at]);
-    for (int j = 0; j < loops->solved; j++)
+    for (int j = 0; j < loops->solved; j++) {
         small |= !(modeler_fabs(w->lu[at][j]) <= loops->limits[j]);
+    }
     w->kept->dense[at] = small;
     return !small || pivoted(loops, w, at);
 }
@@ -135,14 +147,17 @@ void modeler_solution(const modeler_closure *loops, const modeler_workspace *w, 
     for (int i = 0; i < m; i++) {
         const int row = w->order[at][i];
         x[i] = right[row] / w->norm[at][row];
-        for (int k = 0; k < i; k++)
+        for (int k = 0; k < i; k++) {
             x[i] -= lu[i * m + k] * x[k];
+        }
     }
     for (int i = m - 1; i >= 0; i--) {
-        for (int k = i + 1; k < m; k++)
+        for (int k = i + 1; k < m; k++) {
             x[i] -= lu[i * m + k] * x[k];
+        }
         x[i] /= lu[i * m + i];
     }
-    for (int i = 0; i < m; i++)
+    for (int i = 0; i < m; i++) {
         x[i] *= loops->scale[loops->solved_places[i]];
+    }
 }

@@ -46,9 +46,10 @@ typedef struct {
 
 static fmi3Status told(const robot_instance *robot, fmi3Status status, const char *message)
 {
-    if (robot->log != NULL)
+    if (robot->log != NULL) {
         robot->log(robot->environment, status, status == fmi3Discard ? "discarded" : "error",
                    message);
+    }
     return status;
 }
 
@@ -58,16 +59,18 @@ static void started(robot_state *now)
     now->value[STEP] = FMU_STEP;
     memcpy(now->value + Q, fmu_home, sizeof fmu_home);
     memcpy(now->value + BETA, fmu_beta, sizeof fmu_beta);
-    for (int i = 0; i < FMU_WIDTHS; i++)
+    for (int i = 0; i < FMU_WIDTHS; i++) {
         now->value[WIDTH + i] = FMU_WIDTH;
+    }
 }
 
 /* Derivatives of the states. */
 static fmi3Status derived(robot_instance *robot)
 {
     double *x = robot->now.value;
-    if (robot->now.current)
+    if (robot->now.current) {
         return fmi3OK;
+    }
     int status = fmu_accelerations(x + Q, x + QD, x + TAU, x + BETA, x + WIDTH, x + QDD);
     for (int i = 0; i < N && status == MODELER_DONE; i++) {
         status = isfinite(x[QDD + i]) ? MODELER_DONE : MODELER_NOT_FINITE;
@@ -121,8 +124,9 @@ static fmi3Instance instantiated(fmi3String token, fmi3InstanceEnvironment envir
                                  fmi3LogMessageCallback log)
 {
     robot_instance *robot = calloc(1, sizeof *robot);
-    if (robot == NULL)
+    if (robot == NULL) {
         return NULL;
+    }
     robot->environment = environment;
     robot->log = log;
     if (token == NULL || strcmp(token, FMU_TOKEN) != 0) {
@@ -207,16 +211,20 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
 {
     robot_instance *robot = instance;
     fmi3Status status = fmi3OK;
-    if (nValues != nValueReferences)
+    if (nValues != nValueReferences) {
         return told(robot, fmi3Error, "every variable is one number");
+    }
     for (size_t i = 0; i < nValues; i++) {
         const fmi3ValueReference at = valueReferences[i];
-        if (at >= VALUES)
+        if (at >= VALUES) {
             return told(robot, fmi3Error, "no such value reference");
-        if (at >= DQ && at < TAU)
+        }
+        if (at >= DQ && at < TAU) {
             status = derived(robot);
-        if (status != fmi3OK)
+        }
+        if (status != fmi3OK) {
             return status;
+        }
         values[i] = robot->now.value[at];
     }
     return fmi3OK;
@@ -224,18 +232,24 @@ fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
 
 static const char *refused(const robot_state *now, fmi3ValueReference at, double value)
 {
-    if (at >= VALUES)
+    if (at >= VALUES) {
         return "no such value reference";
-    if (at == TIME || (at >= DQ && at < TAU))
+    }
+    if (at == TIME || (at >= DQ && at < TAU)) {
         return "time and derivatives cannot be set";
-    if (now->running && at >= Q && at < DQ)
+    }
+    if (now->running && at >= Q && at < DQ) {
         return "positions and speeds can be set before the initialization ends only";
-    if (!isfinite(value))
+    }
+    if (!isfinite(value)) {
         return "a value that is set is not finite";
-    if (at == STEP && !(value > 0.0))
+    }
+    if (at == STEP && !(value > 0.0)) {
         return "step must be positive";
-    if (at >= WIDTH && !(value > 0.0))
+    }
+    if (at >= WIDTH && !(value > 0.0)) {
         return "widths of the Coulomb friction must be positive";
+    }
     return NULL;
 }
 
@@ -243,12 +257,14 @@ fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference valueR
                           size_t nValueReferences, const fmi3Float64 values[], size_t nValues)
 {
     robot_instance *robot = instance;
-    if (nValues != nValueReferences)
+    if (nValues != nValueReferences) {
         return told(robot, fmi3Error, "every variable is one number");
+    }
     for (size_t i = 0; i < nValues; i++) {
         const char *why = refused(&robot->now, valueReferences[i], values[i]);
-        if (why != NULL)
+        if (why != NULL) {
             return told(robot, fmi3Error, why);
+        }
         robot->now.value[valueReferences[i]] = values[i];
         robot->now.current = false;
     }
@@ -353,8 +369,9 @@ fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *FMUState)
 {
     robot_instance *robot = instance;
     robot_state *kept = *FMUState != NULL ? *FMUState : malloc(sizeof *kept);
-    if (kept == NULL)
+    if (kept == NULL) {
         return told(robot, fmi3Error, "no memory for a copy of the state");
+    }
     *kept = robot->now;
     *FMUState = kept;
     return fmi3OK;
@@ -384,8 +401,9 @@ fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState FMUSta
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState,
                                  fmi3Byte serializedState[], size_t size)
 {
-    if (size < sizeof(robot_state))
+    if (size < sizeof(robot_state)) {
         return told(instance, fmi3Error, "the buffer is too short for the state");
+    }
     memcpy(serializedState, FMUState, sizeof(robot_state));
     return fmi3OK;
 }
@@ -393,11 +411,13 @@ fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState FMUState,
 fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte serializedState[],
                                    size_t size, fmi3FMUState *FMUState)
 {
-    if (size != sizeof(robot_state))
+    if (size != sizeof(robot_state)) {
         return told(instance, fmi3Error, "the buffer is no state of this robot");
+    }
     fmi3Status status = fmi3GetFMUState(instance, FMUState);
-    if (status == fmi3OK)
+    if (status == fmi3OK) {
         memcpy(*FMUState, serializedState, sizeof(robot_state));
+    }
     return status;
 }
 
@@ -440,8 +460,9 @@ fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 cont
                                    size_t nContinuousStates)
 {
     robot_instance *robot = instance;
-    if (counted(robot, nContinuousStates) != fmi3OK)
+    if (counted(robot, nContinuousStates) != fmi3OK) {
         return fmi3Error;
+    }
     memcpy(robot->now.value + Q, continuousStates, STATES*sizeof *continuousStates);
     robot->now.current = false;
     return fmi3OK;
@@ -451,8 +472,9 @@ fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 continuous
                                    size_t nContinuousStates)
 {
     const robot_instance *robot = instance;
-    if (counted(robot, nContinuousStates) != fmi3OK)
+    if (counted(robot, nContinuousStates) != fmi3OK) {
         return fmi3Error;
+    }
     memcpy(continuousStates, robot->now.value + Q, STATES*sizeof *continuousStates);
     return fmi3OK;
 }
@@ -461,21 +483,25 @@ fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 
                                              size_t nContinuousStates)
 {
     robot_instance *robot = instance;
-    if (counted(robot, nContinuousStates) != fmi3OK)
+    if (counted(robot, nContinuousStates) != fmi3OK) {
         return fmi3Error;
+    }
     fmi3Status status = derived(robot);
-    if (status == fmi3OK)
+    if (status == fmi3OK) {
         memcpy(derivatives, robot->now.value + DQ, STATES*sizeof *derivatives);
+    }
     return status;
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[],
                                              size_t nContinuousStates)
 {
-    if (counted(instance, nContinuousStates) != fmi3OK)
+    if (counted(instance, nContinuousStates) != fmi3OK) {
         return fmi3Error;
-    for (int i = 0; i < STATES; i++)
+    }
+    for (int i = 0; i < STATES; i++) {
         nominals[i] = 1.0;
+    }
     return fmi3OK;
 }
 
@@ -507,15 +533,17 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
     double *time = robot->now.value + TIME, size = communicationStepSize;
     *eventHandlingNeeded = *terminateSimulation = *earlyReturn = fmi3False;
     *lastSuccessfulTime = currentCommunicationPoint;
-    if (!(size >= 0.0) || !isfinite(size))
+    if (!(size >= 0.0) || !isfinite(size)) {
         return told(robot, fmi3Error, "a communication step is a number of seconds from 0 on");
+    }
     const double wanted = ceil(size/robot->now.value[STEP]*(1.0 - 1e-9));
     const double count = wanted > 1.0 ? wanted : 1.0, h = size/count;
     *time = currentCommunicationPoint;
     for (double k = 1.0; k <= count && size > 0.0; k += 1.0) {
         fmi3Status status = stepped(robot, h);
-        if (status != fmi3OK)
+        if (status != fmi3OK) {
             return status;
+        }
         *time = *lastSuccessfulTime = currentCommunicationPoint + (k < count ? k*h : size);
     }
     return fmi3OK;

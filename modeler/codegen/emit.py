@@ -13,6 +13,7 @@ from modeler.codegen import functions as layout
 from modeler.codegen.a2l import a2l_files
 from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import Solving, closed_functions, closure_tables, solving_of
+from modeler.codegen.closed_control import AtState
 from modeler.codegen.control import (
     OBSERVATION,
     UNIT as CONTROL_UNIT,
@@ -40,6 +41,7 @@ from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec, ModuleSpec
 from modeler.derivation import (
     BaseParameters,
     Geometry,
+    Label,
     SymbolicModel,
     coefficient_text,
     geometric_symbol,
@@ -336,31 +338,39 @@ def emit(
         check_values(base, fitted)
     with model.labelled():
         solving = solving_of(model, base) if model.closure is not None else None
-        parts = _parts(model, base, solving, fitted, control)
+        parts, labels = list[Sequence[CFunction]](), list[dict[int, Label]]()
+        for part in _parts(model, base, solving, fitted, control):
+            parts.append(part)
+            labels.append(model.graph.labels.copy())  # without those of the parts to come
         every = [function for part in parts for function in part]
         units, kept = None, frozenset(f.role for f in every)
         if control is not None and control.only:
-            if cuda:
-                raise EmitError("--cuda: not with --only; generate two folders")
+            if cuda or a2l:
+                raise EmitError(
+                    f"--{'cuda' if cuda else 'a2l'}: not with --only; generate two folders"
+                )
             kept = chosen(every, control.only, model.robot.name)
             units = {f.unit for f in every if f.role in kept} | {UNIT}
             units |= {"_batch"} if OBSERVATION in control.only else set()
         main, twins, more = ([f for f in part if f.role in kept] for part in parts)
+        model.graph.labels = labels[0]
         values = _module(model, base, precision, solving, main, units)
         spec: ModuleSpec = values["spec"]
         code = _code(spec, values)
         kernels = cuda_files(values) if cuda else {}
         if fitted is not None:
+            model.graph.labels = labels[1]
             spec, unit = _fitted_unit(model, fitted, twins, values)
             code |= unit
         if control is not None:
+            model.graph.labels = labels[2]
             spec, unit = _control_unit(model, spec, more, values)
             code |= unit
         values |= {"spec": spec}
         if structured_text:
             kernels |= structured_texts(model, spec, values, twins)
         if a2l:
-            kernels |= a2l_files(model, spec, values, [*main, *twins, *more])
+            kernels |= a2l_files(model, spec, values, more)
 
     def others() -> dict[str, str]:
         stored = stored_states(model, every, OF_PRECISION[precision], kept)
@@ -385,17 +395,17 @@ def _parts(
     solving: Solving | None,
     fitted: FittedSpec | None,
     control: Control | None,
-) -> tuple[Sequence[CFunction], ...]:
+) -> Iterator[Sequence[CFunction]]:
     """The functions of the robot, those with its fitted values, those of the controller's unit."""
-    main = (
+    yield (
         layout.tree_functions(model, base) if solving is None
         else closed_functions(model, base, solving)
     )  # fmt: skip
-    twins = fitted_functions(model, base, fitted) if fitted is not None else ()
+    yield fitted_functions(model, base, fitted) if fitted is not None else ()
     more = control_functions(model, base, control) if control is not None else ()
     if control is not None and fitted is not None:
-        more += fitted_control_functions(model, base, fitted)
-    return main, twins, more
+        more = (*more, *fitted_control_functions(model, base, fitted, more))
+    yield more
 
 
 class _Files(Mapping[str, str]):
@@ -669,9 +679,9 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
 def _at_state(prefix: str, function: CFunction, number: str) -> dict[str, str]:
     """Prototypes of what a function is made with where the loops are closed."""
     closed = function.closed
-    if closed is None:
+    if closed is None and not isinstance(function.composed, AtState):
         return dict.fromkeys(("made", "at_declaration", "at_definition"), "")
-    motion = (closed.q, closed.qd, closed.start)
+    motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
     kept = dataclasses.replace(
         function, inputs=tuple(a for a in function.inputs if a.name not in motion)
     )
