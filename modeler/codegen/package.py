@@ -387,6 +387,9 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     return {
         "states": 16,
         "largest": max(f.outputs[0].size for f in functions),
+        "widths_read": max(
+            (a.size for f in functions for a in f.inputs if a.name == "widths"), default=0
+        ),
         "counted": [
             {
                 "name": f.name,
