@@ -370,7 +370,7 @@ def emit(
         if structured_text:
             kernels |= structured_texts(model, spec, values, twins)
         if a2l:
-            kernels |= a2l_files(model, spec, values, more)
+            kernels |= a2l_files(model, spec, values, [*main, *twins, *more])
 
     def others() -> dict[str, str]:
         stored = stored_states(model, every, OF_PRECISION[precision], kept)
