@@ -346,8 +346,10 @@ def emit(
         every = [function for part in parts for function in part]
         units, kept = None, frozenset(f.role for f in every)
         if control is not None and control.only:
-            if cuda:
-                raise EmitError("--cuda: not with --only; generate two folders")
+            if cuda or a2l:
+                raise EmitError(
+                    f"--{'cuda' if cuda else 'a2l'}: not with --only; generate two folders"
+                )
             kept = chosen(every, control.only, model.robot.name)
             units = {f.unit for f in every if f.role in kept} | {UNIT}
             units |= {"_batch"} if OBSERVATION in control.only else set()
