@@ -1,7 +1,7 @@
 /* The type of every number, and what follows from its precision: here double.
  *
- * The runtime is written once, in modeler_real; beside a module of floats stands another file of this
- * name.
+ * The runtime is written once, in modeler_real; beside a module of floats stands another file of
+ * this name.
  */
 #ifndef MODELER_REAL_H
 #define MODELER_REAL_H

@@ -38,10 +38,19 @@ typedef float modeler_real;
 /* modeler_closure*.c */
 #define modeler_close modelerf_close
 #define modeler_close_next modelerf_close_next
+#define modeler_close_soon modelerf_close_soon
 #define modeler_coupling modelerf_coupling
-#define modeler_follow modelerf_follow
+#define modeler_drift modelerf_drift
+#define modeler_accelerations modelerf_accelerations
+#define modeler_coupling_rate modelerf_coupling_rate
+#define modeler_parts modelerf_parts
+#define modeler_jacobian modelerf_jacobian
+#define modeler_factors modelerf_factors
+#define modeler_solution modelerf_solution
 #define modeler_eliminated modelerf_eliminated
 #define modeler_project modelerf_project
+#define modeler_project_more modelerf_project_more
+#define modeler_apply_more modelerf_apply_more
 #define modeler_finite modelerf_finite
 #define modeler_told modelerf_told
 

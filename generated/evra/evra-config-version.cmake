@@ -1,11 +1,11 @@
-# find_package(evra) takes any, find_package(evra 1) any of this C interface,
-# find_package(evra 1.53186.21547.2400) only what has the signature cfc2542b09605c49.
-set(PACKAGE_VERSION 1.53186.21547.2400)
+# find_package(evra) takes any, find_package(evra 2) any of this C interface,
+# find_package(evra 2.32207.31709.1880) only what has the signature 7dcf7bdd0758cc89.
+set(PACKAGE_VERSION 2.32207.31709.1880)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
   set(PACKAGE_VERSION_EXACT TRUE)
-elseif("${PACKAGE_FIND_VERSION}" STREQUAL "1")
+elseif("${PACKAGE_FIND_VERSION}" STREQUAL "2")
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
 endif()

@@ -103,8 +103,8 @@ static const double evra_geo_phi6 = EVRA_GEO_phi6;
 
 /* Joint torques, by the Newton-Euler recursion.
  * 519 additions, 687 multiplications. */
-void evra_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                const double *beta, double *MODELER_RESTRICT tau)
+void evra_tree_inverse_dynamics(const double q[26], const double qd[26], const double qdd[26],
+                                const double beta[90], double MODELER_OUT(tau, 26))
 {
     const double x_B1_x = cos(evra_geo_beta1);
     const double x_B1_y = sin(evra_geo_beta1);
@@ -666,7 +666,8 @@ void evra_tree_inverse_dynamics(const double *q, const double *qd, const double 
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 124 additions, 188 multiplications. */
-void evra_tree_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
+void evra_tree_inertia_matrix(const double q[26], const double beta[90],
+                              double MODELER_OUT(M, 26 * 26))
 {
     MODELER_ALL_ZEROS(M, 676);
 
@@ -1082,7 +1083,7 @@ void evra_tree_inertia_matrix(const double *q, const double *beta, double *MODEL
 
 /* Torques that hold the robot still, without friction.
  * 72 additions, 139 multiplications. */
-void evra_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+void evra_tree_gravity(const double q[26], const double beta[90], double MODELER_OUT(tau, 26))
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -1223,8 +1224,8 @@ void evra_tree_gravity(const double *q, const double *beta, double *MODELER_REST
 
 /* Torques without gravity and friction.
  * 519 additions, 692 multiplications. */
-void evra_tree_coriolis(const double *q, const double *qd, const double *qdd, const double *beta,
-                        double *MODELER_RESTRICT tau)
+void evra_tree_coriolis(const double q[26], const double qd[26], const double qdd[26],
+                        const double beta[90], double MODELER_OUT(tau, 26))
 {
     const double x_B1_x = cos(evra_geo_beta1);
     const double x_B1_y = sin(evra_geo_beta1);
@@ -1795,7 +1796,7 @@ void evra_tree_coriolis(const double *q, const double *qd, const double *qdd, co
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void evra_tree_friction(const double *qd, const double *beta, double *MODELER_RESTRICT tau)
+void evra_tree_friction(const double qd[26], const double beta[90], double MODELER_OUT(tau, 26))
 {
     (void)qd;
     (void)beta;
@@ -1809,7 +1810,7 @@ void evra_tree_friction(const double *qd, const double *beta, double *MODELER_RE
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 52 additions, 116 multiplications. */
-void evra_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+void evra_tree_forward_kinematics(const double q[26], double MODELER_OUT(T, 26 * 3 * 4))
 {
     MODELER_ALL_ZEROS(T, 312);
 
@@ -2240,7 +2241,7 @@ void evra_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
 
 /* d/dt(df/du) ud.
  * 282 additions, 572 multiplications. */
-void evra_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
+void evra_tree_drift(const double q[26], const double qd[26], double MODELER_OUT(values, 18))
 {
     const double x_B1_x = cos(evra_geo_beta1);
     const double x_B1_y = sin(evra_geo_beta1);
@@ -2515,7 +2516,7 @@ void evra_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT
 
 /* All equations of all loops, cosines, nonzeros of df/du, turns.
  * 154 additions, 284 multiplications. */
-void evra_tree_closure(const double *q, double *MODELER_RESTRICT values)
+void evra_tree_closure(const double q[26], double MODELER_OUT(values, 180))
 {
     const double x_B1_x = cos(evra_geo_beta1);
     const double x_B1_y = sin(evra_geo_beta1);
@@ -2839,7 +2840,7 @@ void evra_tree_closure(const double *q, double *MODELER_RESTRICT values)
 
 /* The independent equations.
  * 94 additions, 108 multiplications. */
-void evra_tree_residual(const double *q, double *MODELER_RESTRICT f)
+void evra_tree_residual(const double q[26], double MODELER_OUT(f, 18))
 {
     const double x_B1_x = cos(evra_geo_beta1);
     const double x_B1_y = sin(evra_geo_beta1);
@@ -2948,7 +2949,7 @@ void evra_tree_residual(const double *q, double *MODELER_RESTRICT f)
 
 /* Factors of the solved columns of J: 1/pivots, then the rest.
  * 115 additions, 161 multiplications. */
-void evra_tree_factor(const double *J, double *MODELER_RESTRICT lu)
+void evra_tree_factor(const double J[132], double MODELER_OUT(lu, 107))
 {
     const double t1 = 1.0/J[4];
     lu[0] = t1;
@@ -3138,7 +3139,7 @@ void evra_tree_factor(const double *J, double *MODELER_RESTRICT lu)
 
 /* Solution with the factors.
  * 102 additions, 107 multiplications. */
-void evra_tree_solve(const double *lu, const double *right, double *MODELER_RESTRICT x)
+void evra_tree_solve(const double lu[107], const double right[18], double MODELER_OUT(x, 18))
 {
     const double t1 = right[4] - lu[31]*right[3];
     const double t2 = right[1] - lu[21]*right[0];
@@ -3188,7 +3189,7 @@ void evra_tree_solve(const double *lu, const double *right, double *MODELER_REST
 
 /* G from the factors.
  * 540 additions, 681 multiplications. */
-void evra_tree_coupling(const double *J, const double *lu, double *MODELER_RESTRICT G)
+void evra_tree_coupling(const double J[132], const double lu[107], double MODELER_OUT(G, 144))
 {
     const double t1 = lu[22] - lu[21]*lu[27];
     const double t2 = lu[32] - lu[31]*lu[37] - lu[82]*t1;
@@ -3469,8 +3470,8 @@ void evra_tree_coupling(const double *J, const double *lu, double *MODELER_RESTR
 
 /* Bounds of the rows of J^-1 (K - J).
  * 252 additions, 113 multiplications. */
-void evra_tree_turned(const double *J, const double *K, const double *lu,
-                      double *MODELER_RESTRICT x)
+void evra_tree_turned(const double J[132], const double K[132], const double lu[107],
+                      double MODELER_OUT(x, 18))
 {
     const double k1 = fabs(1.0);
 
@@ -3570,8 +3571,8 @@ void evra_tree_turned(const double *J, const double *K, const double *lu,
 
 /* Sum of the squares of J^-1 (K - J).
  * 1395 additions, 1618 multiplications. */
-void evra_tree_spread(const double *J, const double *K, const double *lu,
-                      double *MODELER_RESTRICT x)
+void evra_tree_spread(const double J[132], const double K[132], const double lu[107],
+                      double MODELER_OUT(x, 1))
 {
     const double t1 = J[30] - K[30];
     const double t2 = J[8] - K[8];
@@ -4069,7 +4070,7 @@ void evra_tree_spread(const double *J, const double *K, const double *lu,
 
 /* Factors of the solved columns of J: 1/pivots, then the rest.
  * 30 additions, 66 multiplications. */
-void evra_tree_platform_factor(const double *J, double *MODELER_RESTRICT lu)
+void evra_tree_platform_factor(const double J[132], double MODELER_OUT(lu, 54))
 {
     const double t1 = 1.0/J[4];
     lu[0] = t1;
@@ -4165,7 +4166,8 @@ void evra_tree_platform_factor(const double *J, double *MODELER_RESTRICT lu)
 
 /* Solution with the factors.
  * 36 additions, 54 multiplications. */
-void evra_tree_platform_solve(const double *lu, const double *right, double *MODELER_RESTRICT x)
+void evra_tree_platform_solve(const double lu[54], const double right[18],
+                              double MODELER_OUT(x, 18))
 {
     const double t1 = right[1] - lu[20]*right[0];
     const double t2 = lu[2]*(right[2] - lu[21]*right[0] - lu[23]*t1);
@@ -4207,7 +4209,8 @@ void evra_tree_platform_solve(const double *lu, const double *right, double *MOD
 
 /* G from the factors.
  * 132 additions, 258 multiplications. */
-void evra_tree_platform_coupling(const double *J, const double *lu, double *MODELER_RESTRICT G)
+void evra_tree_platform_coupling(const double J[132], const double lu[54],
+                                 double MODELER_OUT(G, 144))
 {
     const double t1 = lu[2]*(lu[21] - lu[20]*lu[23]);
     const double t2 = lu[1]*(lu[20] - lu[22]*t1);
@@ -4447,8 +4450,8 @@ void evra_tree_platform_coupling(const double *J, const double *lu, double *MODE
 
 /* Bounds of the rows of J^-1 (K - J).
  * 126 additions, 78 multiplications. */
-void evra_tree_platform_turned(const double *J, const double *K, const double *lu,
-                               double *MODELER_RESTRICT x)
+void evra_tree_platform_turned(const double J[132], const double K[132], const double lu[54],
+                               double MODELER_OUT(x, 18))
 {
     const double t1 = fabs(J[4] - K[4]) + fabs(J[5] - K[5]) + 0.6*fabs(J[6] - K[6]);
     const double t2 = fabs(J[12] - K[12]) + fabs(J[13] - K[13]) + 0.6*fabs(J[14] - K[14]);
@@ -4508,8 +4511,8 @@ void evra_tree_platform_turned(const double *J, const double *K, const double *l
 
 /* Sum of the squares of J^-1 (K - J).
  * 215 additions, 240 multiplications. */
-void evra_tree_platform_spread(const double *J, const double *K, const double *lu,
-                               double *MODELER_RESTRICT x)
+void evra_tree_platform_spread(const double J[132], const double K[132], const double lu[54],
+                               double MODELER_OUT(x, 1))
 {
     const double t1 = J[4] - K[4];
     const double t2 = J[12] - K[12] - lu[20]*t1;
@@ -4631,7 +4634,8 @@ void evra_tree_platform_spread(const double *J, const double *K, const double *l
 
 /* Base parameters from standard ones: the grouping relations.
  * 114 additions, 36 multiplications. */
-void evra_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
+void evra_base_parameters(const double chi[EVRA_STANDARD_PARAMETERS],
+                          double MODELER_OUT(beta, EVRA_BASE_PARAMETERS))
 {
     const double k1 = cos(evra_geo_phi1);
     const double k2 = sin(evra_geo_phi1);

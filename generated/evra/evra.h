@@ -1,5 +1,7 @@
 /* Evr@ simulator, 6-UPS platform on two sliders (Houda, Amouri, Beji, Mallem)
  *
+ * SPDX-License-Identifier: MIT
+ *
  * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
  * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
  *
@@ -13,14 +15,22 @@
 
 #include <stddef.h>
 
+#include "modeler_kept.h"
+#include "modeler_status.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "cfc2542b09605c49"
-#define EVRA_SIGNATURE_1 0xcfc2542bu
-#define EVRA_SIGNATURE_2 0x09605c49u
+#define EVRA_SIGNATURE "7dcf7bdd0758cc89"
+#define EVRA_SIGNATURE_1 0x7dcf7bddu
+#define EVRA_SIGNATURE_2 0x0758cc89u
+
+/* Of the calls: raised when one takes other arguments; evra_generator.h says which version of
+ * modeler wrote the folder. */
+#define EVRA_INTERFACE 2
+#define EVRA_LICENSE "MIT"
 
 #define EVRA_JOINTS 8
 #define EVRA_STANDARD_PARAMETERS 210
@@ -420,7 +430,8 @@ const char *evra_signature(void);
  * qdd    8        joint accelerations [m/s2]
  * phi    8 x 210  torque per unit of each standard parameter, row-major [SI]
  */
-int evra_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+int evra_regressor(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
+                   const double qdd[EVRA_JOINTS], double phi[8 * 210]);
 
 /* Regressor of the base parameters.
  *
@@ -431,7 +442,8 @@ int evra_regressor(const double *q, const double *qd, const double *qdd, double 
  * qdd    8        joint accelerations [m/s2]
  * phi    8 x 90   torque per unit of each base parameter, row-major [SI]
  */
-int evra_base_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+int evra_base_regressor(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
+                        const double qdd[EVRA_JOINTS], double phi[8 * 90]);
 
 /* Torques that move the closed robot so.
  *
@@ -443,8 +455,9 @@ int evra_base_regressor(const double *q, const double *qd, const double *qdd, do
  * beta   90       base parameters [SI]
  * tau    8        joint torques or forces [N]
  */
-int evra_inverse_dynamics(const double *q, const double *qd, const double *qdd, const double *beta,
-                          double *tau);
+int evra_inverse_dynamics(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
+                          const double qdd[EVRA_JOINTS], const double beta[EVRA_BASE_PARAMETERS],
+                          double tau[EVRA_JOINTS]);
 
 /* Torques that hold the robot still, without friction.
  *
@@ -454,7 +467,8 @@ int evra_inverse_dynamics(const double *q, const double *qd, const double *qdd, 
  * beta   90       base parameters [SI]
  * tau    8        joint torques or forces [N]
  */
-int evra_gravity(const double *q, const double *beta, double *tau);
+int evra_gravity(const double q[EVRA_JOINTS], const double beta[EVRA_BASE_PARAMETERS],
+                 double tau[EVRA_JOINTS]);
 
 /* Coriolis and centripetal torques.
  *
@@ -465,7 +479,8 @@ int evra_gravity(const double *q, const double *beta, double *tau);
  * beta   90       base parameters [SI]
  * tau    8        joint torques or forces [N]
  */
-int evra_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+int evra_coriolis(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
+                  const double beta[EVRA_BASE_PARAMETERS], double tau[EVRA_JOINTS]);
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  *
@@ -476,7 +491,8 @@ int evra_coriolis(const double *q, const double *qd, const double *beta, double 
  * beta   90       base parameters [SI]
  * tau    8        joint torques or forces [N]
  */
-int evra_friction(const double *q, const double *qd, const double *beta, double *tau);
+int evra_friction(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
+                  const double beta[EVRA_BASE_PARAMETERS], double tau[EVRA_JOINTS]);
 
 /* Inertia matrix, rotor inertias included; symmetric.
  *
@@ -486,7 +502,8 @@ int evra_friction(const double *q, const double *qd, const double *beta, double 
  * beta   90       base parameters [SI]
  * M      8 x 8    inertia matrix, row-major [kg m2, kg m or kg]
  */
-int evra_inertia_matrix(const double *q, const double *beta, double *M);
+int evra_inertia_matrix(const double q[EVRA_JOINTS], const double beta[EVRA_BASE_PARAMETERS],
+                        double M[8 * 8]);
 
 /* Pose of the frame of every moving row of the table.
  *
@@ -495,7 +512,7 @@ int evra_inertia_matrix(const double *q, const double *beta, double *M);
  * q      8          joint positions [m]
  * T      26 x 3 x 4 poses [R | p] of rows Px, Py, Pz, Pa, Pb, P, s1, s2, 11, 21, 31, 12, 22, 32, 13, 23, 33, 14, 24, 34, 15, 25, 35, 16, 26, 36 in frame 0, row-major [1 | m]
  */
-int evra_forward_kinematics(const double *q, double *T);
+int evra_forward_kinematics(const double q[EVRA_JOINTS], double T[26 * 3 * 4]);
 
 /* Closed posture, on a straight way from home.
  *
@@ -504,7 +521,7 @@ int evra_forward_kinematics(const double *q, double *T);
  * q      8        joint positions [m]
  * u      26       free variables of the opened tree [rad or m]
  */
-int evra_close(const double *q, double *u);
+int evra_close(const double q[EVRA_JOINTS], double u[26]);
 
 /* Closed posture, on a straight way from another one, such as the last.
  *
@@ -514,7 +531,7 @@ int evra_close(const double *q, double *u);
  * start  26       a closed posture to start from [rad or m]
  * u      26       free variables of the opened tree [rad or m]
  */
-int evra_close_from(const double *q, const double *start, double *u);
+int evra_close_from(const double q[EVRA_JOINTS], const double start[26], double u[26]);
 
 /* Speeds of the free variables; rows of the platform are its Jacobian.
  *
@@ -523,7 +540,7 @@ int evra_close_from(const double *q, const double *start, double *u);
  * q      8        joint positions [m]
  * G      26 x 8   d u / d q, row-major [SI]
  */
-int evra_coupling(const double *q, double *G);
+int evra_coupling(const double q[EVRA_JOINTS], double G[26 * 8]);
 
 /* Base parameters from standard ones: the grouping relations.
  *
@@ -532,7 +549,8 @@ int evra_coupling(const double *q, double *G);
  * chi    210      standard parameters [SI]
  * beta   90       base parameters [SI]
  */
-void evra_base_parameters(const double *chi, double *beta);
+void evra_base_parameters(const double chi[EVRA_STANDARD_PARAMETERS],
+                          double beta[EVRA_BASE_PARAMETERS]);
 
 /* Regressor of the base parameters.
  *
@@ -543,7 +561,8 @@ void evra_base_parameters(const double *chi, double *beta);
  * xdd    8        their accelerations [m/s2 or rad/s2]
  * phi    8 x 90   torque per unit of each base parameter, row-major [SI]
  */
-int evra_platform_base_regressor(const double *x, const double *xd, const double *xdd, double *phi);
+int evra_platform_base_regressor(const double x[8], const double xd[8], const double xdd[8],
+                                 double phi[8 * 90]);
 
 /* Torques that move the closed robot so.
  *
@@ -555,8 +574,8 @@ int evra_platform_base_regressor(const double *x, const double *xd, const double
  * beta   90       base parameters [SI]
  * f      8        forces and torques along x [N or N m]
  */
-int evra_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
-                                   const double *beta, double *f);
+int evra_platform_inverse_dynamics(const double x[8], const double xd[8], const double xdd[8],
+                                   const double beta[EVRA_BASE_PARAMETERS], double f[8]);
 
 /* Closed posture, on a straight way from home.
  *
@@ -565,7 +584,7 @@ int evra_platform_inverse_dynamics(const double *x, const double *xd, const doub
  * x      8        positions of the platform: Px, Py, Pz, Pa, Pb, P, s1, s2 [m or rad]
  * u      26       free variables of the opened tree [rad or m]
  */
-int evra_platform_close(const double *x, double *u);
+int evra_platform_close(const double x[8], double u[26]);
 
 /* Closed posture, on a straight way from another one, such as the last.
  *
@@ -575,7 +594,7 @@ int evra_platform_close(const double *x, double *u);
  * start  26       a closed posture to start from [rad or m]
  * u      26       free variables of the opened tree [rad or m]
  */
-int evra_platform_close_from(const double *x, const double *start, double *u);
+int evra_platform_close_from(const double x[8], const double start[26], double u[26]);
 
 /* Speeds of the free variables; rows of the platform are its Jacobian.
  *
@@ -584,16 +603,55 @@ int evra_platform_close_from(const double *x, const double *start, double *u);
  * x      8        positions of the platform: Px, Py, Pz, Pa, Pb, P, s1, s2 [m or rad]
  * G      26 x 8   d u / d x, row-major [SI]
  */
-int evra_platform_coupling(const double *x, double *G);
+int evra_platform_coupling(const double x[8], double G[26 * 8]);
 
-/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
+/* A closed posture and what solved it, and a controller's state: members are the library's. */
+struct evra_posture {
+    double u[26];      /* free variables */
+    double ud[26];     /* their speeds */
+    double gamma[26];  /* their accelerations at qdd = 0 */
+    double G[208];
+    double qd[8];
+    modeler_kept kept;
+    int places[62];
+    double numbers[1622];
+};
+
+struct evra_state {
+    struct evra_posture at;
+    int status;
+    int rated; /* `rate` holds dG/dt */
+    double rate[208];
+    double rows[2340];
+};
+
+/* The state at q, qd: closes the loops once for all functions that end in _at.
  *
- * q qd qdd  samples x 8
- * W         (samples*8) x 90
- * status    samples
+ * They are those of the same name without q and qd, and give the same numbers. The loops are closed
+ * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
+ * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
+ * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
+ * the posture is the last closed one, from where the next call may go on.
  */
-void evra_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                      double *W, int *status);
+int evra_state(const double *q, const double *qd, const double *previous,
+    struct evra_state *state);
+int evra_base_regressor_at(struct evra_state *state, const double qdd[EVRA_JOINTS],
+                           double phi[8 * 90]);
+int evra_inverse_dynamics_at(struct evra_state *state, const double qdd[EVRA_JOINTS],
+                             const double beta[EVRA_BASE_PARAMETERS], double tau[EVRA_JOINTS]);
+int evra_gravity_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
+                    double tau[EVRA_JOINTS]);
+int evra_coriolis_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
+                     double tau[EVRA_JOINTS]);
+int evra_friction_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
+                     double tau[EVRA_JOINTS]);
+int evra_inertia_matrix_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
+                           double M[8 * 8]);
+int evra_forward_kinematics_at(struct evra_state *state, double T[26 * 3 * 4]);
+int evra_coupling_at(struct evra_state *state, double G[26 * 8]);
+
+/* dG/dt, as G: udd = G qdd + dG/dt qd. `rate` may be NULL: it is kept in the state. */
+int evra_coupling_rate_at(struct evra_state *state, double *rate);
 
 #ifdef __cplusplus
 }

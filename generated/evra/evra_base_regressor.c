@@ -91,8 +91,8 @@ static const double evra_geo_phi6 = EVRA_GEO_phi6;
 
 /* Regressor of the base parameters.
  * 366 additions, 602 multiplications. */
-void evra_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                              double *MODELER_RESTRICT phi)
+void evra_tree_base_regressor(const double q[26], const double qd[26], const double qdd[26],
+                              double MODELER_OUT(phi, 26 * 90))
 {
     MODELER_ALL_ZEROS(phi, 2340);
 
@@ -1072,8 +1072,9 @@ void evra_tree_base_regressor(const double *q, const double *qd, const double *q
 
 /* Regressor of the base parameters, loops closed.
  * 1745 additions, 2845 multiplications. */
-void evra_tree_rows(const double *q, const double *t, const double *G, const double *lu,
-                    const double *v, const double *a, double *MODELER_RESTRICT phi)
+void evra_tree_rows(const double q[26], const double t[30], const double G[144],
+                    const double lu[107], const double v[8], const double a[8],
+                    double MODELER_OUT(phi, 8 * 90))
 {
     phi[100] = 0.0;
     phi[190] = 0.0;

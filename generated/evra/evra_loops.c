@@ -8,14 +8,14 @@
 #include "modeler_closure.h"
 #include "evra_tree.h"
 
-#if EVRA_EVALUATIONS != MODELER_EVALUATIONS
-#error the runtime has another limit
+#if EVRA_EVALUATIONS != MODELER_EVALUATIONS \
+    || MODELER_CLOSURE_PLACES(26, 18) != 62 \
+    || MODELER_CLOSURE_NUMBERS(26, 18, 180, 107) != 1622
+#error the runtime has other limits
 #endif
 
-#define WORK MODELER_CLOSURE_WORK(26, 18, 180, 107)
-
 /* Free variables u: Px, Py, Pz, Pa, Pb, P, s1, s2, 11, 21, 31, 12, 22, 32, 13, 23, 33, 14, 24, 34, 15, 25, 35, 16, 26, 36. */
-static const double home[26] = {
+const double evra_home[26] = {
     0.0, 0.0, 0.6999893688975267, 0.0, 0.0, 0.0, 0.0, 0.0, 2.698838242015122, 0.28265536649639905, 0.8067, 2.698838242015122, -0.28265536649639905, 0.8067, 2.698838242015122, 0.28265536649639905, 0.8067, 2.698838242015122, -0.28265536649639905, 0.8067, 2.698838242015122, 0.28265536649639905, 0.8067, 2.698838242015122, -0.28265536649639905, 0.8067
 };
 static const double scale[26] = {
@@ -60,7 +60,7 @@ static const int coupling_column[144] = {
     5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 7, 7,
     7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7
 };
-static const modeler_closure loops = {
+const modeler_closure evra_loops = {
     26, 8, 18, given, solved, scale,
     18, 0, 6e-10, 132, row, column, 180,
     evra_tree_closure, evra_tree_residual,
@@ -92,7 +92,7 @@ static const int platform_coupling_column[144] = {
     5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 5, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 7, 7,
     7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7
 };
-static const modeler_closure platform_loops = {
+const modeler_closure evra_platform_loops = {
     26, 8, 18, platform_given, platform_solved, scale,
     18, 0, 6e-10, 132, row, column, 180,
     evra_tree_closure, evra_tree_residual,
@@ -101,289 +101,625 @@ static const modeler_closure platform_loops = {
     evra_tree_platform_coupling, evra_tree_platform_turned, evra_tree_platform_spread
 };
 
-static const double standing[8] = {0.0};
-
-/* Regressor of the base parameters at the closed posture u that was found last. */
-static void base_rows(const double *u, const double *qd, const double *qdd, double *work, double *phi)
+static modeler_work work_of(struct evra_posture *p)
 {
+    modeler_work work;
+
+    work.kept = &p->kept;
+    work.places = p->places;
+    work.numbers = p->numbers;
+    return work;
+}
+
+int evra_posed(const modeler_closure *loops, const double *q, const double *start,
+    struct evra_posture *p)
+{
+    const modeler_work work = work_of(p);
+
+    return modeler_close(loops, q, start, p->u, &work);
+}
+
+void evra_moved(const modeler_closure *loops, const double *qd,
+    struct evra_posture *p)
+{
+    const modeler_work work = work_of(p);
+
+    modeler_coupling(loops, p->G, &work);
+    if (qd == NULL) {
+        return;
+    }
+    modeler_drift(loops, evra_tree_drift, p->u, p->G, qd, p->ud, p->gamma,
+                  &work);
+    for (int k = 0; k < 8; k++) {
+        p->qd[k] = qd[k];
+    }
+}
+
+/* Regressor of the base parameters at the closed posture p. */
+static void base_rows(struct evra_posture *p, double *rows, const double *qd,
+                      const double *qdd, double *phi)
+{
+    const modeler_work work = work_of(p);
     const double *values, *lu, *G_nonzeros;
 
-    if (modeler_eliminated(&loops, work, &values, &lu, &G_nonzeros)) {
-        evra_tree_rows(u, values + 150, G_nonzeros, lu, qd, qdd, phi);
+    if (modeler_eliminated(&evra_loops, &work, &values, &lu, &G_nonzeros) != 0) {
+        evra_tree_rows(p->u, values + 150, G_nonzeros, lu, qd, qdd, phi);
     } else {
-        double ud[26], udd[26], G[208];
-        double rows[26 * EVRA_BASE_PARAMETERS];
+        double udd[26];
 
-        modeler_follow(&loops, evra_tree_drift, u, qd, qdd, G, ud, udd, work);
-        evra_tree_base_regressor(u, ud, udd, rows);
-        modeler_project(&loops, G, rows, EVRA_BASE_PARAMETERS, phi);
+        evra_moved(&evra_loops, qd, p);
+        modeler_accelerations(&evra_loops, p->G, p->gamma, qdd, udd);
+        evra_tree_base_regressor(p->u, p->ud, udd, rows);
+        modeler_project(&evra_loops, p->G, rows, EVRA_BASE_PARAMETERS, phi);
     }
 }
 
 const char *evra_signature(void)
 {
-    return "cfc2542b09605c49";
+    return "7dcf7bdd0758cc89";
 }
 
-/* Each sample starts from the one before; where that fails, from home. */
-void evra_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                      double *MODELER_RESTRICT W, int *status)
+int evra_tree_next(const double *q, const double *qd, const double *qdd, int next,
+    struct evra_posture *p, double *rows, double *phi)
 {
-    double u[26], work[WORK];
-    const size_t width = (size_t)EVRA_JOINTS * EVRA_BASE_PARAMETERS;
+    int status = MODELER_NOT_FINITE;
 
-    for (size_t i = 0; i < samples; i++) {
-        const size_t at = i * EVRA_JOINTS;
-        int found = MODELER_NOT_FINITE;
+    if (modeler_finite(qd, 8) != 0 && modeler_finite(qdd, 8) != 0) {
+        if (next != 0) {
+            const modeler_work work = work_of(p);
 
-        if (modeler_finite(qd + at, 8) && modeler_finite(qdd + at, 8)) {
-            if (i > 0 && status[i - 1] == MODELER_CLOSED)
-                found = modeler_close_next(&loops, q + at, u, work);
-            if (found != MODELER_CLOSED)
-                found = modeler_close(&loops, q + at, home, u, work);
+            status = modeler_close_next(&evra_loops, q, p->u, &work);
         }
-        if (found == MODELER_CLOSED)
-            base_rows(u, qd + at, qdd + at, work, W + i * width);
-        status[i] = modeler_told(found, W + i * width, width);
+        if (status != MODELER_CLOSED) {
+            status = evra_posed(&evra_loops, q, evra_home, p);
+        }
     }
+    if (status == MODELER_CLOSED) {
+        base_rows(p, rows, qd, qdd, phi);
+    }
+    return modeler_told(status, phi, (size_t)EVRA_JOINTS * EVRA_BASE_PARAMETERS);
+}
+
+int evra_state(const double *q, const double *qd, const double *previous,
+    struct evra_state *state)
+{
+    struct evra_posture *const p = &state->at;
+    const modeler_work work = work_of(p);
+    int status = MODELER_NOT_FINITE;
+
+    if (modeler_finite(qd, 8) != 0) {
+        if (previous == p->u && p->kept.valid) {
+            status = modeler_close_soon(&evra_loops, q, p->u, &work);
+        } else {
+            status = modeler_close(&evra_loops, q,
+                                   previous == NULL ? evra_home : previous, p->u, &work);
+        }
+    }
+    if (status == MODELER_CLOSED) {
+        evra_moved(&evra_loops, qd, p);
+    }
+    state->status = status;
+    state->rated = 0;
+    return status;
+}
+
+int evra_coupling_rate_at(struct evra_state *state, double *rate)
+{
+    struct evra_posture *const p = &state->at;
+
+    if (state->status == MODELER_CLOSED && !state->rated) {
+        const modeler_work work = work_of(p);
+
+        modeler_coupling_rate(&evra_loops, evra_tree_drift, p->u, p->G, p->ud,
+                              state->rate, &work);
+        state->rated = 1;
+    }
+    for (int k = 0; rate != NULL && k < 208; k++) {
+        rate[k] = state->rate[k];
+    }
+    return rate == NULL ? state->status : modeler_told(state->status, rate, 208);
 }
 
 /* Regressor of the standard parameters. */
-int evra_regressor(const double *q, const double *qd, const double *qdd,
-                   double *MODELER_RESTRICT phi)
+static void made_regressor(struct evra_posture *p, double *rows, const double qdd[EVRA_JOINTS],
+                           double MODELER_OUT(phi, 8 * 210))
 {
-    double G[208], ud[26], udd[26], rows[5460];
-    double u[26], work[WORK];
+    double udd[26];
+
+    modeler_accelerations(&evra_loops, p->G, p->gamma, qdd, udd);
+    evra_tree_regressor(p->u, p->ud, udd, rows);
+    modeler_project(&evra_loops, p->G, rows, 210, phi);
+}
+
+int evra_regressor(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
+                   const double qdd[EVRA_JOINTS], double MODELER_OUT(phi, 8 * 210))
+{
+    struct evra_posture p;
+    double rows[5460];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 8) && modeler_finite(qdd, 8))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 8) != 0 && modeler_finite(qdd, 8) != 0) {
+        status = evra_posed(&evra_loops, q,
+            evra_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, evra_tree_drift, u, qd, qdd, G, ud, udd, work);
-        evra_tree_regressor(u, ud, udd, rows);
-        modeler_project(&loops, G, rows, 210, phi);
+        evra_moved(&evra_loops, qd, &p);
+        made_regressor(&p, rows, qdd, phi);
     }
     return modeler_told(status, phi, 1680);
 }
 
 /* Regressor of the base parameters. */
-int evra_base_regressor(const double *q, const double *qd, const double *qdd,
-                        double *MODELER_RESTRICT phi)
+static void made_base_regressor(struct evra_posture *p, double *rows,
+                                const double qdd[EVRA_JOINTS], double MODELER_OUT(phi, 8 * 90))
 {
-    double u[26], work[WORK];
+    (void)rows;
+    base_rows(p, rows, p->qd, qdd, phi);
+}
+
+int evra_base_regressor(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
+                        const double qdd[EVRA_JOINTS], double MODELER_OUT(phi, 8 * 90))
+{
+    struct evra_posture p;
+    double rows[2340];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 8) && modeler_finite(qdd, 8))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 8) != 0 && modeler_finite(qdd, 8) != 0) {
+        status = evra_posed(&evra_loops, q,
+            evra_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        base_rows(u, qd, qdd, work, phi);
+        for (int k = 0; k < 8; k++) {
+            p.qd[k] = qd[k];
+        }
+        made_base_regressor(&p, rows, qdd, phi);
+    }
+    return modeler_told(status, phi, 720);
+}
+
+int evra_base_regressor_at(struct evra_state *state, const double qdd[EVRA_JOINTS],
+                           double MODELER_OUT(phi, 8 * 90))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(qdd, 8) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_base_regressor(&state->at, state->rows, qdd, phi);
     }
     return modeler_told(status, phi, 720);
 }
 
 /* Torques that move the closed robot so. */
-int evra_inverse_dynamics(const double *q, const double *qd, const double *qdd, const double *beta,
-                          double *MODELER_RESTRICT tau)
+static void made_inverse_dynamics(struct evra_posture *p, double *rows,
+                                  const double qdd[EVRA_JOINTS],
+                                  const double beta[EVRA_BASE_PARAMETERS],
+                                  double MODELER_OUT(tau, EVRA_JOINTS))
 {
-    double G[208], ud[26], udd[26], rows[26];
-    double u[26], work[WORK];
+    double udd[26];
+
+    modeler_accelerations(&evra_loops, p->G, p->gamma, qdd, udd);
+    evra_tree_inverse_dynamics(p->u, p->ud, udd, beta, rows);
+    modeler_project(&evra_loops, p->G, rows, 1, tau);
+}
+
+int evra_inverse_dynamics(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
+                          const double qdd[EVRA_JOINTS], const double beta[EVRA_BASE_PARAMETERS],
+                          double MODELER_OUT(tau, EVRA_JOINTS))
+{
+    struct evra_posture p;
+    double rows[26];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 8) && modeler_finite(qdd, 8) && modeler_finite(beta, 90))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 8) != 0 && modeler_finite(qdd, 8) != 0 && modeler_finite(beta, 90) != 0) {
+        status = evra_posed(&evra_loops, q,
+            evra_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, evra_tree_drift, u, qd, qdd, G, ud, udd, work);
-        evra_tree_inverse_dynamics(u, ud, udd, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        evra_moved(&evra_loops, qd, &p);
+        made_inverse_dynamics(&p, rows, qdd, beta, tau);
+    }
+    return modeler_told(status, tau, 8);
+}
+
+int evra_inverse_dynamics_at(struct evra_state *state, const double qdd[EVRA_JOINTS],
+                             const double beta[EVRA_BASE_PARAMETERS],
+                             double MODELER_OUT(tau, EVRA_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(qdd, 8) != 0 && modeler_finite(beta, 90) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_inverse_dynamics(&state->at, state->rows, qdd, beta, tau);
     }
     return modeler_told(status, tau, 8);
 }
 
 /* Torques that hold the robot still, without friction. */
-int evra_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+static void made_gravity(struct evra_posture *p, double *rows,
+                         const double beta[EVRA_BASE_PARAMETERS],
+                         double MODELER_OUT(tau, EVRA_JOINTS))
 {
-    double G[208], rows[26];
-    double u[26], work[WORK];
+    evra_tree_gravity(p->u, beta, rows);
+    modeler_project(&evra_loops, p->G, rows, 1, tau);
+}
+
+int evra_gravity(const double q[EVRA_JOINTS], const double beta[EVRA_BASE_PARAMETERS],
+                 double MODELER_OUT(tau, EVRA_JOINTS))
+{
+    struct evra_posture p;
+    double rows[26];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(beta, 90))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(beta, 90) != 0) {
+        status = evra_posed(&evra_loops, q,
+            evra_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&loops, G, work);
-        evra_tree_gravity(u, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        evra_moved(&evra_loops, NULL, &p);
+        made_gravity(&p, rows, beta, tau);
+    }
+    return modeler_told(status, tau, 8);
+}
+
+int evra_gravity_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
+                    double MODELER_OUT(tau, EVRA_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 90) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_gravity(&state->at, state->rows, beta, tau);
     }
     return modeler_told(status, tau, 8);
 }
 
 /* Coriolis and centripetal torques. */
-int evra_coriolis(const double *q, const double *qd, const double *beta,
-                  double *MODELER_RESTRICT tau)
+static void made_coriolis(struct evra_posture *p, double *rows,
+                          const double beta[EVRA_BASE_PARAMETERS],
+                          double MODELER_OUT(tau, EVRA_JOINTS))
 {
-    double G[208], ud[26], udd[26], rows[26];
-    double u[26], work[WORK];
+    evra_tree_coriolis(p->u, p->ud, p->gamma, beta, rows);
+    modeler_project(&evra_loops, p->G, rows, 1, tau);
+}
+
+int evra_coriolis(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
+                  const double beta[EVRA_BASE_PARAMETERS], double MODELER_OUT(tau, EVRA_JOINTS))
+{
+    struct evra_posture p;
+    double rows[26];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 8) && modeler_finite(beta, 90))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 8) != 0 && modeler_finite(beta, 90) != 0) {
+        status = evra_posed(&evra_loops, q,
+            evra_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, evra_tree_drift, u, qd, standing, G, ud, udd, work);
-        evra_tree_coriolis(u, ud, udd, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        evra_moved(&evra_loops, qd, &p);
+        made_coriolis(&p, rows, beta, tau);
+    }
+    return modeler_told(status, tau, 8);
+}
+
+int evra_coriolis_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
+                     double MODELER_OUT(tau, EVRA_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 90) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_coriolis(&state->at, state->rows, beta, tau);
     }
     return modeler_told(status, tau, 8);
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets. */
-int evra_friction(const double *q, const double *qd, const double *beta,
-                  double *MODELER_RESTRICT tau)
+static void made_friction(struct evra_posture *p, double *rows,
+                          const double beta[EVRA_BASE_PARAMETERS],
+                          double MODELER_OUT(tau, EVRA_JOINTS))
 {
-    double G[208], ud[26], udd[26], rows[26];
-    double u[26], work[WORK];
+    evra_tree_friction(p->ud, beta, rows);
+    modeler_project(&evra_loops, p->G, rows, 1, tau);
+}
+
+int evra_friction(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
+                  const double beta[EVRA_BASE_PARAMETERS], double MODELER_OUT(tau, EVRA_JOINTS))
+{
+    struct evra_posture p;
+    double rows[26];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 8) && modeler_finite(beta, 90))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 8) != 0 && modeler_finite(beta, 90) != 0) {
+        status = evra_posed(&evra_loops, q,
+            evra_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, evra_tree_drift, u, qd, standing, G, ud, udd, work);
-        evra_tree_friction(ud, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        evra_moved(&evra_loops, qd, &p);
+        made_friction(&p, rows, beta, tau);
+    }
+    return modeler_told(status, tau, 8);
+}
+
+int evra_friction_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
+                     double MODELER_OUT(tau, EVRA_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 90) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_friction(&state->at, state->rows, beta, tau);
     }
     return modeler_told(status, tau, 8);
 }
 
 /* Inertia matrix, rotor inertias included; symmetric. */
-int evra_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
+static void made_inertia_matrix(struct evra_posture *p, double *rows,
+                                const double beta[EVRA_BASE_PARAMETERS],
+                                double MODELER_OUT(M, 8 * 8))
 {
-    double G[208], rows[676], half[208];
-    double u[26], work[WORK];
+    double *const half = rows + 676;
+
+    evra_tree_inertia_matrix(p->u, beta, rows);
+    modeler_project(&evra_loops, p->G, rows, 26, half);
+    for (int i = 0; i < 8; i++) {
+        for (int k = 0; k < 26; k++) {
+            rows[k * 8 + i] = half[i * 26 + k];
+        }
+    }
+    modeler_project(&evra_loops, p->G, rows, 8, M);
+}
+
+int evra_inertia_matrix(const double q[EVRA_JOINTS], const double beta[EVRA_BASE_PARAMETERS],
+                        double MODELER_OUT(M, 8 * 8))
+{
+    struct evra_posture p;
+    double rows[884];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(beta, 90))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(beta, 90) != 0) {
+        status = evra_posed(&evra_loops, q,
+            evra_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&loops, G, work);
-        evra_tree_inertia_matrix(u, beta, rows);
-        modeler_project(&loops, G, rows, 26, half);
-        for (int i = 0; i < 8; i++)
-            for (int k = 0; k < 26; k++)
-                rows[k * 8 + i] = half[i * 26 + k];
-        modeler_project(&loops, G, rows, 8, M);
+        evra_moved(&evra_loops, NULL, &p);
+        made_inertia_matrix(&p, rows, beta, M);
+    }
+    return modeler_told(status, M, 64);
+}
+
+int evra_inertia_matrix_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
+                           double MODELER_OUT(M, 8 * 8))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 90) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_inertia_matrix(&state->at, state->rows, beta, M);
     }
     return modeler_told(status, M, 64);
 }
 
 /* Pose of the frame of every moving row of the table. */
-int evra_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+static void made_forward_kinematics(struct evra_posture *p, double *rows,
+                                    double MODELER_OUT(T, 26 * 3 * 4))
 {
-    double u[26], work[WORK];
+    (void)rows;
+    evra_tree_forward_kinematics(p->u, T);
+}
+
+int evra_forward_kinematics(const double q[EVRA_JOINTS], double MODELER_OUT(T, 26 * 3 * 4))
+{
+    struct evra_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, home, u, work);
+    status = evra_posed(&evra_loops, q,
+        evra_home, &p);
     if (status == MODELER_CLOSED) {
-        evra_tree_forward_kinematics(u, T);
+        made_forward_kinematics(&p, NULL, T);
+    }
+    return modeler_told(status, T, 312);
+}
+
+int evra_forward_kinematics_at(struct evra_state *state, double MODELER_OUT(T, 26 * 3 * 4))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED) {
+        made_forward_kinematics(&state->at, state->rows, T);
     }
     return modeler_told(status, T, 312);
 }
 
 /* Closed posture, on a straight way from home. */
-int evra_close(const double *q, double *MODELER_RESTRICT u)
+int evra_close(const double q[EVRA_JOINTS], double MODELER_OUT(u, 26))
 {
-    double work[WORK];
+    struct evra_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, home, u, work);
+    status = evra_posed(&evra_loops, q,
+        evra_home, &p);
+    if (status == MODELER_CLOSED) {
+        for (int k = 0; k < 26; k++) {
+            u[k] = p.u[k];
+        }
+    }
     return modeler_told(status, u, 26);
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
-int evra_close_from(const double *q, const double *start, double *MODELER_RESTRICT u)
+int evra_close_from(const double q[EVRA_JOINTS], const double start[26], double MODELER_OUT(u, 26))
 {
-    double work[WORK];
+    struct evra_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, start, u, work);
+    status = evra_posed(&evra_loops, q,
+        start, &p);
+    if (status == MODELER_CLOSED) {
+        for (int k = 0; k < 26; k++) {
+            u[k] = p.u[k];
+        }
+    }
     return modeler_told(status, u, 26);
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
-int evra_coupling(const double *q, double *MODELER_RESTRICT G)
+static void made_coupling(struct evra_posture *p, double *rows, double MODELER_OUT(G, 26 * 8))
 {
-    double u[26], work[WORK];
+    (void)rows;
+    for (int k = 0; k < 208; k++) {
+        G[k] = p->G[k];
+    }
+}
+
+int evra_coupling(const double q[EVRA_JOINTS], double MODELER_OUT(G, 26 * 8))
+{
+    struct evra_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, home, u, work);
+    status = evra_posed(&evra_loops, q,
+        evra_home, &p);
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&loops, G, work);
+        evra_moved(&evra_loops, NULL, &p);
+        made_coupling(&p, NULL, G);
+    }
+    return modeler_told(status, G, 208);
+}
+
+int evra_coupling_at(struct evra_state *state, double MODELER_OUT(G, 26 * 8))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED) {
+        made_coupling(&state->at, state->rows, G);
     }
     return modeler_told(status, G, 208);
 }
 
 /* Regressor of the base parameters. */
-int evra_platform_base_regressor(const double *x, const double *xd, const double *xdd,
-                                 double *MODELER_RESTRICT phi)
+static void made_platform_base_regressor(struct evra_posture *p, double *rows, const double xdd[8],
+                                         double MODELER_OUT(phi, 8 * 90))
 {
-    double G[208], ud[26], udd[26], rows[2340];
-    double u[26], work[WORK];
+    double udd[26];
+
+    modeler_accelerations(&evra_platform_loops, p->G, p->gamma, xdd, udd);
+    evra_tree_base_regressor(p->u, p->ud, udd, rows);
+    modeler_project(&evra_platform_loops, p->G, rows, 90, phi);
+}
+
+int evra_platform_base_regressor(const double x[8], const double xd[8], const double xdd[8],
+                                 double MODELER_OUT(phi, 8 * 90))
+{
+    struct evra_posture p;
+    double rows[2340];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(xd, 8) && modeler_finite(xdd, 8))
-        status = modeler_close(&platform_loops, x, home, u, work);
+    if (modeler_finite(xd, 8) != 0 && modeler_finite(xdd, 8) != 0) {
+        status = evra_posed(&evra_platform_loops, x,
+            evra_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&platform_loops, evra_tree_drift, u, xd, xdd, G, ud, udd, work);
-        evra_tree_base_regressor(u, ud, udd, rows);
-        modeler_project(&platform_loops, G, rows, 90, phi);
+        evra_moved(&evra_platform_loops, xd, &p);
+        made_platform_base_regressor(&p, rows, xdd, phi);
     }
     return modeler_told(status, phi, 720);
 }
 
 /* Torques that move the closed robot so. */
-int evra_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
-                                   const double *beta, double *MODELER_RESTRICT f)
+static void made_platform_inverse_dynamics(struct evra_posture *p, double *rows,
+                                           const double xdd[8],
+                                           const double beta[EVRA_BASE_PARAMETERS],
+                                           double MODELER_OUT(f, 8))
 {
-    double G[208], ud[26], udd[26], rows[26];
-    double u[26], work[WORK];
+    double udd[26];
+
+    modeler_accelerations(&evra_platform_loops, p->G, p->gamma, xdd, udd);
+    evra_tree_inverse_dynamics(p->u, p->ud, udd, beta, rows);
+    modeler_project(&evra_platform_loops, p->G, rows, 1, f);
+}
+
+int evra_platform_inverse_dynamics(const double x[8], const double xd[8], const double xdd[8],
+                                   const double beta[EVRA_BASE_PARAMETERS],
+                                   double MODELER_OUT(f, 8))
+{
+    struct evra_posture p;
+    double rows[26];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(xd, 8) && modeler_finite(xdd, 8) && modeler_finite(beta, 90))
-        status = modeler_close(&platform_loops, x, home, u, work);
+    if (modeler_finite(xd, 8) != 0 && modeler_finite(xdd, 8) != 0 && modeler_finite(beta, 90) != 0) {
+        status = evra_posed(&evra_platform_loops, x,
+            evra_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&platform_loops, evra_tree_drift, u, xd, xdd, G, ud, udd, work);
-        evra_tree_inverse_dynamics(u, ud, udd, beta, rows);
-        modeler_project(&platform_loops, G, rows, 1, f);
+        evra_moved(&evra_platform_loops, xd, &p);
+        made_platform_inverse_dynamics(&p, rows, xdd, beta, f);
     }
     return modeler_told(status, f, 8);
 }
 
 /* Closed posture, on a straight way from home. */
-int evra_platform_close(const double *x, double *MODELER_RESTRICT u)
+int evra_platform_close(const double x[8], double MODELER_OUT(u, 26))
 {
-    double work[WORK];
+    struct evra_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&platform_loops, x, home, u, work);
+    status = evra_posed(&evra_platform_loops, x,
+        evra_home, &p);
+    if (status == MODELER_CLOSED) {
+        for (int k = 0; k < 26; k++) {
+            u[k] = p.u[k];
+        }
+    }
     return modeler_told(status, u, 26);
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
-int evra_platform_close_from(const double *x, const double *start, double *MODELER_RESTRICT u)
+int evra_platform_close_from(const double x[8], const double start[26], double MODELER_OUT(u, 26))
 {
-    double work[WORK];
+    struct evra_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&platform_loops, x, start, u, work);
+    status = evra_posed(&evra_platform_loops, x,
+        start, &p);
+    if (status == MODELER_CLOSED) {
+        for (int k = 0; k < 26; k++) {
+            u[k] = p.u[k];
+        }
+    }
     return modeler_told(status, u, 26);
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
-int evra_platform_coupling(const double *x, double *MODELER_RESTRICT G)
+static void made_platform_coupling(struct evra_posture *p, double *rows,
+                                   double MODELER_OUT(G, 26 * 8))
 {
-    double u[26], work[WORK];
+    (void)rows;
+    for (int k = 0; k < 208; k++) {
+        G[k] = p->G[k];
+    }
+}
+
+int evra_platform_coupling(const double x[8], double MODELER_OUT(G, 26 * 8))
+{
+    struct evra_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&platform_loops, x, home, u, work);
+    status = evra_posed(&evra_platform_loops, x,
+        evra_home, &p);
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&platform_loops, G, work);
+        evra_moved(&evra_platform_loops, NULL, &p);
+        made_platform_coupling(&p, NULL, G);
     }
     return modeler_told(status, G, 208);
 }
+

@@ -1,7 +1,7 @@
 /* The type of every number, and what follows from its precision: here double.
  *
- * The runtime is written once, in modeler_real; the file of this name for single precision stands in
- * its place beside a module of floats.
+ * The runtime is written once, in modeler_real; beside a module of floats stands another file of
+ * this name.
  */
 #ifndef MODELER_REAL_H
 #define MODELER_REAL_H
@@ -20,6 +20,7 @@ typedef double modeler_real;
 #define MODELER_CONVERGED 1e-8 /* a correction after which the error is its square */
 #define MODELER_EXACT 1e-14    /* a correction that is not worth making */
 #define MODELER_FLAT 1e-11     /* pivots below this share of the largest are zero */
+#define MODELER_PIVOT 1e-13     /* pivots below this share of the diagonal are zero */
 #define MODELER_SHORTEST 1e-7  /* share of a way; where shorter steps fail too, it ends */
 
 #endif

@@ -1,11 +1,11 @@
-# find_package(five_bar) takes any, find_package(five_bar 1) any of this C interface,
-# find_package(five_bar 1.51149.34117.25822) only what has the signature c7cd854564dea4f6.
-set(PACKAGE_VERSION 1.51149.34117.25822)
+# find_package(five_bar) takes any, find_package(five_bar 2) any of this C interface,
+# find_package(five_bar 2.17578.61440.27413) only what has the signature 44aaf0006b15a4bb.
+set(PACKAGE_VERSION 2.17578.61440.27413)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
   set(PACKAGE_VERSION_EXACT TRUE)
-elseif("${PACKAGE_FIND_VERSION}" STREQUAL "1")
+elseif("${PACKAGE_FIND_VERSION}" STREQUAL "2")
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
 endif()

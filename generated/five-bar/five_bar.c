@@ -59,8 +59,8 @@ static const double five_bar_geo_L4 = FIVE_BAR_GEO_L4;
 
 /* Joint torques, by the Newton-Euler recursion.
  * 26 additions, 41 multiplications. */
-void five_bar_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                    const double *beta, double *MODELER_RESTRICT tau)
+void five_bar_tree_inverse_dynamics(const double q[4], const double qd[4], const double qdd[4],
+                                    const double beta[11], double MODELER_OUT(tau, 4))
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -113,7 +113,8 @@ void five_bar_tree_inverse_dynamics(const double *q, const double *qd, const dou
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 7 additions, 7 multiplications. */
-void five_bar_tree_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
+void five_bar_tree_inertia_matrix(const double q[4], const double beta[11],
+                                  double MODELER_OUT(M, 4 * 4))
 {
     M[2] = 0.0;
     M[3] = 0.0;
@@ -148,7 +149,7 @@ void five_bar_tree_inertia_matrix(const double *q, const double *beta, double *M
 
 /* Torques that hold the robot still, without friction.
  * 8 additions, 17 multiplications. */
-void five_bar_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+void five_bar_tree_gravity(const double q[4], const double beta[11], double MODELER_OUT(tau, 4))
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -177,8 +178,8 @@ void five_bar_tree_gravity(const double *q, const double *beta, double *MODELER_
 
 /* Torques without gravity and friction.
  * 18 additions, 33 multiplications. */
-void five_bar_tree_coriolis(const double *q, const double *qd, const double *qdd,
-                            const double *beta, double *MODELER_RESTRICT tau)
+void five_bar_tree_coriolis(const double q[4], const double qd[4], const double qdd[4],
+                            const double beta[11], double MODELER_OUT(tau, 4))
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -219,7 +220,7 @@ void five_bar_tree_coriolis(const double *q, const double *qd, const double *qdd
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void five_bar_tree_friction(const double *qd, const double *beta, double *MODELER_RESTRICT tau)
+void five_bar_tree_friction(const double qd[4], const double beta[11], double MODELER_OUT(tau, 4))
 {
     (void)qd;
     (void)beta;
@@ -231,7 +232,7 @@ void five_bar_tree_friction(const double *qd, const double *beta, double *MODELE
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 5 additions, 12 multiplications. */
-void five_bar_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+void five_bar_tree_forward_kinematics(const double q[4], double MODELER_OUT(T, 4 * 3 * 4))
 {
     MODELER_ALL_ZEROS(T, 48);
 
@@ -291,7 +292,7 @@ void five_bar_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT 
 
 /* d/dt(df/du) ud.
  * 26 additions, 50 multiplications. */
-void five_bar_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
+void five_bar_tree_drift(const double q[4], const double qd[4], double MODELER_OUT(values, 2))
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -330,7 +331,7 @@ void five_bar_tree_drift(const double *q, const double *qd, double *MODELER_REST
 
 /* All equations of all loops, cosines, nonzeros of df/du, turns.
  * 12 additions, 16 multiplications. */
-void five_bar_tree_closure(const double *q, double *MODELER_RESTRICT values)
+void five_bar_tree_closure(const double q[4], double MODELER_OUT(values, 19))
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -374,7 +375,7 @@ void five_bar_tree_closure(const double *q, double *MODELER_RESTRICT values)
 
 /* The independent equations.
  * 11 additions, 16 multiplications. */
-void five_bar_tree_residual(const double *q, double *MODELER_RESTRICT f)
+void five_bar_tree_residual(const double q[4], double MODELER_OUT(f, 2))
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -395,7 +396,7 @@ void five_bar_tree_residual(const double *q, double *MODELER_RESTRICT f)
 
 /* Factors of the solved columns of J: 1/pivots, then the rest.
  * 1 additions, 4 multiplications. */
-void five_bar_tree_factor(const double *J, double *MODELER_RESTRICT lu)
+void five_bar_tree_factor(const double J[8], double MODELER_OUT(lu, 4))
 {
     const double t1 = 1.0/J[1];
     lu[0] = t1;
@@ -407,7 +408,7 @@ void five_bar_tree_factor(const double *J, double *MODELER_RESTRICT lu)
 
 /* Solution with the factors.
  * 2 additions, 4 multiplications. */
-void five_bar_tree_solve(const double *lu, const double *right, double *MODELER_RESTRICT x)
+void five_bar_tree_solve(const double lu[4], const double right[2], double MODELER_OUT(x, 2))
 {
     const double t1 = lu[1]*(right[1] - lu[3]*right[0]);
     x[0] = lu[0]*(right[0] - lu[2]*t1);
@@ -416,7 +417,7 @@ void five_bar_tree_solve(const double *lu, const double *right, double *MODELER_
 
 /* G from the factors.
  * 4 additions, 8 multiplications. */
-void five_bar_tree_coupling(const double *J, const double *lu, double *MODELER_RESTRICT G)
+void five_bar_tree_coupling(const double J[8], const double lu[4], double MODELER_OUT(G, 4))
 {
     const double t1 = lu[1]*(J[4] - J[0]*lu[3]);
     G[0] = -lu[0]*(J[0] - lu[2]*t1);
@@ -428,8 +429,8 @@ void five_bar_tree_coupling(const double *J, const double *lu, double *MODELER_R
 
 /* Bounds of the rows of J^-1 (K - J).
  * 8 additions, 4 multiplications. */
-void five_bar_tree_turned(const double *J, const double *K, const double *lu,
-                          double *MODELER_RESTRICT x)
+void five_bar_tree_turned(const double J[8], const double K[8], const double lu[4],
+                          double MODELER_OUT(x, 2))
 {
     const double t1 = fabs(J[1] - K[1]) + fabs(J[3] - K[3]);
     const double t2 = (fabs(J[5] - K[5]) + fabs(J[7] - K[7]) + t1*fabs(lu[3]))*fabs(lu[1]);
@@ -439,8 +440,8 @@ void five_bar_tree_turned(const double *J, const double *K, const double *lu,
 
 /* Sum of the squares of J^-1 (K - J).
  * 11 additions, 12 multiplications. */
-void five_bar_tree_spread(const double *J, const double *K, const double *lu,
-                          double *MODELER_RESTRICT x)
+void five_bar_tree_spread(const double J[8], const double K[8], const double lu[4],
+                          double MODELER_OUT(x, 1))
 {
     const double t1 = J[1] - K[1];
     const double t2 = lu[1]*(J[5] - K[5] - lu[3]*t1);
@@ -453,7 +454,8 @@ void five_bar_tree_spread(const double *J, const double *K, const double *lu,
 
 /* Base parameters from standard ones: the grouping relations.
  * 11 additions, 11 multiplications. */
-void five_bar_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
+void five_bar_base_parameters(const double chi[FIVE_BAR_STANDARD_PARAMETERS],
+                              double MODELER_OUT(beta, FIVE_BAR_BASE_PARAMETERS))
 {
     const double k1 = five_bar_geo_L1*five_bar_geo_L1;
     const double k2 = 1.0/five_bar_geo_L4;

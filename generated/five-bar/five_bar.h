@@ -1,5 +1,7 @@
 /* Planar five-bar, two actuated joints at the base
  *
+ * SPDX-License-Identifier: MIT
+ *
  * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
  * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
  *
@@ -13,14 +15,22 @@
 
 #include <stddef.h>
 
+#include "modeler_kept.h"
+#include "modeler_status.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "c7cd854564dea4f6"
-#define FIVE_BAR_SIGNATURE_1 0xc7cd8545u
-#define FIVE_BAR_SIGNATURE_2 0x64dea4f6u
+#define FIVE_BAR_SIGNATURE "44aaf0006b15a4bb"
+#define FIVE_BAR_SIGNATURE_1 0x44aaf000u
+#define FIVE_BAR_SIGNATURE_2 0x6b15a4bbu
+
+/* Of the calls: raised when one takes other arguments; five_bar_generator.h says which version of
+ * modeler wrote the folder. */
+#define FIVE_BAR_INTERFACE 2
+#define FIVE_BAR_LICENSE "MIT"
 
 #define FIVE_BAR_JOINTS 2
 #define FIVE_BAR_STANDARD_PARAMETERS 40
@@ -123,7 +133,8 @@ const char *five_bar_signature(void);
  * qdd    2        joint accelerations [rad/s2]
  * phi    2 x 40   torque per unit of each standard parameter, row-major [SI]
  */
-int five_bar_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+int five_bar_regressor(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_JOINTS],
+                       const double qdd[FIVE_BAR_JOINTS], double phi[2 * 40]);
 
 /* Regressor of the base parameters.
  *
@@ -134,7 +145,8 @@ int five_bar_regressor(const double *q, const double *qd, const double *qdd, dou
  * qdd    2        joint accelerations [rad/s2]
  * phi    2 x 11   torque per unit of each base parameter, row-major [SI]
  */
-int five_bar_base_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+int five_bar_base_regressor(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_JOINTS],
+                            const double qdd[FIVE_BAR_JOINTS], double phi[2 * 11]);
 
 /* Torques that move the closed robot so.
  *
@@ -146,8 +158,10 @@ int five_bar_base_regressor(const double *q, const double *qd, const double *qdd
  * beta   11       base parameters [SI]
  * tau    2        joint torques or forces [N m]
  */
-int five_bar_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                              const double *beta, double *tau);
+int five_bar_inverse_dynamics(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_JOINTS],
+                              const double qdd[FIVE_BAR_JOINTS],
+                              const double beta[FIVE_BAR_BASE_PARAMETERS],
+                              double tau[FIVE_BAR_JOINTS]);
 
 /* Torques that hold the robot still, without friction.
  *
@@ -157,7 +171,8 @@ int five_bar_inverse_dynamics(const double *q, const double *qd, const double *q
  * beta   11       base parameters [SI]
  * tau    2        joint torques or forces [N m]
  */
-int five_bar_gravity(const double *q, const double *beta, double *tau);
+int five_bar_gravity(const double q[FIVE_BAR_JOINTS], const double beta[FIVE_BAR_BASE_PARAMETERS],
+                     double tau[FIVE_BAR_JOINTS]);
 
 /* Coriolis and centripetal torques.
  *
@@ -168,7 +183,8 @@ int five_bar_gravity(const double *q, const double *beta, double *tau);
  * beta   11       base parameters [SI]
  * tau    2        joint torques or forces [N m]
  */
-int five_bar_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+int five_bar_coriolis(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_JOINTS],
+                      const double beta[FIVE_BAR_BASE_PARAMETERS], double tau[FIVE_BAR_JOINTS]);
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  *
@@ -179,7 +195,8 @@ int five_bar_coriolis(const double *q, const double *qd, const double *beta, dou
  * beta   11       base parameters [SI]
  * tau    2        joint torques or forces [N m]
  */
-int five_bar_friction(const double *q, const double *qd, const double *beta, double *tau);
+int five_bar_friction(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_JOINTS],
+                      const double beta[FIVE_BAR_BASE_PARAMETERS], double tau[FIVE_BAR_JOINTS]);
 
 /* Inertia matrix, rotor inertias included; symmetric.
  *
@@ -189,7 +206,8 @@ int five_bar_friction(const double *q, const double *qd, const double *beta, dou
  * beta   11       base parameters [SI]
  * M      2 x 2    inertia matrix, row-major [kg m2, kg m or kg]
  */
-int five_bar_inertia_matrix(const double *q, const double *beta, double *M);
+int five_bar_inertia_matrix(const double q[FIVE_BAR_JOINTS],
+                            const double beta[FIVE_BAR_BASE_PARAMETERS], double M[2 * 2]);
 
 /* Pose of the frame of every moving row of the table.
  *
@@ -198,7 +216,7 @@ int five_bar_inertia_matrix(const double *q, const double *beta, double *M);
  * q      2         joint positions [rad]
  * T      4 x 3 x 4 poses [R | p] of rows 11, 21, 12, 22 in frame 0, row-major [1 | m]
  */
-int five_bar_forward_kinematics(const double *q, double *T);
+int five_bar_forward_kinematics(const double q[FIVE_BAR_JOINTS], double T[4 * 3 * 4]);
 
 /* Closed posture, on a straight way from home.
  *
@@ -207,7 +225,7 @@ int five_bar_forward_kinematics(const double *q, double *T);
  * q      2        joint positions [rad]
  * u      4        free variables of the opened tree [rad or m]
  */
-int five_bar_close(const double *q, double *u);
+int five_bar_close(const double q[FIVE_BAR_JOINTS], double u[4]);
 
 /* Closed posture, on a straight way from another one, such as the last.
  *
@@ -217,7 +235,7 @@ int five_bar_close(const double *q, double *u);
  * start  4        a closed posture to start from [rad or m]
  * u      4        free variables of the opened tree [rad or m]
  */
-int five_bar_close_from(const double *q, const double *start, double *u);
+int five_bar_close_from(const double q[FIVE_BAR_JOINTS], const double start[4], double u[4]);
 
 /* Speeds of the free variables; rows of the platform are its Jacobian.
  *
@@ -226,7 +244,7 @@ int five_bar_close_from(const double *q, const double *start, double *u);
  * q      2        joint positions [rad]
  * G      4 x 2    d u / d q, row-major [SI]
  */
-int five_bar_coupling(const double *q, double *G);
+int five_bar_coupling(const double q[FIVE_BAR_JOINTS], double G[4 * 2]);
 
 /* Base parameters from standard ones: the grouping relations.
  *
@@ -235,16 +253,57 @@ int five_bar_coupling(const double *q, double *G);
  * chi    40       standard parameters [SI]
  * beta   11       base parameters [SI]
  */
-void five_bar_base_parameters(const double *chi, double *beta);
+void five_bar_base_parameters(const double chi[FIVE_BAR_STANDARD_PARAMETERS],
+                              double beta[FIVE_BAR_BASE_PARAMETERS]);
 
-/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
+/* A closed posture and what solved it, and a controller's state: members are the library's. */
+struct five_bar_posture {
+    double u[4];      /* free variables */
+    double ud[4];     /* their speeds */
+    double gamma[4];  /* their accelerations at qdd = 0 */
+    double G[8];
+    double qd[2];
+    modeler_kept kept;
+    int places[8];
+    double numbers[92];
+};
+
+struct five_bar_state {
+    struct five_bar_posture at;
+    int status;
+    int rated; /* `rate` holds dG/dt */
+    double rate[8];
+    double rows[44];
+};
+
+/* The state at q, qd: closes the loops once for all functions that end in _at.
  *
- * q qd qdd  samples x 2
- * W         (samples*2) x 11
- * status    samples
+ * They are those of the same name without q and qd, and give the same numbers. The loops are closed
+ * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
+ * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
+ * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
+ * the posture is the last closed one, from where the next call may go on.
  */
-void five_bar_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                          double *W, int *status);
+int five_bar_state(const double *q, const double *qd, const double *previous,
+    struct five_bar_state *state);
+int five_bar_base_regressor_at(struct five_bar_state *state, const double qdd[FIVE_BAR_JOINTS],
+                               double phi[2 * 11]);
+int five_bar_inverse_dynamics_at(struct five_bar_state *state, const double qdd[FIVE_BAR_JOINTS],
+                                 const double beta[FIVE_BAR_BASE_PARAMETERS],
+                                 double tau[FIVE_BAR_JOINTS]);
+int five_bar_gravity_at(struct five_bar_state *state, const double beta[FIVE_BAR_BASE_PARAMETERS],
+                        double tau[FIVE_BAR_JOINTS]);
+int five_bar_coriolis_at(struct five_bar_state *state, const double beta[FIVE_BAR_BASE_PARAMETERS],
+                         double tau[FIVE_BAR_JOINTS]);
+int five_bar_friction_at(struct five_bar_state *state, const double beta[FIVE_BAR_BASE_PARAMETERS],
+                         double tau[FIVE_BAR_JOINTS]);
+int five_bar_inertia_matrix_at(struct five_bar_state *state,
+                               const double beta[FIVE_BAR_BASE_PARAMETERS], double M[2 * 2]);
+int five_bar_forward_kinematics_at(struct five_bar_state *state, double T[4 * 3 * 4]);
+int five_bar_coupling_at(struct five_bar_state *state, double G[4 * 2]);
+
+/* dG/dt, as G: udd = G qdd + dG/dt qd. `rate` may be NULL: it is kept in the state. */
+int five_bar_coupling_rate_at(struct five_bar_state *state, double *rate);
 
 #ifdef __cplusplus
 }

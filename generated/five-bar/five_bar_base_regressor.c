@@ -51,8 +51,8 @@ static const double five_bar_geo_L4 = FIVE_BAR_GEO_L4;
 
 /* Regressor of the base parameters.
  * 17 additions, 28 multiplications. */
-void five_bar_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                                  double *MODELER_RESTRICT phi)
+void five_bar_tree_base_regressor(const double q[4], const double qd[4], const double qdd[4],
+                                  double MODELER_OUT(phi, 4 * 11))
 {
     MODELER_ALL_ZEROS(phi, 44);
 
@@ -117,8 +117,9 @@ void five_bar_tree_base_regressor(const double *q, const double *qd, const doubl
 
 /* Regressor of the base parameters, loops closed.
  * 56 additions, 100 multiplications. */
-void five_bar_tree_rows(const double *q, const double *t, const double *G, const double *lu,
-                        const double *v, const double *a, double *MODELER_RESTRICT phi)
+void five_bar_tree_rows(const double q[4], const double t[8], const double G[4],
+                        const double lu[4], const double v[2], const double a[2],
+                        double MODELER_OUT(phi, 2 * 11))
 {
     (void)q;
     phi[6] = 0.0;

@@ -8,14 +8,14 @@
 #include "modeler_closure.h"
 #include "five_bar_tree.h"
 
-#if FIVE_BAR_EVALUATIONS != MODELER_EVALUATIONS
-#error the runtime has another limit
+#if FIVE_BAR_EVALUATIONS != MODELER_EVALUATIONS \
+    || MODELER_CLOSURE_PLACES(4, 2) != 8 \
+    || MODELER_CLOSURE_NUMBERS(4, 2, 19, 4) != 92
+#error the runtime has other limits
 #endif
 
-#define WORK MODELER_CLOSURE_WORK(4, 2, 19, 4)
-
 /* Free variables u: 11, 21, 12, 22. */
-static const double home[4] = {
+const double five_bar_home[4] = {
     2.2, -1.370417319700625, 0.9, 1.4635998467408842
 };
 static const double scale[4] = {
@@ -42,7 +42,7 @@ static const int coupling_row[4] = {
 static const int coupling_column[4] = {
     0, 0, 1, 1
 };
-static const modeler_closure loops = {
+const modeler_closure five_bar_loops = {
     4, 2, 2, given, solved, scale,
     2, 1, 4.2e-10, 8, row, column, 19,
     five_bar_tree_closure, five_bar_tree_residual,
@@ -51,220 +51,514 @@ static const modeler_closure loops = {
     five_bar_tree_coupling, five_bar_tree_turned, five_bar_tree_spread
 };
 
-static const double standing[2] = {0.0};
-
-/* Regressor of the base parameters at the closed posture u that was found last. */
-static void base_rows(const double *u, const double *qd, const double *qdd, double *work, double *phi)
+static modeler_work work_of(struct five_bar_posture *p)
 {
+    modeler_work work;
+
+    work.kept = &p->kept;
+    work.places = p->places;
+    work.numbers = p->numbers;
+    return work;
+}
+
+int five_bar_posed(const modeler_closure *loops, const double *q, const double *start,
+    struct five_bar_posture *p)
+{
+    const modeler_work work = work_of(p);
+
+    return modeler_close(loops, q, start, p->u, &work);
+}
+
+void five_bar_moved(const modeler_closure *loops, const double *qd,
+    struct five_bar_posture *p)
+{
+    const modeler_work work = work_of(p);
+
+    modeler_coupling(loops, p->G, &work);
+    if (qd == NULL) {
+        return;
+    }
+    modeler_drift(loops, five_bar_tree_drift, p->u, p->G, qd, p->ud, p->gamma,
+                  &work);
+    for (int k = 0; k < 2; k++) {
+        p->qd[k] = qd[k];
+    }
+}
+
+/* Regressor of the base parameters at the closed posture p. */
+static void base_rows(struct five_bar_posture *p, double *rows, const double *qd,
+                      const double *qdd, double *phi)
+{
+    const modeler_work work = work_of(p);
     const double *values, *lu, *G_nonzeros;
 
-    if (modeler_eliminated(&loops, work, &values, &lu, &G_nonzeros)) {
-        five_bar_tree_rows(u, values + 11, G_nonzeros, lu, qd, qdd, phi);
+    if (modeler_eliminated(&five_bar_loops, &work, &values, &lu, &G_nonzeros) != 0) {
+        five_bar_tree_rows(p->u, values + 11, G_nonzeros, lu, qd, qdd, phi);
     } else {
-        double ud[4], udd[4], G[8];
-        double rows[4 * FIVE_BAR_BASE_PARAMETERS];
+        double udd[4];
 
-        modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
-        five_bar_tree_base_regressor(u, ud, udd, rows);
-        modeler_project(&loops, G, rows, FIVE_BAR_BASE_PARAMETERS, phi);
+        five_bar_moved(&five_bar_loops, qd, p);
+        modeler_accelerations(&five_bar_loops, p->G, p->gamma, qdd, udd);
+        five_bar_tree_base_regressor(p->u, p->ud, udd, rows);
+        modeler_project(&five_bar_loops, p->G, rows, FIVE_BAR_BASE_PARAMETERS, phi);
     }
 }
 
 const char *five_bar_signature(void)
 {
-    return "c7cd854564dea4f6";
+    return "44aaf0006b15a4bb";
 }
 
-/* Each sample starts from the one before; where that fails, from home. */
-void five_bar_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                          double *MODELER_RESTRICT W, int *status)
+int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int next,
+    struct five_bar_posture *p, double *rows, double *phi)
 {
-    double u[4], work[WORK];
-    const size_t width = (size_t)FIVE_BAR_JOINTS * FIVE_BAR_BASE_PARAMETERS;
+    int status = MODELER_NOT_FINITE;
 
-    for (size_t i = 0; i < samples; i++) {
-        const size_t at = i * FIVE_BAR_JOINTS;
-        int found = MODELER_NOT_FINITE;
+    if (modeler_finite(qd, 2) != 0 && modeler_finite(qdd, 2) != 0) {
+        if (next != 0) {
+            const modeler_work work = work_of(p);
 
-        if (modeler_finite(qd + at, 2) && modeler_finite(qdd + at, 2)) {
-            if (i > 0 && status[i - 1] == MODELER_CLOSED)
-                found = modeler_close_next(&loops, q + at, u, work);
-            if (found != MODELER_CLOSED)
-                found = modeler_close(&loops, q + at, home, u, work);
+            status = modeler_close_next(&five_bar_loops, q, p->u, &work);
         }
-        if (found == MODELER_CLOSED)
-            base_rows(u, qd + at, qdd + at, work, W + i * width);
-        status[i] = modeler_told(found, W + i * width, width);
+        if (status != MODELER_CLOSED) {
+            status = five_bar_posed(&five_bar_loops, q, five_bar_home, p);
+        }
     }
+    if (status == MODELER_CLOSED) {
+        base_rows(p, rows, qd, qdd, phi);
+    }
+    return modeler_told(status, phi, (size_t)FIVE_BAR_JOINTS * FIVE_BAR_BASE_PARAMETERS);
+}
+
+int five_bar_state(const double *q, const double *qd, const double *previous,
+    struct five_bar_state *state)
+{
+    struct five_bar_posture *const p = &state->at;
+    const modeler_work work = work_of(p);
+    int status = MODELER_NOT_FINITE;
+
+    if (modeler_finite(qd, 2) != 0) {
+        if (previous == p->u && p->kept.valid) {
+            status = modeler_close_soon(&five_bar_loops, q, p->u, &work);
+        } else {
+            status = modeler_close(&five_bar_loops, q,
+                                   previous == NULL ? five_bar_home : previous, p->u, &work);
+        }
+    }
+    if (status == MODELER_CLOSED) {
+        five_bar_moved(&five_bar_loops, qd, p);
+    }
+    state->status = status;
+    state->rated = 0;
+    return status;
+}
+
+int five_bar_coupling_rate_at(struct five_bar_state *state, double *rate)
+{
+    struct five_bar_posture *const p = &state->at;
+
+    if (state->status == MODELER_CLOSED && !state->rated) {
+        const modeler_work work = work_of(p);
+
+        modeler_coupling_rate(&five_bar_loops, five_bar_tree_drift, p->u, p->G, p->ud,
+                              state->rate, &work);
+        state->rated = 1;
+    }
+    for (int k = 0; rate != NULL && k < 8; k++) {
+        rate[k] = state->rate[k];
+    }
+    return rate == NULL ? state->status : modeler_told(state->status, rate, 8);
 }
 
 /* Regressor of the standard parameters. */
-int five_bar_regressor(const double *q, const double *qd, const double *qdd,
-                       double *MODELER_RESTRICT phi)
+static void made_regressor(struct five_bar_posture *p, double *rows,
+                           const double qdd[FIVE_BAR_JOINTS], double MODELER_OUT(phi, 2 * 40))
 {
-    double G[8], ud[4], udd[4], rows[160];
-    double u[4], work[WORK];
+    double udd[4];
+
+    modeler_accelerations(&five_bar_loops, p->G, p->gamma, qdd, udd);
+    five_bar_tree_regressor(p->u, p->ud, udd, rows);
+    modeler_project(&five_bar_loops, p->G, rows, 40, phi);
+}
+
+int five_bar_regressor(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_JOINTS],
+                       const double qdd[FIVE_BAR_JOINTS], double MODELER_OUT(phi, 2 * 40))
+{
+    struct five_bar_posture p;
+    double rows[160];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 2) && modeler_finite(qdd, 2))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 2) != 0 && modeler_finite(qdd, 2) != 0) {
+        status = five_bar_posed(&five_bar_loops, q,
+            five_bar_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
-        five_bar_tree_regressor(u, ud, udd, rows);
-        modeler_project(&loops, G, rows, 40, phi);
+        five_bar_moved(&five_bar_loops, qd, &p);
+        made_regressor(&p, rows, qdd, phi);
     }
     return modeler_told(status, phi, 80);
 }
 
 /* Regressor of the base parameters. */
-int five_bar_base_regressor(const double *q, const double *qd, const double *qdd,
-                            double *MODELER_RESTRICT phi)
+static void made_base_regressor(struct five_bar_posture *p, double *rows,
+                                const double qdd[FIVE_BAR_JOINTS], double MODELER_OUT(phi, 2 * 11))
 {
-    double u[4], work[WORK];
+    (void)rows;
+    base_rows(p, rows, p->qd, qdd, phi);
+}
+
+int five_bar_base_regressor(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_JOINTS],
+                            const double qdd[FIVE_BAR_JOINTS], double MODELER_OUT(phi, 2 * 11))
+{
+    struct five_bar_posture p;
+    double rows[44];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 2) && modeler_finite(qdd, 2))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 2) != 0 && modeler_finite(qdd, 2) != 0) {
+        status = five_bar_posed(&five_bar_loops, q,
+            five_bar_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        base_rows(u, qd, qdd, work, phi);
+        for (int k = 0; k < 2; k++) {
+            p.qd[k] = qd[k];
+        }
+        made_base_regressor(&p, rows, qdd, phi);
+    }
+    return modeler_told(status, phi, 22);
+}
+
+int five_bar_base_regressor_at(struct five_bar_state *state, const double qdd[FIVE_BAR_JOINTS],
+                               double MODELER_OUT(phi, 2 * 11))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(qdd, 2) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_base_regressor(&state->at, state->rows, qdd, phi);
     }
     return modeler_told(status, phi, 22);
 }
 
 /* Torques that move the closed robot so. */
-int five_bar_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                              const double *beta, double *MODELER_RESTRICT tau)
+static void made_inverse_dynamics(struct five_bar_posture *p, double *rows,
+                                  const double qdd[FIVE_BAR_JOINTS],
+                                  const double beta[FIVE_BAR_BASE_PARAMETERS],
+                                  double MODELER_OUT(tau, FIVE_BAR_JOINTS))
 {
-    double G[8], ud[4], udd[4], rows[4];
-    double u[4], work[WORK];
+    double udd[4];
+
+    modeler_accelerations(&five_bar_loops, p->G, p->gamma, qdd, udd);
+    five_bar_tree_inverse_dynamics(p->u, p->ud, udd, beta, rows);
+    modeler_project(&five_bar_loops, p->G, rows, 1, tau);
+}
+
+int five_bar_inverse_dynamics(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_JOINTS],
+                              const double qdd[FIVE_BAR_JOINTS],
+                              const double beta[FIVE_BAR_BASE_PARAMETERS],
+                              double MODELER_OUT(tau, FIVE_BAR_JOINTS))
+{
+    struct five_bar_posture p;
+    double rows[4];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 2) && modeler_finite(qdd, 2) && modeler_finite(beta, 11))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 2) != 0 && modeler_finite(qdd, 2) != 0 && modeler_finite(beta, 11) != 0) {
+        status = five_bar_posed(&five_bar_loops, q,
+            five_bar_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, five_bar_tree_drift, u, qd, qdd, G, ud, udd, work);
-        five_bar_tree_inverse_dynamics(u, ud, udd, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        five_bar_moved(&five_bar_loops, qd, &p);
+        made_inverse_dynamics(&p, rows, qdd, beta, tau);
+    }
+    return modeler_told(status, tau, 2);
+}
+
+int five_bar_inverse_dynamics_at(struct five_bar_state *state, const double qdd[FIVE_BAR_JOINTS],
+                                 const double beta[FIVE_BAR_BASE_PARAMETERS],
+                                 double MODELER_OUT(tau, FIVE_BAR_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(qdd, 2) != 0 && modeler_finite(beta, 11) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_inverse_dynamics(&state->at, state->rows, qdd, beta, tau);
     }
     return modeler_told(status, tau, 2);
 }
 
 /* Torques that hold the robot still, without friction. */
-int five_bar_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+static void made_gravity(struct five_bar_posture *p, double *rows,
+                         const double beta[FIVE_BAR_BASE_PARAMETERS],
+                         double MODELER_OUT(tau, FIVE_BAR_JOINTS))
 {
-    double G[8], rows[4];
-    double u[4], work[WORK];
+    five_bar_tree_gravity(p->u, beta, rows);
+    modeler_project(&five_bar_loops, p->G, rows, 1, tau);
+}
+
+int five_bar_gravity(const double q[FIVE_BAR_JOINTS], const double beta[FIVE_BAR_BASE_PARAMETERS],
+                     double MODELER_OUT(tau, FIVE_BAR_JOINTS))
+{
+    struct five_bar_posture p;
+    double rows[4];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(beta, 11))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(beta, 11) != 0) {
+        status = five_bar_posed(&five_bar_loops, q,
+            five_bar_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&loops, G, work);
-        five_bar_tree_gravity(u, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        five_bar_moved(&five_bar_loops, NULL, &p);
+        made_gravity(&p, rows, beta, tau);
+    }
+    return modeler_told(status, tau, 2);
+}
+
+int five_bar_gravity_at(struct five_bar_state *state, const double beta[FIVE_BAR_BASE_PARAMETERS],
+                        double MODELER_OUT(tau, FIVE_BAR_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 11) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_gravity(&state->at, state->rows, beta, tau);
     }
     return modeler_told(status, tau, 2);
 }
 
 /* Coriolis and centripetal torques. */
-int five_bar_coriolis(const double *q, const double *qd, const double *beta,
-                      double *MODELER_RESTRICT tau)
+static void made_coriolis(struct five_bar_posture *p, double *rows,
+                          const double beta[FIVE_BAR_BASE_PARAMETERS],
+                          double MODELER_OUT(tau, FIVE_BAR_JOINTS))
 {
-    double G[8], ud[4], udd[4], rows[4];
-    double u[4], work[WORK];
+    five_bar_tree_coriolis(p->u, p->ud, p->gamma, beta, rows);
+    modeler_project(&five_bar_loops, p->G, rows, 1, tau);
+}
+
+int five_bar_coriolis(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_JOINTS],
+                      const double beta[FIVE_BAR_BASE_PARAMETERS],
+                      double MODELER_OUT(tau, FIVE_BAR_JOINTS))
+{
+    struct five_bar_posture p;
+    double rows[4];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 2) && modeler_finite(beta, 11))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 2) != 0 && modeler_finite(beta, 11) != 0) {
+        status = five_bar_posed(&five_bar_loops, q,
+            five_bar_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
-        five_bar_tree_coriolis(u, ud, udd, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        five_bar_moved(&five_bar_loops, qd, &p);
+        made_coriolis(&p, rows, beta, tau);
+    }
+    return modeler_told(status, tau, 2);
+}
+
+int five_bar_coriolis_at(struct five_bar_state *state, const double beta[FIVE_BAR_BASE_PARAMETERS],
+                         double MODELER_OUT(tau, FIVE_BAR_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 11) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_coriolis(&state->at, state->rows, beta, tau);
     }
     return modeler_told(status, tau, 2);
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets. */
-int five_bar_friction(const double *q, const double *qd, const double *beta,
-                      double *MODELER_RESTRICT tau)
+static void made_friction(struct five_bar_posture *p, double *rows,
+                          const double beta[FIVE_BAR_BASE_PARAMETERS],
+                          double MODELER_OUT(tau, FIVE_BAR_JOINTS))
 {
-    double G[8], ud[4], udd[4], rows[4];
-    double u[4], work[WORK];
+    five_bar_tree_friction(p->ud, beta, rows);
+    modeler_project(&five_bar_loops, p->G, rows, 1, tau);
+}
+
+int five_bar_friction(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_JOINTS],
+                      const double beta[FIVE_BAR_BASE_PARAMETERS],
+                      double MODELER_OUT(tau, FIVE_BAR_JOINTS))
+{
+    struct five_bar_posture p;
+    double rows[4];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 2) && modeler_finite(beta, 11))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 2) != 0 && modeler_finite(beta, 11) != 0) {
+        status = five_bar_posed(&five_bar_loops, q,
+            five_bar_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, five_bar_tree_drift, u, qd, standing, G, ud, udd, work);
-        five_bar_tree_friction(ud, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        five_bar_moved(&five_bar_loops, qd, &p);
+        made_friction(&p, rows, beta, tau);
+    }
+    return modeler_told(status, tau, 2);
+}
+
+int five_bar_friction_at(struct five_bar_state *state, const double beta[FIVE_BAR_BASE_PARAMETERS],
+                         double MODELER_OUT(tau, FIVE_BAR_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 11) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_friction(&state->at, state->rows, beta, tau);
     }
     return modeler_told(status, tau, 2);
 }
 
 /* Inertia matrix, rotor inertias included; symmetric. */
-int five_bar_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
+static void made_inertia_matrix(struct five_bar_posture *p, double *rows,
+                                const double beta[FIVE_BAR_BASE_PARAMETERS],
+                                double MODELER_OUT(M, 2 * 2))
 {
-    double G[8], rows[16], half[8];
-    double u[4], work[WORK];
+    double *const half = rows + 16;
+
+    five_bar_tree_inertia_matrix(p->u, beta, rows);
+    modeler_project(&five_bar_loops, p->G, rows, 4, half);
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 4; k++) {
+            rows[k * 2 + i] = half[i * 4 + k];
+        }
+    }
+    modeler_project(&five_bar_loops, p->G, rows, 2, M);
+}
+
+int five_bar_inertia_matrix(const double q[FIVE_BAR_JOINTS],
+                            const double beta[FIVE_BAR_BASE_PARAMETERS],
+                            double MODELER_OUT(M, 2 * 2))
+{
+    struct five_bar_posture p;
+    double rows[24];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(beta, 11))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(beta, 11) != 0) {
+        status = five_bar_posed(&five_bar_loops, q,
+            five_bar_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&loops, G, work);
-        five_bar_tree_inertia_matrix(u, beta, rows);
-        modeler_project(&loops, G, rows, 4, half);
-        for (int i = 0; i < 2; i++)
-            for (int k = 0; k < 4; k++)
-                rows[k * 2 + i] = half[i * 4 + k];
-        modeler_project(&loops, G, rows, 2, M);
+        five_bar_moved(&five_bar_loops, NULL, &p);
+        made_inertia_matrix(&p, rows, beta, M);
+    }
+    return modeler_told(status, M, 4);
+}
+
+int five_bar_inertia_matrix_at(struct five_bar_state *state,
+                               const double beta[FIVE_BAR_BASE_PARAMETERS],
+                               double MODELER_OUT(M, 2 * 2))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 11) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_inertia_matrix(&state->at, state->rows, beta, M);
     }
     return modeler_told(status, M, 4);
 }
 
 /* Pose of the frame of every moving row of the table. */
-int five_bar_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+static void made_forward_kinematics(struct five_bar_posture *p, double *rows,
+                                    double MODELER_OUT(T, 4 * 3 * 4))
 {
-    double u[4], work[WORK];
+    (void)rows;
+    five_bar_tree_forward_kinematics(p->u, T);
+}
+
+int five_bar_forward_kinematics(const double q[FIVE_BAR_JOINTS], double MODELER_OUT(T, 4 * 3 * 4))
+{
+    struct five_bar_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, home, u, work);
+    status = five_bar_posed(&five_bar_loops, q,
+        five_bar_home, &p);
     if (status == MODELER_CLOSED) {
-        five_bar_tree_forward_kinematics(u, T);
+        made_forward_kinematics(&p, NULL, T);
+    }
+    return modeler_told(status, T, 48);
+}
+
+int five_bar_forward_kinematics_at(struct five_bar_state *state, double MODELER_OUT(T, 4 * 3 * 4))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED) {
+        made_forward_kinematics(&state->at, state->rows, T);
     }
     return modeler_told(status, T, 48);
 }
 
 /* Closed posture, on a straight way from home. */
-int five_bar_close(const double *q, double *MODELER_RESTRICT u)
+int five_bar_close(const double q[FIVE_BAR_JOINTS], double MODELER_OUT(u, 4))
 {
-    double work[WORK];
+    struct five_bar_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, home, u, work);
+    status = five_bar_posed(&five_bar_loops, q,
+        five_bar_home, &p);
+    if (status == MODELER_CLOSED) {
+        for (int k = 0; k < 4; k++) {
+            u[k] = p.u[k];
+        }
+    }
     return modeler_told(status, u, 4);
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
-int five_bar_close_from(const double *q, const double *start, double *MODELER_RESTRICT u)
+int five_bar_close_from(const double q[FIVE_BAR_JOINTS], const double start[4],
+                        double MODELER_OUT(u, 4))
 {
-    double work[WORK];
+    struct five_bar_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, start, u, work);
+    status = five_bar_posed(&five_bar_loops, q,
+        start, &p);
+    if (status == MODELER_CLOSED) {
+        for (int k = 0; k < 4; k++) {
+            u[k] = p.u[k];
+        }
+    }
     return modeler_told(status, u, 4);
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
-int five_bar_coupling(const double *q, double *MODELER_RESTRICT G)
+static void made_coupling(struct five_bar_posture *p, double *rows, double MODELER_OUT(G, 4 * 2))
 {
-    double u[4], work[WORK];
+    (void)rows;
+    for (int k = 0; k < 8; k++) {
+        G[k] = p->G[k];
+    }
+}
+
+int five_bar_coupling(const double q[FIVE_BAR_JOINTS], double MODELER_OUT(G, 4 * 2))
+{
+    struct five_bar_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, home, u, work);
+    status = five_bar_posed(&five_bar_loops, q,
+        five_bar_home, &p);
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&loops, G, work);
+        five_bar_moved(&five_bar_loops, NULL, &p);
+        made_coupling(&p, NULL, G);
     }
     return modeler_told(status, G, 8);
 }
+
+int five_bar_coupling_at(struct five_bar_state *state, double MODELER_OUT(G, 4 * 2))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED) {
+        made_coupling(&state->at, state->rows, G);
+    }
+    return modeler_told(status, G, 8);
+}
+

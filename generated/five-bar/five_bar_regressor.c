@@ -49,8 +49,8 @@ static const double five_bar_geo_L3 = FIVE_BAR_GEO_L3;
 
 /* Regressor of the standard parameters.
  * 22 additions, 36 multiplications. */
-void five_bar_tree_regressor(const double *q, const double *qd, const double *qdd,
-                             double *MODELER_RESTRICT phi)
+void five_bar_tree_regressor(const double q[4], const double qd[4], const double qdd[4],
+                             double MODELER_OUT(phi, 4 * 40))
 {
     MODELER_ALL_ZEROS(phi, 160);
 

@@ -1,11 +1,11 @@
-# find_package(orthoglide_2003) takes any, find_package(orthoglide_2003 1) any of this C interface,
-# find_package(orthoglide_2003 1.15855.31649.54428) only what has the signature 3def7ba1d49c7096.
-set(PACKAGE_VERSION 1.15855.31649.54428)
+# find_package(orthoglide_2003) takes any, find_package(orthoglide_2003 2) any of this C interface,
+# find_package(orthoglide_2003 2.36399.34118.35537) only what has the signature 8e2f85468ad1afa2.
+set(PACKAGE_VERSION 2.36399.34118.35537)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
   set(PACKAGE_VERSION_EXACT TRUE)
-elseif("${PACKAGE_FIND_VERSION}" STREQUAL "1")
+elseif("${PACKAGE_FIND_VERSION}" STREQUAL "2")
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
 endif()

@@ -72,8 +72,9 @@ static const double orthoglide_2003_geo_d6 = ORTHOGLIDE_2003_GEO_d6;
 
 /* Joint torques, by the Newton-Euler recursion.
  * 165 additions, 226 multiplications. */
-void orthoglide_2003_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                           const double *beta, double *MODELER_RESTRICT tau)
+void orthoglide_2003_tree_inverse_dynamics(const double q[12], const double qd[12],
+                                           const double qdd[12], const double beta[43],
+                                           double MODELER_OUT(tau, 12))
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -256,8 +257,8 @@ void orthoglide_2003_tree_inverse_dynamics(const double *q, const double *qd, co
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 33 additions, 57 multiplications. */
-void orthoglide_2003_tree_inertia_matrix(const double *q, const double *beta,
-                                         double *MODELER_RESTRICT M)
+void orthoglide_2003_tree_inertia_matrix(const double q[12], const double beta[43],
+                                         double MODELER_OUT(M, 12 * 12))
 {
     MODELER_ALL_ZEROS(M, 144);
 
@@ -380,7 +381,8 @@ void orthoglide_2003_tree_inertia_matrix(const double *q, const double *beta,
 
 /* Torques that hold the robot still, without friction.
  * 8 additions, 27 multiplications. */
-void orthoglide_2003_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+void orthoglide_2003_tree_gravity(const double q[12], const double beta[43],
+                                  double MODELER_OUT(tau, 12))
 {
     tau[0] = 0.0;
     tau[2] = 0.0;
@@ -422,8 +424,8 @@ void orthoglide_2003_tree_gravity(const double *q, const double *beta, double *M
 
 /* Torques without gravity and friction.
  * 152 additions, 220 multiplications. */
-void orthoglide_2003_tree_coriolis(const double *q, const double *qd, const double *qdd,
-                                   const double *beta, double *MODELER_RESTRICT tau)
+void orthoglide_2003_tree_coriolis(const double q[12], const double qd[12], const double qdd[12],
+                                   const double beta[43], double MODELER_OUT(tau, 12))
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -594,8 +596,8 @@ void orthoglide_2003_tree_coriolis(const double *q, const double *qd, const doub
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 6 additions, 6 multiplications. */
-void orthoglide_2003_tree_friction(const double *qd, const double *beta,
-                                   double *MODELER_RESTRICT tau)
+void orthoglide_2003_tree_friction(const double qd[12], const double beta[43],
+                                   double MODELER_OUT(tau, 12))
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -614,7 +616,7 @@ void orthoglide_2003_tree_friction(const double *qd, const double *beta,
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 9 additions, 21 multiplications. */
-void orthoglide_2003_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+void orthoglide_2003_tree_forward_kinematics(const double q[12], double MODELER_OUT(T, 21 * 3 * 4))
 {
     MODELER_ALL_ZEROS(T, 252);
 
@@ -878,7 +880,8 @@ void orthoglide_2003_tree_forward_kinematics(const double *q, double *MODELER_RE
 
 /* d/dt(df/du) ud.
  * 18 additions, 66 multiplications. */
-void orthoglide_2003_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
+void orthoglide_2003_tree_drift(const double q[12], const double qd[12],
+                                double MODELER_OUT(values, 9))
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -924,7 +927,7 @@ void orthoglide_2003_tree_drift(const double *q, const double *qd, double *MODEL
 
 /* All equations of all loops, cosines, nonzeros of df/du, turns.
  * 20 additions, 30 multiplications. */
-void orthoglide_2003_tree_closure(const double *q, double *MODELER_RESTRICT values)
+void orthoglide_2003_tree_closure(const double q[12], double MODELER_OUT(values, 48))
 {
     /* link 32: origin of the frame in frame 0, o32 = o22 + [x22 y22 z22] p32 */
     const double o32_z = orthoglide_2003_geo_a + orthoglide_2003_geo_b3;
@@ -1008,7 +1011,7 @@ void orthoglide_2003_tree_closure(const double *q, double *MODELER_RESTRICT valu
 
 /* The independent equations.
  * 20 additions, 15 multiplications. */
-void orthoglide_2003_tree_residual(const double *q, double *MODELER_RESTRICT f)
+void orthoglide_2003_tree_residual(const double q[12], double MODELER_OUT(f, 9))
 {
     /* link 32: origin of the frame in frame 0, o32 = o22 + [x22 y22 z22] p32 */
     const double o32_z = orthoglide_2003_geo_a + orthoglide_2003_geo_b3;
@@ -1043,7 +1046,7 @@ void orthoglide_2003_tree_residual(const double *q, double *MODELER_RESTRICT f)
 
 /* Factors of the solved columns of J: 1/pivots, then the rest.
  * 8 additions, 22 multiplications. */
-void orthoglide_2003_tree_factor(const double *J, double *MODELER_RESTRICT lu)
+void orthoglide_2003_tree_factor(const double J[27], double MODELER_OUT(lu, 25))
 {
     const double t1 = 1.0/J[1];
     lu[0] = t1;
@@ -1088,7 +1091,8 @@ void orthoglide_2003_tree_factor(const double *J, double *MODELER_RESTRICT lu)
 
 /* Solution with the factors.
  * 22 additions, 25 multiplications. */
-void orthoglide_2003_tree_solve(const double *lu, const double *right, double *MODELER_RESTRICT x)
+void orthoglide_2003_tree_solve(const double lu[25], const double right[9],
+                                double MODELER_OUT(x, 9))
 {
     const double t1 = right[2] - lu[10]*right[0] - lu[11]*right[1] - lu[16]*right[6];
     const double t2 = lu[14]*right[5] - (right[3] - lu[13]*right[4]) + right[6] + lu[21]*t1;
@@ -1111,7 +1115,8 @@ void orthoglide_2003_tree_solve(const double *lu, const double *right, double *M
 
 /* G from the factors.
  * 16 additions, 48 multiplications. */
-void orthoglide_2003_tree_coupling(const double *J, const double *lu, double *MODELER_RESTRICT G)
+void orthoglide_2003_tree_coupling(const double J[27], const double lu[25],
+                                   double MODELER_OUT(G, 27))
 {
     (void)J;
 
@@ -1163,8 +1168,8 @@ void orthoglide_2003_tree_coupling(const double *J, const double *lu, double *MO
 
 /* Bounds of the rows of J^-1 (K - J).
  * 43 additions, 32 multiplications. */
-void orthoglide_2003_tree_turned(const double *J, const double *K, const double *lu,
-                                 double *MODELER_RESTRICT x)
+void orthoglide_2003_tree_turned(const double J[27], const double K[27], const double lu[25],
+                                 double MODELER_OUT(x, 9))
 {
     const double k1 = fabs(1.0);
 
@@ -1200,8 +1205,8 @@ void orthoglide_2003_tree_turned(const double *J, const double *K, const double 
 
 /* Sum of the squares of J^-1 (K - J).
  * 122 additions, 188 multiplications. */
-void orthoglide_2003_tree_spread(const double *J, const double *K, const double *lu,
-                                 double *MODELER_RESTRICT x)
+void orthoglide_2003_tree_spread(const double J[27], const double K[27], const double lu[25],
+                                 double MODELER_OUT(x, 1))
 {
     const double t1 = J[1] - K[1];
     const double t2 = J[7] - K[7] - lu[10]*t1;
@@ -1304,7 +1309,7 @@ void orthoglide_2003_tree_spread(const double *J, const double *K, const double 
 
 /* Factors of the solved columns of J: 1/pivots, then the rest.
  * 0 additions, 11 multiplications. */
-void orthoglide_2003_tree_platform_factor(const double *J, double *MODELER_RESTRICT lu)
+void orthoglide_2003_tree_platform_factor(const double J[27], double MODELER_OUT(lu, 18))
 {
     const double t1 = 1.0/J[4];
     lu[0] = t1;
@@ -1331,8 +1336,8 @@ void orthoglide_2003_tree_platform_factor(const double *J, double *MODELER_RESTR
 
 /* Solution with the factors.
  * 9 additions, 18 multiplications. */
-void orthoglide_2003_tree_platform_solve(const double *lu, const double *right,
-                                         double *MODELER_RESTRICT x)
+void orthoglide_2003_tree_platform_solve(const double lu[18], const double right[9],
+                                         double MODELER_OUT(x, 9))
 {
     const double t1 = right[0] - lu[9]*right[1];
     x[0] = lu[2]*(right[2] - lu[10]*right[1] - lu[11]*t1);
@@ -1351,8 +1356,8 @@ void orthoglide_2003_tree_platform_solve(const double *lu, const double *right,
 
 /* G from the factors.
  * 3 additions, 16 multiplications. */
-void orthoglide_2003_tree_platform_coupling(const double *J, const double *lu,
-                                            double *MODELER_RESTRICT G)
+void orthoglide_2003_tree_platform_coupling(const double J[27], const double lu[18],
+                                            double MODELER_OUT(G, 18))
 {
     (void)J;
 
@@ -1380,8 +1385,8 @@ void orthoglide_2003_tree_platform_coupling(const double *J, const double *lu,
 
 /* Bounds of the rows of J^-1 (K - J).
  * 30 additions, 21 multiplications. */
-void orthoglide_2003_tree_platform_turned(const double *J, const double *K, const double *lu,
-                                          double *MODELER_RESTRICT x)
+void orthoglide_2003_tree_platform_turned(const double J[27], const double K[27],
+                                          const double lu[18], double MODELER_OUT(x, 9))
 {
     const double t1 = fabs(J[4] - K[4]);
     const double t2 = fabs(J[1] - K[1]) + fabs(J[2] - K[2]) + t1*fabs(lu[9]);
@@ -1405,8 +1410,8 @@ void orthoglide_2003_tree_platform_turned(const double *J, const double *K, cons
 
 /* Sum of the squares of J^-1 (K - J).
  * 41 additions, 48 multiplications. */
-void orthoglide_2003_tree_platform_spread(const double *J, const double *K, const double *lu,
-                                          double *MODELER_RESTRICT x)
+void orthoglide_2003_tree_platform_spread(const double J[27], const double K[27],
+                                          const double lu[18], double MODELER_OUT(x, 1))
 {
     const double t1 = J[1] - K[1];
     const double t2 = lu[2]*(J[7] - K[7] - lu[11]*t1)*(1000000000000000.0/848528137423857.0);
@@ -1436,7 +1441,8 @@ void orthoglide_2003_tree_platform_spread(const double *J, const double *K, cons
 
 /* Base parameters from standard ones: the grouping relations.
  * 96 additions, 21 multiplications. */
-void orthoglide_2003_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
+void orthoglide_2003_base_parameters(const double chi[ORTHOGLIDE_2003_STANDARD_PARAMETERS],
+                                     double MODELER_OUT(beta, ORTHOGLIDE_2003_BASE_PARAMETERS))
 {
     const double k1 = 1.0/orthoglide_2003_geo_D41;
     const double k2 = 1.0/orthoglide_2003_geo_D42;

@@ -1,5 +1,7 @@
 /* Orthoglide, three translations (Guegan, Khalil, Lemoine 2003)
  *
+ * SPDX-License-Identifier: MIT
+ *
  * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
  * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
  *
@@ -13,14 +15,22 @@
 
 #include <stddef.h>
 
+#include "modeler_kept.h"
+#include "modeler_status.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "3def7ba1d49c7096"
-#define ORTHOGLIDE_2003_SIGNATURE_1 0x3def7ba1u
-#define ORTHOGLIDE_2003_SIGNATURE_2 0xd49c7096u
+#define ORTHOGLIDE_2003_SIGNATURE "8e2f85468ad1afa2"
+#define ORTHOGLIDE_2003_SIGNATURE_1 0x8e2f8546u
+#define ORTHOGLIDE_2003_SIGNATURE_2 0x8ad1afa2u
+
+/* Of the calls: raised when one takes other arguments; orthoglide_2003_generator.h says which version of
+ * modeler wrote the folder. */
+#define ORTHOGLIDE_2003_INTERFACE 2
+#define ORTHOGLIDE_2003_LICENSE "MIT"
 
 #define ORTHOGLIDE_2003_JOINTS 3
 #define ORTHOGLIDE_2003_STANDARD_PARAMETERS 163
@@ -338,7 +348,9 @@ const char *orthoglide_2003_signature(void);
  * qdd    3        joint accelerations [m/s2]
  * phi    3 x 163  torque per unit of each standard parameter, row-major [SI]
  */
-int orthoglide_2003_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+int orthoglide_2003_regressor(const double q[ORTHOGLIDE_2003_JOINTS],
+                              const double qd[ORTHOGLIDE_2003_JOINTS],
+                              const double qdd[ORTHOGLIDE_2003_JOINTS], double phi[3 * 163]);
 
 /* Regressor of the base parameters.
  *
@@ -349,8 +361,9 @@ int orthoglide_2003_regressor(const double *q, const double *qd, const double *q
  * qdd    3        joint accelerations [m/s2]
  * phi    3 x 43   torque per unit of each base parameter, row-major [SI]
  */
-int orthoglide_2003_base_regressor(const double *q, const double *qd, const double *qdd,
-                                   double *phi);
+int orthoglide_2003_base_regressor(const double q[ORTHOGLIDE_2003_JOINTS],
+                                   const double qd[ORTHOGLIDE_2003_JOINTS],
+                                   const double qdd[ORTHOGLIDE_2003_JOINTS], double phi[3 * 43]);
 
 /* Torques that move the closed robot so.
  *
@@ -362,8 +375,11 @@ int orthoglide_2003_base_regressor(const double *q, const double *qd, const doub
  * beta   43       base parameters [SI]
  * tau    3        joint torques or forces [N]
  */
-int orthoglide_2003_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                     const double *beta, double *tau);
+int orthoglide_2003_inverse_dynamics(const double q[ORTHOGLIDE_2003_JOINTS],
+                                     const double qd[ORTHOGLIDE_2003_JOINTS],
+                                     const double qdd[ORTHOGLIDE_2003_JOINTS],
+                                     const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                     double tau[ORTHOGLIDE_2003_JOINTS]);
 
 /* Torques that hold the robot still, without friction.
  *
@@ -373,7 +389,9 @@ int orthoglide_2003_inverse_dynamics(const double *q, const double *qd, const do
  * beta   43       base parameters [SI]
  * tau    3        joint torques or forces [N]
  */
-int orthoglide_2003_gravity(const double *q, const double *beta, double *tau);
+int orthoglide_2003_gravity(const double q[ORTHOGLIDE_2003_JOINTS],
+                            const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                            double tau[ORTHOGLIDE_2003_JOINTS]);
 
 /* Coriolis and centripetal torques.
  *
@@ -384,7 +402,10 @@ int orthoglide_2003_gravity(const double *q, const double *beta, double *tau);
  * beta   43       base parameters [SI]
  * tau    3        joint torques or forces [N]
  */
-int orthoglide_2003_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+int orthoglide_2003_coriolis(const double q[ORTHOGLIDE_2003_JOINTS],
+                             const double qd[ORTHOGLIDE_2003_JOINTS],
+                             const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                             double tau[ORTHOGLIDE_2003_JOINTS]);
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  *
@@ -395,7 +416,10 @@ int orthoglide_2003_coriolis(const double *q, const double *qd, const double *be
  * beta   43       base parameters [SI]
  * tau    3        joint torques or forces [N]
  */
-int orthoglide_2003_friction(const double *q, const double *qd, const double *beta, double *tau);
+int orthoglide_2003_friction(const double q[ORTHOGLIDE_2003_JOINTS],
+                             const double qd[ORTHOGLIDE_2003_JOINTS],
+                             const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                             double tau[ORTHOGLIDE_2003_JOINTS]);
 
 /* Inertia matrix, rotor inertias included; symmetric.
  *
@@ -405,7 +429,9 @@ int orthoglide_2003_friction(const double *q, const double *qd, const double *be
  * beta   43       base parameters [SI]
  * M      3 x 3    inertia matrix, row-major [kg m2, kg m or kg]
  */
-int orthoglide_2003_inertia_matrix(const double *q, const double *beta, double *M);
+int orthoglide_2003_inertia_matrix(const double q[ORTHOGLIDE_2003_JOINTS],
+                                   const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                   double M[3 * 3]);
 
 /* Pose of the frame of every moving row of the table.
  *
@@ -414,7 +440,8 @@ int orthoglide_2003_inertia_matrix(const double *q, const double *beta, double *
  * q      3          joint positions [m]
  * T      21 x 3 x 4 poses [R | p] of rows Px, Py, P, 11, 12, 13, 21, 31, 41, 51, 71, 22, 32, 42, 52, 72, 23, 33, 43, 53, 73 in frame 0, row-major [1 | m]
  */
-int orthoglide_2003_forward_kinematics(const double *q, double *T);
+int orthoglide_2003_forward_kinematics(const double q[ORTHOGLIDE_2003_JOINTS],
+                                       double T[21 * 3 * 4]);
 
 /* Closed posture, on a straight way from home.
  *
@@ -423,7 +450,7 @@ int orthoglide_2003_forward_kinematics(const double *q, double *T);
  * q      3        joint positions [m]
  * u      12       free variables of the opened tree [rad or m]
  */
-int orthoglide_2003_close(const double *q, double *u);
+int orthoglide_2003_close(const double q[ORTHOGLIDE_2003_JOINTS], double u[12]);
 
 /* Closed posture, on a straight way from another one, such as the last.
  *
@@ -433,7 +460,8 @@ int orthoglide_2003_close(const double *q, double *u);
  * start  12       a closed posture to start from [rad or m]
  * u      12       free variables of the opened tree [rad or m]
  */
-int orthoglide_2003_close_from(const double *q, const double *start, double *u);
+int orthoglide_2003_close_from(const double q[ORTHOGLIDE_2003_JOINTS], const double start[12],
+                               double u[12]);
 
 /* Speeds of the free variables; rows of the platform are its Jacobian.
  *
@@ -442,7 +470,7 @@ int orthoglide_2003_close_from(const double *q, const double *start, double *u);
  * q      3        joint positions [m]
  * G      12 x 3   d u / d q, row-major [SI]
  */
-int orthoglide_2003_coupling(const double *q, double *G);
+int orthoglide_2003_coupling(const double q[ORTHOGLIDE_2003_JOINTS], double G[12 * 3]);
 
 /* Base parameters from standard ones: the grouping relations.
  *
@@ -451,7 +479,8 @@ int orthoglide_2003_coupling(const double *q, double *G);
  * chi    163      standard parameters [SI]
  * beta   43       base parameters [SI]
  */
-void orthoglide_2003_base_parameters(const double *chi, double *beta);
+void orthoglide_2003_base_parameters(const double chi[ORTHOGLIDE_2003_STANDARD_PARAMETERS],
+                                     double beta[ORTHOGLIDE_2003_BASE_PARAMETERS]);
 
 /* Regressor of the base parameters.
  *
@@ -462,8 +491,8 @@ void orthoglide_2003_base_parameters(const double *chi, double *beta);
  * xdd    3        their accelerations [m/s2]
  * phi    3 x 43   torque per unit of each base parameter, row-major [SI]
  */
-int orthoglide_2003_platform_base_regressor(const double *x, const double *xd, const double *xdd,
-                                            double *phi);
+int orthoglide_2003_platform_base_regressor(const double x[3], const double xd[3],
+                                            const double xdd[3], double phi[3 * 43]);
 
 /* Torques that move the closed robot so.
  *
@@ -475,8 +504,10 @@ int orthoglide_2003_platform_base_regressor(const double *x, const double *xd, c
  * beta   43       base parameters [SI]
  * f      3        forces and torques along x [N]
  */
-int orthoglide_2003_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
-                                              const double *beta, double *f);
+int orthoglide_2003_platform_inverse_dynamics(const double x[3], const double xd[3],
+                                              const double xdd[3],
+                                              const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                              double f[3]);
 
 /* Closed posture, on a straight way from home.
  *
@@ -485,7 +516,7 @@ int orthoglide_2003_platform_inverse_dynamics(const double *x, const double *xd,
  * x      3        positions of the platform: Px, Py, P [m]
  * u      12       free variables of the opened tree [rad or m]
  */
-int orthoglide_2003_platform_close(const double *x, double *u);
+int orthoglide_2003_platform_close(const double x[3], double u[12]);
 
 /* Closed posture, on a straight way from another one, such as the last.
  *
@@ -495,7 +526,7 @@ int orthoglide_2003_platform_close(const double *x, double *u);
  * start  12       a closed posture to start from [rad or m]
  * u      12       free variables of the opened tree [rad or m]
  */
-int orthoglide_2003_platform_close_from(const double *x, const double *start, double *u);
+int orthoglide_2003_platform_close_from(const double x[3], const double start[12], double u[12]);
 
 /* Speeds of the free variables; rows of the platform are its Jacobian.
  *
@@ -504,16 +535,62 @@ int orthoglide_2003_platform_close_from(const double *x, const double *start, do
  * x      3        positions of the platform: Px, Py, P [m]
  * G      12 x 3   d u / d x, row-major [SI]
  */
-int orthoglide_2003_platform_coupling(const double *x, double *G);
+int orthoglide_2003_platform_coupling(const double x[3], double G[12 * 3]);
 
-/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
+/* A closed posture and what solved it, and a controller's state: members are the library's. */
+struct orthoglide_2003_posture {
+    double u[12];      /* free variables */
+    double ud[12];     /* their speeds */
+    double gamma[12];  /* their accelerations at qdd = 0 */
+    double G[36];
+    double qd[3];
+    modeler_kept kept;
+    int places[30];
+    double numbers[458];
+};
+
+struct orthoglide_2003_state {
+    struct orthoglide_2003_posture at;
+    int status;
+    int rated; /* `rate` holds dG/dt */
+    double rate[36];
+    double rows[516];
+};
+
+/* The state at q, qd: closes the loops once for all functions that end in _at.
  *
- * q qd qdd  samples x 3
- * W         (samples*3) x 43
- * status    samples
+ * They are those of the same name without q and qd, and give the same numbers. The loops are closed
+ * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
+ * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
+ * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
+ * the posture is the last closed one, from where the next call may go on.
  */
-void orthoglide_2003_observation(size_t samples, const double *q, const double *qd,
-                                 const double *qdd, double *W, int *status);
+int orthoglide_2003_state(const double *q, const double *qd, const double *previous,
+    struct orthoglide_2003_state *state);
+int orthoglide_2003_base_regressor_at(struct orthoglide_2003_state *state,
+                                      const double qdd[ORTHOGLIDE_2003_JOINTS], double phi[3 * 43]);
+int orthoglide_2003_inverse_dynamics_at(struct orthoglide_2003_state *state,
+                                        const double qdd[ORTHOGLIDE_2003_JOINTS],
+                                        const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                        double tau[ORTHOGLIDE_2003_JOINTS]);
+int orthoglide_2003_gravity_at(struct orthoglide_2003_state *state,
+                               const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                               double tau[ORTHOGLIDE_2003_JOINTS]);
+int orthoglide_2003_coriolis_at(struct orthoglide_2003_state *state,
+                                const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                double tau[ORTHOGLIDE_2003_JOINTS]);
+int orthoglide_2003_friction_at(struct orthoglide_2003_state *state,
+                                const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                double tau[ORTHOGLIDE_2003_JOINTS]);
+int orthoglide_2003_inertia_matrix_at(struct orthoglide_2003_state *state,
+                                      const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                      double M[3 * 3]);
+int orthoglide_2003_forward_kinematics_at(struct orthoglide_2003_state *state,
+                                          double T[21 * 3 * 4]);
+int orthoglide_2003_coupling_at(struct orthoglide_2003_state *state, double G[12 * 3]);
+
+/* dG/dt, as G: udd = G qdd + dG/dt qd. `rate` may be NULL: it is kept in the state. */
+int orthoglide_2003_coupling_rate_at(struct orthoglide_2003_state *state, double *rate);
 
 #ifdef __cplusplus
 }

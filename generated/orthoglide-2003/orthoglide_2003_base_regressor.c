@@ -55,8 +55,8 @@ static const double orthoglide_2003_geo_D43 = ORTHOGLIDE_2003_GEO_D43;
 
 /* Regressor of the base parameters.
  * 68 additions, 114 multiplications. */
-void orthoglide_2003_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                                         double *MODELER_RESTRICT phi)
+void orthoglide_2003_tree_base_regressor(const double q[12], const double qd[12],
+                                         const double qdd[12], double MODELER_OUT(phi, 12 * 43))
 {
     MODELER_ALL_ZEROS(phi, 516);
 
@@ -291,8 +291,9 @@ void orthoglide_2003_tree_base_regressor(const double *q, const double *qd, cons
 
 /* Regressor of the base parameters, loops closed.
  * 219 additions, 403 multiplications. */
-void orthoglide_2003_tree_rows(const double *q, const double *t, const double *G, const double *lu,
-                               const double *v, const double *a, double *MODELER_RESTRICT phi)
+void orthoglide_2003_tree_rows(const double q[12], const double t[12], const double G[27],
+                               const double lu[25], const double v[3], const double a[3],
+                               double MODELER_OUT(phi, 3 * 43))
 {
     (void)q;
     MODELER_ALL_ZEROS(phi, 129);

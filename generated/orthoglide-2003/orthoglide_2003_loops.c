@@ -8,14 +8,14 @@
 #include "modeler_closure.h"
 #include "orthoglide_2003_tree.h"
 
-#if ORTHOGLIDE_2003_EVALUATIONS != MODELER_EVALUATIONS
-#error the runtime has another limit
+#if ORTHOGLIDE_2003_EVALUATIONS != MODELER_EVALUATIONS \
+    || MODELER_CLOSURE_PLACES(12, 9) != 30 \
+    || MODELER_CLOSURE_NUMBERS(12, 9, 48, 25) != 458
+#error the runtime has other limits
 #endif
 
-#define WORK MODELER_CLOSURE_WORK(12, 9, 48, 25)
-
 /* Free variables u: Px, Py, P, 11, 12, 13, 21, 31, 22, 32, 23, 33. */
-static const double home[12] = {
+const double orthoglide_2003_home[12] = {
     0.0, 0.0, 0.6, 0.19, 0.19, 0.19, -1.5707963267948966, 0.0, -1.5707963267948966, 0.0, -1.5707963267948966, 0.0
 };
 static const double scale[12] = {
@@ -42,7 +42,7 @@ static const int coupling_row[27] = {
 static const int coupling_column[27] = {
     0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 2
 };
-static const modeler_closure loops = {
+const modeler_closure orthoglide_2003_loops = {
     12, 3, 9, given, solved, scale,
     9, 0, 8.485281374238571e-10, 27, row, column, 48,
     orthoglide_2003_tree_closure, orthoglide_2003_tree_residual,
@@ -64,7 +64,7 @@ static const int platform_coupling_row[18] = {
 static const int platform_coupling_column[18] = {
     0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2
 };
-static const modeler_closure platform_loops = {
+const modeler_closure orthoglide_2003_platform_loops = {
     12, 3, 9, platform_given, platform_solved, scale,
     9, 0, 8.485281374238571e-10, 27, row, column, 48,
     orthoglide_2003_tree_closure, orthoglide_2003_tree_residual,
@@ -73,290 +73,651 @@ static const modeler_closure platform_loops = {
     orthoglide_2003_tree_platform_coupling, orthoglide_2003_tree_platform_turned, orthoglide_2003_tree_platform_spread
 };
 
-static const double standing[3] = {0.0};
-
-/* Regressor of the base parameters at the closed posture u that was found last. */
-static void base_rows(const double *u, const double *qd, const double *qdd, double *work, double *phi)
+static modeler_work work_of(struct orthoglide_2003_posture *p)
 {
+    modeler_work work;
+
+    work.kept = &p->kept;
+    work.places = p->places;
+    work.numbers = p->numbers;
+    return work;
+}
+
+int orthoglide_2003_posed(const modeler_closure *loops, const double *q, const double *start,
+    struct orthoglide_2003_posture *p)
+{
+    const modeler_work work = work_of(p);
+
+    return modeler_close(loops, q, start, p->u, &work);
+}
+
+void orthoglide_2003_moved(const modeler_closure *loops, const double *qd,
+    struct orthoglide_2003_posture *p)
+{
+    const modeler_work work = work_of(p);
+
+    modeler_coupling(loops, p->G, &work);
+    if (qd == NULL) {
+        return;
+    }
+    modeler_drift(loops, orthoglide_2003_tree_drift, p->u, p->G, qd, p->ud, p->gamma,
+                  &work);
+    for (int k = 0; k < 3; k++) {
+        p->qd[k] = qd[k];
+    }
+}
+
+/* Regressor of the base parameters at the closed posture p. */
+static void base_rows(struct orthoglide_2003_posture *p, double *rows, const double *qd,
+                      const double *qdd, double *phi)
+{
+    const modeler_work work = work_of(p);
     const double *values, *lu, *G_nonzeros;
 
-    if (modeler_eliminated(&loops, work, &values, &lu, &G_nonzeros)) {
-        orthoglide_2003_tree_rows(u, values + 36, G_nonzeros, lu, qd, qdd, phi);
+    if (modeler_eliminated(&orthoglide_2003_loops, &work, &values, &lu, &G_nonzeros) != 0) {
+        orthoglide_2003_tree_rows(p->u, values + 36, G_nonzeros, lu, qd, qdd, phi);
     } else {
-        double ud[12], udd[12], G[36];
-        double rows[12 * ORTHOGLIDE_2003_BASE_PARAMETERS];
+        double udd[12];
 
-        modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
-        orthoglide_2003_tree_base_regressor(u, ud, udd, rows);
-        modeler_project(&loops, G, rows, ORTHOGLIDE_2003_BASE_PARAMETERS, phi);
+        orthoglide_2003_moved(&orthoglide_2003_loops, qd, p);
+        modeler_accelerations(&orthoglide_2003_loops, p->G, p->gamma, qdd, udd);
+        orthoglide_2003_tree_base_regressor(p->u, p->ud, udd, rows);
+        modeler_project(&orthoglide_2003_loops, p->G, rows, ORTHOGLIDE_2003_BASE_PARAMETERS, phi);
     }
 }
 
 const char *orthoglide_2003_signature(void)
 {
-    return "3def7ba1d49c7096";
+    return "8e2f85468ad1afa2";
 }
 
-/* Each sample starts from the one before; where that fails, from home. */
-void orthoglide_2003_observation(size_t samples, const double *q, const double *qd,
-                                 const double *qdd, double *MODELER_RESTRICT W, int *status)
+int orthoglide_2003_tree_next(const double *q, const double *qd, const double *qdd, int next,
+    struct orthoglide_2003_posture *p, double *rows, double *phi)
 {
-    double u[12], work[WORK];
-    const size_t width = (size_t)ORTHOGLIDE_2003_JOINTS * ORTHOGLIDE_2003_BASE_PARAMETERS;
+    int status = MODELER_NOT_FINITE;
 
-    for (size_t i = 0; i < samples; i++) {
-        const size_t at = i * ORTHOGLIDE_2003_JOINTS;
-        int found = MODELER_NOT_FINITE;
+    if (modeler_finite(qd, 3) != 0 && modeler_finite(qdd, 3) != 0) {
+        if (next != 0) {
+            const modeler_work work = work_of(p);
 
-        if (modeler_finite(qd + at, 3) && modeler_finite(qdd + at, 3)) {
-            if (i > 0 && status[i - 1] == MODELER_CLOSED)
-                found = modeler_close_next(&loops, q + at, u, work);
-            if (found != MODELER_CLOSED)
-                found = modeler_close(&loops, q + at, home, u, work);
+            status = modeler_close_next(&orthoglide_2003_loops, q, p->u, &work);
         }
-        if (found == MODELER_CLOSED)
-            base_rows(u, qd + at, qdd + at, work, W + i * width);
-        status[i] = modeler_told(found, W + i * width, width);
+        if (status != MODELER_CLOSED) {
+            status = orthoglide_2003_posed(&orthoglide_2003_loops, q, orthoglide_2003_home, p);
+        }
     }
+    if (status == MODELER_CLOSED) {
+        base_rows(p, rows, qd, qdd, phi);
+    }
+    return modeler_told(status, phi, (size_t)ORTHOGLIDE_2003_JOINTS * ORTHOGLIDE_2003_BASE_PARAMETERS);
+}
+
+int orthoglide_2003_state(const double *q, const double *qd, const double *previous,
+    struct orthoglide_2003_state *state)
+{
+    struct orthoglide_2003_posture *const p = &state->at;
+    const modeler_work work = work_of(p);
+    int status = MODELER_NOT_FINITE;
+
+    if (modeler_finite(qd, 3) != 0) {
+        if (previous == p->u && p->kept.valid) {
+            status = modeler_close_soon(&orthoglide_2003_loops, q, p->u, &work);
+        } else {
+            status = modeler_close(&orthoglide_2003_loops, q,
+                                   previous == NULL ? orthoglide_2003_home : previous, p->u, &work);
+        }
+    }
+    if (status == MODELER_CLOSED) {
+        orthoglide_2003_moved(&orthoglide_2003_loops, qd, p);
+    }
+    state->status = status;
+    state->rated = 0;
+    return status;
+}
+
+int orthoglide_2003_coupling_rate_at(struct orthoglide_2003_state *state, double *rate)
+{
+    struct orthoglide_2003_posture *const p = &state->at;
+
+    if (state->status == MODELER_CLOSED && !state->rated) {
+        const modeler_work work = work_of(p);
+
+        modeler_coupling_rate(&orthoglide_2003_loops, orthoglide_2003_tree_drift, p->u, p->G, p->ud,
+                              state->rate, &work);
+        state->rated = 1;
+    }
+    for (int k = 0; rate != NULL && k < 36; k++) {
+        rate[k] = state->rate[k];
+    }
+    return rate == NULL ? state->status : modeler_told(state->status, rate, 36);
 }
 
 /* Regressor of the standard parameters. */
-int orthoglide_2003_regressor(const double *q, const double *qd, const double *qdd,
-                              double *MODELER_RESTRICT phi)
+static void made_regressor(struct orthoglide_2003_posture *p, double *rows,
+                           const double qdd[ORTHOGLIDE_2003_JOINTS],
+                           double MODELER_OUT(phi, 3 * 163))
 {
-    double G[36], ud[12], udd[12], rows[1956];
-    double u[12], work[WORK];
+    double udd[12];
+
+    modeler_accelerations(&orthoglide_2003_loops, p->G, p->gamma, qdd, udd);
+    orthoglide_2003_tree_regressor(p->u, p->ud, udd, rows);
+    modeler_project(&orthoglide_2003_loops, p->G, rows, 163, phi);
+}
+
+int orthoglide_2003_regressor(const double q[ORTHOGLIDE_2003_JOINTS],
+                              const double qd[ORTHOGLIDE_2003_JOINTS],
+                              const double qdd[ORTHOGLIDE_2003_JOINTS],
+                              double MODELER_OUT(phi, 3 * 163))
+{
+    struct orthoglide_2003_posture p;
+    double rows[1956];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 3) && modeler_finite(qdd, 3))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 3) != 0 && modeler_finite(qdd, 3) != 0) {
+        status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+            orthoglide_2003_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
-        orthoglide_2003_tree_regressor(u, ud, udd, rows);
-        modeler_project(&loops, G, rows, 163, phi);
+        orthoglide_2003_moved(&orthoglide_2003_loops, qd, &p);
+        made_regressor(&p, rows, qdd, phi);
     }
     return modeler_told(status, phi, 489);
 }
 
 /* Regressor of the base parameters. */
-int orthoglide_2003_base_regressor(const double *q, const double *qd, const double *qdd,
-                                   double *MODELER_RESTRICT phi)
+static void made_base_regressor(struct orthoglide_2003_posture *p, double *rows,
+                                const double qdd[ORTHOGLIDE_2003_JOINTS],
+                                double MODELER_OUT(phi, 3 * 43))
 {
-    double u[12], work[WORK];
+    (void)rows;
+    base_rows(p, rows, p->qd, qdd, phi);
+}
+
+int orthoglide_2003_base_regressor(const double q[ORTHOGLIDE_2003_JOINTS],
+                                   const double qd[ORTHOGLIDE_2003_JOINTS],
+                                   const double qdd[ORTHOGLIDE_2003_JOINTS],
+                                   double MODELER_OUT(phi, 3 * 43))
+{
+    struct orthoglide_2003_posture p;
+    double rows[516];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 3) && modeler_finite(qdd, 3))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 3) != 0 && modeler_finite(qdd, 3) != 0) {
+        status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+            orthoglide_2003_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        base_rows(u, qd, qdd, work, phi);
+        for (int k = 0; k < 3; k++) {
+            p.qd[k] = qd[k];
+        }
+        made_base_regressor(&p, rows, qdd, phi);
+    }
+    return modeler_told(status, phi, 129);
+}
+
+int orthoglide_2003_base_regressor_at(struct orthoglide_2003_state *state,
+                                      const double qdd[ORTHOGLIDE_2003_JOINTS],
+                                      double MODELER_OUT(phi, 3 * 43))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(qdd, 3) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_base_regressor(&state->at, state->rows, qdd, phi);
     }
     return modeler_told(status, phi, 129);
 }
 
 /* Torques that move the closed robot so. */
-int orthoglide_2003_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                     const double *beta, double *MODELER_RESTRICT tau)
+static void made_inverse_dynamics(struct orthoglide_2003_posture *p, double *rows,
+                                  const double qdd[ORTHOGLIDE_2003_JOINTS],
+                                  const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                  double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
 {
-    double G[36], ud[12], udd[12], rows[12];
-    double u[12], work[WORK];
+    double udd[12];
+
+    modeler_accelerations(&orthoglide_2003_loops, p->G, p->gamma, qdd, udd);
+    orthoglide_2003_tree_inverse_dynamics(p->u, p->ud, udd, beta, rows);
+    modeler_project(&orthoglide_2003_loops, p->G, rows, 1, tau);
+}
+
+int orthoglide_2003_inverse_dynamics(const double q[ORTHOGLIDE_2003_JOINTS],
+                                     const double qd[ORTHOGLIDE_2003_JOINTS],
+                                     const double qdd[ORTHOGLIDE_2003_JOINTS],
+                                     const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                     double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
+{
+    struct orthoglide_2003_posture p;
+    double rows[12];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 3) && modeler_finite(qdd, 3) && modeler_finite(beta, 43))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 3) != 0 && modeler_finite(qdd, 3) != 0 && modeler_finite(beta, 43) != 0) {
+        status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+            orthoglide_2003_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, qdd, G, ud, udd, work);
-        orthoglide_2003_tree_inverse_dynamics(u, ud, udd, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        orthoglide_2003_moved(&orthoglide_2003_loops, qd, &p);
+        made_inverse_dynamics(&p, rows, qdd, beta, tau);
+    }
+    return modeler_told(status, tau, 3);
+}
+
+int orthoglide_2003_inverse_dynamics_at(struct orthoglide_2003_state *state,
+                                        const double qdd[ORTHOGLIDE_2003_JOINTS],
+                                        const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                        double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(qdd, 3) != 0 && modeler_finite(beta, 43) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_inverse_dynamics(&state->at, state->rows, qdd, beta, tau);
     }
     return modeler_told(status, tau, 3);
 }
 
 /* Torques that hold the robot still, without friction. */
-int orthoglide_2003_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+static void made_gravity(struct orthoglide_2003_posture *p, double *rows,
+                         const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                         double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
 {
-    double G[36], rows[12];
-    double u[12], work[WORK];
+    orthoglide_2003_tree_gravity(p->u, beta, rows);
+    modeler_project(&orthoglide_2003_loops, p->G, rows, 1, tau);
+}
+
+int orthoglide_2003_gravity(const double q[ORTHOGLIDE_2003_JOINTS],
+                            const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                            double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
+{
+    struct orthoglide_2003_posture p;
+    double rows[12];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(beta, 43))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(beta, 43) != 0) {
+        status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+            orthoglide_2003_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&loops, G, work);
-        orthoglide_2003_tree_gravity(u, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        orthoglide_2003_moved(&orthoglide_2003_loops, NULL, &p);
+        made_gravity(&p, rows, beta, tau);
+    }
+    return modeler_told(status, tau, 3);
+}
+
+int orthoglide_2003_gravity_at(struct orthoglide_2003_state *state,
+                               const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                               double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 43) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_gravity(&state->at, state->rows, beta, tau);
     }
     return modeler_told(status, tau, 3);
 }
 
 /* Coriolis and centripetal torques. */
-int orthoglide_2003_coriolis(const double *q, const double *qd, const double *beta,
-                             double *MODELER_RESTRICT tau)
+static void made_coriolis(struct orthoglide_2003_posture *p, double *rows,
+                          const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                          double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
 {
-    double G[36], ud[12], udd[12], rows[12];
-    double u[12], work[WORK];
+    orthoglide_2003_tree_coriolis(p->u, p->ud, p->gamma, beta, rows);
+    modeler_project(&orthoglide_2003_loops, p->G, rows, 1, tau);
+}
+
+int orthoglide_2003_coriolis(const double q[ORTHOGLIDE_2003_JOINTS],
+                             const double qd[ORTHOGLIDE_2003_JOINTS],
+                             const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                             double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
+{
+    struct orthoglide_2003_posture p;
+    double rows[12];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 3) && modeler_finite(beta, 43))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 3) != 0 && modeler_finite(beta, 43) != 0) {
+        status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+            orthoglide_2003_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, standing, G, ud, udd, work);
-        orthoglide_2003_tree_coriolis(u, ud, udd, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        orthoglide_2003_moved(&orthoglide_2003_loops, qd, &p);
+        made_coriolis(&p, rows, beta, tau);
+    }
+    return modeler_told(status, tau, 3);
+}
+
+int orthoglide_2003_coriolis_at(struct orthoglide_2003_state *state,
+                                const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 43) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_coriolis(&state->at, state->rows, beta, tau);
     }
     return modeler_told(status, tau, 3);
 }
 
 /* Torques of all effects but rotor inertias: friction, offsets. */
-int orthoglide_2003_friction(const double *q, const double *qd, const double *beta,
-                             double *MODELER_RESTRICT tau)
+static void made_friction(struct orthoglide_2003_posture *p, double *rows,
+                          const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                          double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
 {
-    double G[36], ud[12], udd[12], rows[12];
-    double u[12], work[WORK];
+    orthoglide_2003_tree_friction(p->ud, beta, rows);
+    modeler_project(&orthoglide_2003_loops, p->G, rows, 1, tau);
+}
+
+int orthoglide_2003_friction(const double q[ORTHOGLIDE_2003_JOINTS],
+                             const double qd[ORTHOGLIDE_2003_JOINTS],
+                             const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                             double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
+{
+    struct orthoglide_2003_posture p;
+    double rows[12];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(qd, 3) && modeler_finite(beta, 43))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(qd, 3) != 0 && modeler_finite(beta, 43) != 0) {
+        status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+            orthoglide_2003_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&loops, orthoglide_2003_tree_drift, u, qd, standing, G, ud, udd, work);
-        orthoglide_2003_tree_friction(ud, beta, rows);
-        modeler_project(&loops, G, rows, 1, tau);
+        orthoglide_2003_moved(&orthoglide_2003_loops, qd, &p);
+        made_friction(&p, rows, beta, tau);
+    }
+    return modeler_told(status, tau, 3);
+}
+
+int orthoglide_2003_friction_at(struct orthoglide_2003_state *state,
+                                const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 43) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_friction(&state->at, state->rows, beta, tau);
     }
     return modeler_told(status, tau, 3);
 }
 
 /* Inertia matrix, rotor inertias included; symmetric. */
-int orthoglide_2003_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
+static void made_inertia_matrix(struct orthoglide_2003_posture *p, double *rows,
+                                const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                double MODELER_OUT(M, 3 * 3))
 {
-    double G[36], rows[144], half[36];
-    double u[12], work[WORK];
+    double *const half = rows + 144;
+
+    orthoglide_2003_tree_inertia_matrix(p->u, beta, rows);
+    modeler_project(&orthoglide_2003_loops, p->G, rows, 12, half);
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 12; k++) {
+            rows[k * 3 + i] = half[i * 12 + k];
+        }
+    }
+    modeler_project(&orthoglide_2003_loops, p->G, rows, 3, M);
+}
+
+int orthoglide_2003_inertia_matrix(const double q[ORTHOGLIDE_2003_JOINTS],
+                                   const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                   double MODELER_OUT(M, 3 * 3))
+{
+    struct orthoglide_2003_posture p;
+    double rows[180];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(beta, 43))
-        status = modeler_close(&loops, q, home, u, work);
+    if (modeler_finite(beta, 43) != 0) {
+        status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+            orthoglide_2003_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&loops, G, work);
-        orthoglide_2003_tree_inertia_matrix(u, beta, rows);
-        modeler_project(&loops, G, rows, 12, half);
-        for (int i = 0; i < 3; i++)
-            for (int k = 0; k < 12; k++)
-                rows[k * 3 + i] = half[i * 12 + k];
-        modeler_project(&loops, G, rows, 3, M);
+        orthoglide_2003_moved(&orthoglide_2003_loops, NULL, &p);
+        made_inertia_matrix(&p, rows, beta, M);
+    }
+    return modeler_told(status, M, 9);
+}
+
+int orthoglide_2003_inertia_matrix_at(struct orthoglide_2003_state *state,
+                                      const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                      double MODELER_OUT(M, 3 * 3))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED && !(modeler_finite(beta, 43) != 0)) {
+        status = MODELER_NOT_FINITE;
+    }
+    if (status == MODELER_CLOSED) {
+        made_inertia_matrix(&state->at, state->rows, beta, M);
     }
     return modeler_told(status, M, 9);
 }
 
 /* Pose of the frame of every moving row of the table. */
-int orthoglide_2003_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+static void made_forward_kinematics(struct orthoglide_2003_posture *p, double *rows,
+                                    double MODELER_OUT(T, 21 * 3 * 4))
 {
-    double u[12], work[WORK];
+    (void)rows;
+    orthoglide_2003_tree_forward_kinematics(p->u, T);
+}
+
+int orthoglide_2003_forward_kinematics(const double q[ORTHOGLIDE_2003_JOINTS],
+                                       double MODELER_OUT(T, 21 * 3 * 4))
+{
+    struct orthoglide_2003_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, home, u, work);
+    status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+        orthoglide_2003_home, &p);
     if (status == MODELER_CLOSED) {
-        orthoglide_2003_tree_forward_kinematics(u, T);
+        made_forward_kinematics(&p, NULL, T);
+    }
+    return modeler_told(status, T, 252);
+}
+
+int orthoglide_2003_forward_kinematics_at(struct orthoglide_2003_state *state,
+                                          double MODELER_OUT(T, 21 * 3 * 4))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED) {
+        made_forward_kinematics(&state->at, state->rows, T);
     }
     return modeler_told(status, T, 252);
 }
 
 /* Closed posture, on a straight way from home. */
-int orthoglide_2003_close(const double *q, double *MODELER_RESTRICT u)
+int orthoglide_2003_close(const double q[ORTHOGLIDE_2003_JOINTS], double MODELER_OUT(u, 12))
 {
-    double work[WORK];
+    struct orthoglide_2003_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, home, u, work);
+    status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+        orthoglide_2003_home, &p);
+    if (status == MODELER_CLOSED) {
+        for (int k = 0; k < 12; k++) {
+            u[k] = p.u[k];
+        }
+    }
     return modeler_told(status, u, 12);
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
-int orthoglide_2003_close_from(const double *q, const double *start, double *MODELER_RESTRICT u)
+int orthoglide_2003_close_from(const double q[ORTHOGLIDE_2003_JOINTS], const double start[12],
+                               double MODELER_OUT(u, 12))
 {
-    double work[WORK];
+    struct orthoglide_2003_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, start, u, work);
+    status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+        start, &p);
+    if (status == MODELER_CLOSED) {
+        for (int k = 0; k < 12; k++) {
+            u[k] = p.u[k];
+        }
+    }
     return modeler_told(status, u, 12);
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
-int orthoglide_2003_coupling(const double *q, double *MODELER_RESTRICT G)
+static void made_coupling(struct orthoglide_2003_posture *p, double *rows,
+                          double MODELER_OUT(G, 12 * 3))
 {
-    double u[12], work[WORK];
+    (void)rows;
+    for (int k = 0; k < 36; k++) {
+        G[k] = p->G[k];
+    }
+}
+
+int orthoglide_2003_coupling(const double q[ORTHOGLIDE_2003_JOINTS], double MODELER_OUT(G, 12 * 3))
+{
+    struct orthoglide_2003_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&loops, q, home, u, work);
+    status = orthoglide_2003_posed(&orthoglide_2003_loops, q,
+        orthoglide_2003_home, &p);
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&loops, G, work);
+        orthoglide_2003_moved(&orthoglide_2003_loops, NULL, &p);
+        made_coupling(&p, NULL, G);
+    }
+    return modeler_told(status, G, 36);
+}
+
+int orthoglide_2003_coupling_at(struct orthoglide_2003_state *state, double MODELER_OUT(G, 12 * 3))
+{
+    int status = state->status;
+
+    if (status == MODELER_CLOSED) {
+        made_coupling(&state->at, state->rows, G);
     }
     return modeler_told(status, G, 36);
 }
 
 /* Regressor of the base parameters. */
-int orthoglide_2003_platform_base_regressor(const double *x, const double *xd, const double *xdd,
-                                            double *MODELER_RESTRICT phi)
+static void made_platform_base_regressor(struct orthoglide_2003_posture *p, double *rows,
+                                         const double xdd[3], double MODELER_OUT(phi, 3 * 43))
 {
-    double G[36], ud[12], udd[12], rows[516];
-    double u[12], work[WORK];
+    double udd[12];
+
+    modeler_accelerations(&orthoglide_2003_platform_loops, p->G, p->gamma, xdd, udd);
+    orthoglide_2003_tree_base_regressor(p->u, p->ud, udd, rows);
+    modeler_project(&orthoglide_2003_platform_loops, p->G, rows, 43, phi);
+}
+
+int orthoglide_2003_platform_base_regressor(const double x[3], const double xd[3],
+                                            const double xdd[3], double MODELER_OUT(phi, 3 * 43))
+{
+    struct orthoglide_2003_posture p;
+    double rows[516];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(xd, 3) && modeler_finite(xdd, 3))
-        status = modeler_close(&platform_loops, x, home, u, work);
+    if (modeler_finite(xd, 3) != 0 && modeler_finite(xdd, 3) != 0) {
+        status = orthoglide_2003_posed(&orthoglide_2003_platform_loops, x,
+            orthoglide_2003_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&platform_loops, orthoglide_2003_tree_drift, u, xd, xdd, G, ud, udd, work);
-        orthoglide_2003_tree_base_regressor(u, ud, udd, rows);
-        modeler_project(&platform_loops, G, rows, 43, phi);
+        orthoglide_2003_moved(&orthoglide_2003_platform_loops, xd, &p);
+        made_platform_base_regressor(&p, rows, xdd, phi);
     }
     return modeler_told(status, phi, 129);
 }
 
 /* Torques that move the closed robot so. */
-int orthoglide_2003_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
-                                              const double *beta, double *MODELER_RESTRICT f)
+static void made_platform_inverse_dynamics(struct orthoglide_2003_posture *p, double *rows,
+                                           const double xdd[3],
+                                           const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                           double MODELER_OUT(f, 3))
 {
-    double G[36], ud[12], udd[12], rows[12];
-    double u[12], work[WORK];
+    double udd[12];
+
+    modeler_accelerations(&orthoglide_2003_platform_loops, p->G, p->gamma, xdd, udd);
+    orthoglide_2003_tree_inverse_dynamics(p->u, p->ud, udd, beta, rows);
+    modeler_project(&orthoglide_2003_platform_loops, p->G, rows, 1, f);
+}
+
+int orthoglide_2003_platform_inverse_dynamics(const double x[3], const double xd[3],
+                                              const double xdd[3],
+                                              const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
+                                              double MODELER_OUT(f, 3))
+{
+    struct orthoglide_2003_posture p;
+    double rows[12];
     int status = MODELER_NOT_FINITE;
 
-    if (modeler_finite(xd, 3) && modeler_finite(xdd, 3) && modeler_finite(beta, 43))
-        status = modeler_close(&platform_loops, x, home, u, work);
+    if (modeler_finite(xd, 3) != 0 && modeler_finite(xdd, 3) != 0 && modeler_finite(beta, 43) != 0) {
+        status = orthoglide_2003_posed(&orthoglide_2003_platform_loops, x,
+            orthoglide_2003_home, &p);
+    }
     if (status == MODELER_CLOSED) {
-        modeler_follow(&platform_loops, orthoglide_2003_tree_drift, u, xd, xdd, G, ud, udd, work);
-        orthoglide_2003_tree_inverse_dynamics(u, ud, udd, beta, rows);
-        modeler_project(&platform_loops, G, rows, 1, f);
+        orthoglide_2003_moved(&orthoglide_2003_platform_loops, xd, &p);
+        made_platform_inverse_dynamics(&p, rows, xdd, beta, f);
     }
     return modeler_told(status, f, 3);
 }
 
 /* Closed posture, on a straight way from home. */
-int orthoglide_2003_platform_close(const double *x, double *MODELER_RESTRICT u)
+int orthoglide_2003_platform_close(const double x[3], double MODELER_OUT(u, 12))
 {
-    double work[WORK];
+    struct orthoglide_2003_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&platform_loops, x, home, u, work);
+    status = orthoglide_2003_posed(&orthoglide_2003_platform_loops, x,
+        orthoglide_2003_home, &p);
+    if (status == MODELER_CLOSED) {
+        for (int k = 0; k < 12; k++) {
+            u[k] = p.u[k];
+        }
+    }
     return modeler_told(status, u, 12);
 }
 
 /* Closed posture, on a straight way from another one, such as the last. */
-int orthoglide_2003_platform_close_from(const double *x, const double *start,
-                                        double *MODELER_RESTRICT u)
+int orthoglide_2003_platform_close_from(const double x[3], const double start[12],
+                                        double MODELER_OUT(u, 12))
 {
-    double work[WORK];
+    struct orthoglide_2003_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&platform_loops, x, start, u, work);
+    status = orthoglide_2003_posed(&orthoglide_2003_platform_loops, x,
+        start, &p);
+    if (status == MODELER_CLOSED) {
+        for (int k = 0; k < 12; k++) {
+            u[k] = p.u[k];
+        }
+    }
     return modeler_told(status, u, 12);
 }
 
 /* Speeds of the free variables; rows of the platform are its Jacobian. */
-int orthoglide_2003_platform_coupling(const double *x, double *MODELER_RESTRICT G)
+static void made_platform_coupling(struct orthoglide_2003_posture *p, double *rows,
+                                   double MODELER_OUT(G, 12 * 3))
 {
-    double u[12], work[WORK];
+    (void)rows;
+    for (int k = 0; k < 36; k++) {
+        G[k] = p->G[k];
+    }
+}
+
+int orthoglide_2003_platform_coupling(const double x[3], double MODELER_OUT(G, 12 * 3))
+{
+    struct orthoglide_2003_posture p;
     int status = MODELER_NOT_FINITE;
 
-    status = modeler_close(&platform_loops, x, home, u, work);
+    status = orthoglide_2003_posed(&orthoglide_2003_platform_loops, x,
+        orthoglide_2003_home, &p);
     if (status == MODELER_CLOSED) {
-        modeler_coupling(&platform_loops, G, work);
+        orthoglide_2003_moved(&orthoglide_2003_platform_loops, NULL, &p);
+        made_platform_coupling(&p, NULL, G);
     }
     return modeler_told(status, G, 36);
 }
+

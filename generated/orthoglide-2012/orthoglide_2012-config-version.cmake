@@ -1,11 +1,11 @@
-# find_package(orthoglide_2012) takes any, find_package(orthoglide_2012 1) any of this C interface,
-# find_package(orthoglide_2012 1.12173.63608.40478) only what has the signature 2f8df8789e1ed002.
-set(PACKAGE_VERSION 1.12173.63608.40478)
+# find_package(orthoglide_2012) takes any, find_package(orthoglide_2012 2) any of this C interface,
+# find_package(orthoglide_2012 2.51915.301.38828) only what has the signature cacb012d97ac5a7f.
+set(PACKAGE_VERSION 2.51915.301.38828)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
   set(PACKAGE_VERSION_EXACT TRUE)
-elseif("${PACKAGE_FIND_VERSION}" STREQUAL "1")
+elseif("${PACKAGE_FIND_VERSION}" STREQUAL "2")
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
 endif()

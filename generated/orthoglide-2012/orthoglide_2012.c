@@ -58,8 +58,9 @@ static const double orthoglide_2012_geo_d6 = ORTHOGLIDE_2012_GEO_d6;
 
 /* Joint torques, by the Newton-Euler recursion.
  * 179 additions, 241 multiplications. */
-void orthoglide_2012_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                           const double *beta, double *MODELER_RESTRICT tau)
+void orthoglide_2012_tree_inverse_dynamics(const double q[12], const double qd[12],
+                                           const double qdd[12], const double beta[53],
+                                           double MODELER_OUT(tau, 12))
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -262,8 +263,8 @@ void orthoglide_2012_tree_inverse_dynamics(const double *q, const double *qd, co
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 35 additions, 57 multiplications. */
-void orthoglide_2012_tree_inertia_matrix(const double *q, const double *beta,
-                                         double *MODELER_RESTRICT M)
+void orthoglide_2012_tree_inertia_matrix(const double q[12], const double beta[53],
+                                         double MODELER_OUT(M, 12 * 12))
 {
     MODELER_ALL_ZEROS(M, 144);
 
@@ -381,7 +382,8 @@ void orthoglide_2012_tree_inertia_matrix(const double *q, const double *beta,
 
 /* Torques that hold the robot still, without friction.
  * 9 additions, 29 multiplications. */
-void orthoglide_2012_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+void orthoglide_2012_tree_gravity(const double q[12], const double beta[53],
+                                  double MODELER_OUT(tau, 12))
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -423,8 +425,8 @@ void orthoglide_2012_tree_gravity(const double *q, const double *beta, double *M
 
 /* Torques without gravity and friction.
  * 158 additions, 223 multiplications. */
-void orthoglide_2012_tree_coriolis(const double *q, const double *qd, const double *qdd,
-                                   const double *beta, double *MODELER_RESTRICT tau)
+void orthoglide_2012_tree_coriolis(const double q[12], const double qd[12], const double qdd[12],
+                                   const double beta[53], double MODELER_OUT(tau, 12))
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -608,8 +610,8 @@ void orthoglide_2012_tree_coriolis(const double *q, const double *qd, const doub
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 9 additions, 18 multiplications. */
-void orthoglide_2012_tree_friction(const double *qd, const double *beta,
-                                   double *MODELER_RESTRICT tau)
+void orthoglide_2012_tree_friction(const double qd[12], const double beta[53],
+                                   double MODELER_OUT(tau, 12))
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -628,7 +630,7 @@ void orthoglide_2012_tree_friction(const double *qd, const double *beta,
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 7 additions, 21 multiplications. */
-void orthoglide_2012_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+void orthoglide_2012_tree_forward_kinematics(const double q[12], double MODELER_OUT(T, 18 * 3 * 4))
 {
     MODELER_ALL_ZEROS(T, 216);
 
@@ -845,7 +847,8 @@ void orthoglide_2012_tree_forward_kinematics(const double *q, double *MODELER_RE
 
 /* d/dt(df/du) ud.
  * 18 additions, 66 multiplications. */
-void orthoglide_2012_tree_drift(const double *q, const double *qd, double *MODELER_RESTRICT values)
+void orthoglide_2012_tree_drift(const double q[12], const double qd[12],
+                                double MODELER_OUT(values, 9))
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -891,7 +894,7 @@ void orthoglide_2012_tree_drift(const double *q, const double *qd, double *MODEL
 
 /* All equations of all loops, cosines, nonzeros of df/du, turns.
  * 19 additions, 30 multiplications. */
-void orthoglide_2012_tree_closure(const double *q, double *MODELER_RESTRICT values)
+void orthoglide_2012_tree_closure(const double q[12], double MODELER_OUT(values, 48))
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -972,7 +975,7 @@ void orthoglide_2012_tree_closure(const double *q, double *MODELER_RESTRICT valu
 
 /* The independent equations.
  * 19 additions, 15 multiplications. */
-void orthoglide_2012_tree_residual(const double *q, double *MODELER_RESTRICT f)
+void orthoglide_2012_tree_residual(const double q[12], double MODELER_OUT(f, 9))
 {
     double s6, c6;
     modeler_sincos(q[6], &s6, &c6);
@@ -1004,7 +1007,7 @@ void orthoglide_2012_tree_residual(const double *q, double *MODELER_RESTRICT f)
 
 /* Factors of the solved columns of J: 1/pivots, then the rest.
  * 8 additions, 22 multiplications. */
-void orthoglide_2012_tree_factor(const double *J, double *MODELER_RESTRICT lu)
+void orthoglide_2012_tree_factor(const double J[27], double MODELER_OUT(lu, 25))
 {
     const double t1 = 1.0/J[1];
     lu[0] = t1;
@@ -1049,7 +1052,8 @@ void orthoglide_2012_tree_factor(const double *J, double *MODELER_RESTRICT lu)
 
 /* Solution with the factors.
  * 22 additions, 25 multiplications. */
-void orthoglide_2012_tree_solve(const double *lu, const double *right, double *MODELER_RESTRICT x)
+void orthoglide_2012_tree_solve(const double lu[25], const double right[9],
+                                double MODELER_OUT(x, 9))
 {
     const double t1 = right[2] - lu[10]*right[0] - lu[11]*right[1] - lu[16]*right[6];
     const double t2 = lu[14]*right[5] - (right[3] - lu[13]*right[4]) + right[6] + lu[21]*t1;
@@ -1072,7 +1076,8 @@ void orthoglide_2012_tree_solve(const double *lu, const double *right, double *M
 
 /* G from the factors.
  * 16 additions, 48 multiplications. */
-void orthoglide_2012_tree_coupling(const double *J, const double *lu, double *MODELER_RESTRICT G)
+void orthoglide_2012_tree_coupling(const double J[27], const double lu[25],
+                                   double MODELER_OUT(G, 27))
 {
     (void)J;
 
@@ -1124,8 +1129,8 @@ void orthoglide_2012_tree_coupling(const double *J, const double *lu, double *MO
 
 /* Bounds of the rows of J^-1 (K - J).
  * 43 additions, 32 multiplications. */
-void orthoglide_2012_tree_turned(const double *J, const double *K, const double *lu,
-                                 double *MODELER_RESTRICT x)
+void orthoglide_2012_tree_turned(const double J[27], const double K[27], const double lu[25],
+                                 double MODELER_OUT(x, 9))
 {
     const double k1 = fabs(1.0);
 
@@ -1161,8 +1166,8 @@ void orthoglide_2012_tree_turned(const double *J, const double *K, const double 
 
 /* Sum of the squares of J^-1 (K - J).
  * 122 additions, 188 multiplications. */
-void orthoglide_2012_tree_spread(const double *J, const double *K, const double *lu,
-                                 double *MODELER_RESTRICT x)
+void orthoglide_2012_tree_spread(const double J[27], const double K[27], const double lu[25],
+                                 double MODELER_OUT(x, 1))
 {
     const double t1 = J[1] - K[1];
     const double t2 = J[7] - K[7] - lu[10]*t1;
@@ -1265,7 +1270,7 @@ void orthoglide_2012_tree_spread(const double *J, const double *K, const double 
 
 /* Factors of the solved columns of J: 1/pivots, then the rest.
  * 0 additions, 11 multiplications. */
-void orthoglide_2012_tree_platform_factor(const double *J, double *MODELER_RESTRICT lu)
+void orthoglide_2012_tree_platform_factor(const double J[27], double MODELER_OUT(lu, 18))
 {
     const double t1 = 1.0/J[4];
     lu[0] = t1;
@@ -1292,8 +1297,8 @@ void orthoglide_2012_tree_platform_factor(const double *J, double *MODELER_RESTR
 
 /* Solution with the factors.
  * 9 additions, 18 multiplications. */
-void orthoglide_2012_tree_platform_solve(const double *lu, const double *right,
-                                         double *MODELER_RESTRICT x)
+void orthoglide_2012_tree_platform_solve(const double lu[18], const double right[9],
+                                         double MODELER_OUT(x, 9))
 {
     const double t1 = right[0] - lu[9]*right[1];
     x[0] = lu[2]*(right[2] - lu[10]*right[1] - lu[11]*t1);
@@ -1312,8 +1317,8 @@ void orthoglide_2012_tree_platform_solve(const double *lu, const double *right,
 
 /* G from the factors.
  * 3 additions, 16 multiplications. */
-void orthoglide_2012_tree_platform_coupling(const double *J, const double *lu,
-                                            double *MODELER_RESTRICT G)
+void orthoglide_2012_tree_platform_coupling(const double J[27], const double lu[18],
+                                            double MODELER_OUT(G, 18))
 {
     (void)J;
 
@@ -1341,8 +1346,8 @@ void orthoglide_2012_tree_platform_coupling(const double *J, const double *lu,
 
 /* Bounds of the rows of J^-1 (K - J).
  * 30 additions, 21 multiplications. */
-void orthoglide_2012_tree_platform_turned(const double *J, const double *K, const double *lu,
-                                          double *MODELER_RESTRICT x)
+void orthoglide_2012_tree_platform_turned(const double J[27], const double K[27],
+                                          const double lu[18], double MODELER_OUT(x, 9))
 {
     const double t1 = fabs(J[4] - K[4]);
     const double t2 = fabs(J[1] - K[1]) + fabs(J[2] - K[2]) + t1*fabs(lu[9]);
@@ -1366,8 +1371,8 @@ void orthoglide_2012_tree_platform_turned(const double *J, const double *K, cons
 
 /* Sum of the squares of J^-1 (K - J).
  * 41 additions, 48 multiplications. */
-void orthoglide_2012_tree_platform_spread(const double *J, const double *K, const double *lu,
-                                          double *MODELER_RESTRICT x)
+void orthoglide_2012_tree_platform_spread(const double J[27], const double K[27],
+                                          const double lu[18], double MODELER_OUT(x, 1))
 {
     const double t1 = J[1] - K[1];
     const double t2 = lu[2]*(J[7] - K[7] - lu[11]*t1)*(1000000000000000.0/848528137423857.0);
@@ -1397,7 +1402,8 @@ void orthoglide_2012_tree_platform_spread(const double *J, const double *K, cons
 
 /* Base parameters from standard ones: the grouping relations.
  * 103 additions, 21 multiplications. */
-void orthoglide_2012_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
+void orthoglide_2012_base_parameters(const double chi[ORTHOGLIDE_2012_STANDARD_PARAMETERS],
+                                     double MODELER_OUT(beta, ORTHOGLIDE_2012_BASE_PARAMETERS))
 {
     const double k1 = 1.0/orthoglide_2012_geo_d4;
     const double k2 = orthoglide_2012_geo_d4*orthoglide_2012_geo_d4;

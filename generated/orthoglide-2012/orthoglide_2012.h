@@ -1,5 +1,7 @@
 /* Orthoglide, full dynamic model (Briot, Gautier 2012)
  *
+ * SPDX-License-Identifier: MIT
+ *
  * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
  * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
  *
@@ -13,14 +15,22 @@
 
 #include <stddef.h>
 
+#include "modeler_kept.h"
+#include "modeler_status.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "2f8df8789e1ed002"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0x2f8df878u
-#define ORTHOGLIDE_2012_SIGNATURE_2 0x9e1ed002u
+#define ORTHOGLIDE_2012_SIGNATURE "cacb012d97ac5a7f"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0xcacb012du
+#define ORTHOGLIDE_2012_SIGNATURE_2 0x97ac5a7fu
+
+/* Of the calls: raised when one takes other arguments; orthoglide_2012_generator.h says which version of
+ * modeler wrote the folder. */
+#define ORTHOGLIDE_2012_INTERFACE 2
+#define ORTHOGLIDE_2012_LICENSE "MIT"
 
 #define ORTHOGLIDE_2012_JOINTS 3
 #define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196
@@ -399,7 +409,9 @@ const char *orthoglide_2012_signature(void);
  * qdd    3        joint accelerations [m/s2]
  * phi    3 x 196  torque per unit of each standard parameter, row-major [SI]
  */
-int orthoglide_2012_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+int orthoglide_2012_regressor(const double q[ORTHOGLIDE_2012_JOINTS],
+                              const double qd[ORTHOGLIDE_2012_JOINTS],
+                              const double qdd[ORTHOGLIDE_2012_JOINTS], double phi[3 * 196]);
 
 /* Regressor of the base parameters.
  *
@@ -410,8 +422,9 @@ int orthoglide_2012_regressor(const double *q, const double *qd, const double *q
  * qdd    3        joint accelerations [m/s2]
  * phi    3 x 53   torque per unit of each base parameter, row-major [SI]
  */
-int orthoglide_2012_base_regressor(const double *q, const double *qd, const double *qdd,
-                                   double *phi);
+int orthoglide_2012_base_regressor(const double q[ORTHOGLIDE_2012_JOINTS],
+                                   const double qd[ORTHOGLIDE_2012_JOINTS],
+                                   const double qdd[ORTHOGLIDE_2012_JOINTS], double phi[3 * 53]);
 
 /* Torques that move the closed robot so.
  *
@@ -423,8 +436,11 @@ int orthoglide_2012_base_regressor(const double *q, const double *qd, const doub
  * beta   53       base parameters [SI]
  * tau    3        joint torques or forces [N]
  */
-int orthoglide_2012_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                     const double *beta, double *tau);
+int orthoglide_2012_inverse_dynamics(const double q[ORTHOGLIDE_2012_JOINTS],
+                                     const double qd[ORTHOGLIDE_2012_JOINTS],
+                                     const double qdd[ORTHOGLIDE_2012_JOINTS],
+                                     const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                                     double tau[ORTHOGLIDE_2012_JOINTS]);
 
 /* Torques that hold the robot still, without friction.
  *
@@ -434,7 +450,9 @@ int orthoglide_2012_inverse_dynamics(const double *q, const double *qd, const do
  * beta   53       base parameters [SI]
  * tau    3        joint torques or forces [N]
  */
-int orthoglide_2012_gravity(const double *q, const double *beta, double *tau);
+int orthoglide_2012_gravity(const double q[ORTHOGLIDE_2012_JOINTS],
+                            const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                            double tau[ORTHOGLIDE_2012_JOINTS]);
 
 /* Coriolis and centripetal torques.
  *
@@ -445,7 +463,10 @@ int orthoglide_2012_gravity(const double *q, const double *beta, double *tau);
  * beta   53       base parameters [SI]
  * tau    3        joint torques or forces [N]
  */
-int orthoglide_2012_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+int orthoglide_2012_coriolis(const double q[ORTHOGLIDE_2012_JOINTS],
+                             const double qd[ORTHOGLIDE_2012_JOINTS],
+                             const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                             double tau[ORTHOGLIDE_2012_JOINTS]);
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  *
@@ -456,7 +477,10 @@ int orthoglide_2012_coriolis(const double *q, const double *qd, const double *be
  * beta   53       base parameters [SI]
  * tau    3        joint torques or forces [N]
  */
-int orthoglide_2012_friction(const double *q, const double *qd, const double *beta, double *tau);
+int orthoglide_2012_friction(const double q[ORTHOGLIDE_2012_JOINTS],
+                             const double qd[ORTHOGLIDE_2012_JOINTS],
+                             const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                             double tau[ORTHOGLIDE_2012_JOINTS]);
 
 /* Inertia matrix, rotor inertias included; symmetric.
  *
@@ -466,7 +490,9 @@ int orthoglide_2012_friction(const double *q, const double *qd, const double *be
  * beta   53       base parameters [SI]
  * M      3 x 3    inertia matrix, row-major [kg m2, kg m or kg]
  */
-int orthoglide_2012_inertia_matrix(const double *q, const double *beta, double *M);
+int orthoglide_2012_inertia_matrix(const double q[ORTHOGLIDE_2012_JOINTS],
+                                   const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                                   double M[3 * 3]);
 
 /* Pose of the frame of every moving row of the table.
  *
@@ -475,7 +501,8 @@ int orthoglide_2012_inertia_matrix(const double *q, const double *beta, double *
  * q      3          joint positions [m]
  * T      18 x 3 x 4 poses [R | p] of rows 6x, 6y, 6, 11, 12, 13, 21, 31, 41, 51, 22, 32, 42, 52, 23, 33, 43, 53 in frame 0, row-major [1 | m]
  */
-int orthoglide_2012_forward_kinematics(const double *q, double *T);
+int orthoglide_2012_forward_kinematics(const double q[ORTHOGLIDE_2012_JOINTS],
+                                       double T[18 * 3 * 4]);
 
 /* Closed posture, on a straight way from home.
  *
@@ -484,7 +511,7 @@ int orthoglide_2012_forward_kinematics(const double *q, double *T);
  * q      3        joint positions [m]
  * u      12       free variables of the opened tree [rad or m]
  */
-int orthoglide_2012_close(const double *q, double *u);
+int orthoglide_2012_close(const double q[ORTHOGLIDE_2012_JOINTS], double u[12]);
 
 /* Closed posture, on a straight way from another one, such as the last.
  *
@@ -494,7 +521,8 @@ int orthoglide_2012_close(const double *q, double *u);
  * start  12       a closed posture to start from [rad or m]
  * u      12       free variables of the opened tree [rad or m]
  */
-int orthoglide_2012_close_from(const double *q, const double *start, double *u);
+int orthoglide_2012_close_from(const double q[ORTHOGLIDE_2012_JOINTS], const double start[12],
+                               double u[12]);
 
 /* Speeds of the free variables; rows of the platform are its Jacobian.
  *
@@ -503,7 +531,7 @@ int orthoglide_2012_close_from(const double *q, const double *start, double *u);
  * q      3        joint positions [m]
  * G      12 x 3   d u / d q, row-major [SI]
  */
-int orthoglide_2012_coupling(const double *q, double *G);
+int orthoglide_2012_coupling(const double q[ORTHOGLIDE_2012_JOINTS], double G[12 * 3]);
 
 /* Base parameters from standard ones: the grouping relations.
  *
@@ -512,7 +540,8 @@ int orthoglide_2012_coupling(const double *q, double *G);
  * chi    196      standard parameters [SI]
  * beta   53       base parameters [SI]
  */
-void orthoglide_2012_base_parameters(const double *chi, double *beta);
+void orthoglide_2012_base_parameters(const double chi[ORTHOGLIDE_2012_STANDARD_PARAMETERS],
+                                     double beta[ORTHOGLIDE_2012_BASE_PARAMETERS]);
 
 /* Regressor of the base parameters.
  *
@@ -523,8 +552,8 @@ void orthoglide_2012_base_parameters(const double *chi, double *beta);
  * xdd    3        their accelerations [m/s2]
  * phi    3 x 53   torque per unit of each base parameter, row-major [SI]
  */
-int orthoglide_2012_platform_base_regressor(const double *x, const double *xd, const double *xdd,
-                                            double *phi);
+int orthoglide_2012_platform_base_regressor(const double x[3], const double xd[3],
+                                            const double xdd[3], double phi[3 * 53]);
 
 /* Torques that move the closed robot so.
  *
@@ -536,8 +565,10 @@ int orthoglide_2012_platform_base_regressor(const double *x, const double *xd, c
  * beta   53       base parameters [SI]
  * f      3        forces and torques along x [N]
  */
-int orthoglide_2012_platform_inverse_dynamics(const double *x, const double *xd, const double *xdd,
-                                              const double *beta, double *f);
+int orthoglide_2012_platform_inverse_dynamics(const double x[3], const double xd[3],
+                                              const double xdd[3],
+                                              const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                                              double f[3]);
 
 /* Closed posture, on a straight way from home.
  *
@@ -546,7 +577,7 @@ int orthoglide_2012_platform_inverse_dynamics(const double *x, const double *xd,
  * x      3        positions of the platform: 6x, 6y, 6 [m]
  * u      12       free variables of the opened tree [rad or m]
  */
-int orthoglide_2012_platform_close(const double *x, double *u);
+int orthoglide_2012_platform_close(const double x[3], double u[12]);
 
 /* Closed posture, on a straight way from another one, such as the last.
  *
@@ -556,7 +587,7 @@ int orthoglide_2012_platform_close(const double *x, double *u);
  * start  12       a closed posture to start from [rad or m]
  * u      12       free variables of the opened tree [rad or m]
  */
-int orthoglide_2012_platform_close_from(const double *x, const double *start, double *u);
+int orthoglide_2012_platform_close_from(const double x[3], const double start[12], double u[12]);
 
 /* Speeds of the free variables; rows of the platform are its Jacobian.
  *
@@ -565,16 +596,62 @@ int orthoglide_2012_platform_close_from(const double *x, const double *start, do
  * x      3        positions of the platform: 6x, 6y, 6 [m]
  * G      12 x 3   d u / d x, row-major [SI]
  */
-int orthoglide_2012_platform_coupling(const double *x, double *G);
+int orthoglide_2012_platform_coupling(const double x[3], double G[12 * 3]);
 
-/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
+/* A closed posture and what solved it, and a controller's state: members are the library's. */
+struct orthoglide_2012_posture {
+    double u[12];      /* free variables */
+    double ud[12];     /* their speeds */
+    double gamma[12];  /* their accelerations at qdd = 0 */
+    double G[36];
+    double qd[3];
+    modeler_kept kept;
+    int places[30];
+    double numbers[458];
+};
+
+struct orthoglide_2012_state {
+    struct orthoglide_2012_posture at;
+    int status;
+    int rated; /* `rate` holds dG/dt */
+    double rate[36];
+    double rows[636];
+};
+
+/* The state at q, qd: closes the loops once for all functions that end in _at.
  *
- * q qd qdd  samples x 3
- * W         (samples*3) x 53
- * status    samples
+ * They are those of the same name without q and qd, and give the same numbers. The loops are closed
+ * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
+ * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
+ * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
+ * the posture is the last closed one, from where the next call may go on.
  */
-void orthoglide_2012_observation(size_t samples, const double *q, const double *qd,
-                                 const double *qdd, double *W, int *status);
+int orthoglide_2012_state(const double *q, const double *qd, const double *previous,
+    struct orthoglide_2012_state *state);
+int orthoglide_2012_base_regressor_at(struct orthoglide_2012_state *state,
+                                      const double qdd[ORTHOGLIDE_2012_JOINTS], double phi[3 * 53]);
+int orthoglide_2012_inverse_dynamics_at(struct orthoglide_2012_state *state,
+                                        const double qdd[ORTHOGLIDE_2012_JOINTS],
+                                        const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                                        double tau[ORTHOGLIDE_2012_JOINTS]);
+int orthoglide_2012_gravity_at(struct orthoglide_2012_state *state,
+                               const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                               double tau[ORTHOGLIDE_2012_JOINTS]);
+int orthoglide_2012_coriolis_at(struct orthoglide_2012_state *state,
+                                const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                                double tau[ORTHOGLIDE_2012_JOINTS]);
+int orthoglide_2012_friction_at(struct orthoglide_2012_state *state,
+                                const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                                double tau[ORTHOGLIDE_2012_JOINTS]);
+int orthoglide_2012_inertia_matrix_at(struct orthoglide_2012_state *state,
+                                      const double beta[ORTHOGLIDE_2012_BASE_PARAMETERS],
+                                      double M[3 * 3]);
+int orthoglide_2012_forward_kinematics_at(struct orthoglide_2012_state *state,
+                                          double T[18 * 3 * 4]);
+int orthoglide_2012_coupling_at(struct orthoglide_2012_state *state, double G[12 * 3]);
+
+/* dG/dt, as G: udd = G qdd + dG/dt qd. `rate` may be NULL: it is kept in the state. */
+int orthoglide_2012_coupling_rate_at(struct orthoglide_2012_state *state, double *rate);
 
 #ifdef __cplusplus
 }

@@ -43,8 +43,8 @@ static const double orthoglide_2012_geo_d4 = ORTHOGLIDE_2012_GEO_d4;
 
 /* Regressor of the base parameters.
  * 70 additions, 120 multiplications. */
-void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                                         double *MODELER_RESTRICT phi)
+void orthoglide_2012_tree_base_regressor(const double q[12], const double qd[12],
+                                         const double qdd[12], double MODELER_OUT(phi, 12 * 53))
 {
     MODELER_ALL_ZEROS(phi, 636);
 
@@ -306,8 +306,9 @@ void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, cons
 
 /* Regressor of the base parameters, loops closed.
  * 210 additions, 433 multiplications. */
-void orthoglide_2012_tree_rows(const double *q, const double *t, const double *G, const double *lu,
-                               const double *v, const double *a, double *MODELER_RESTRICT phi)
+void orthoglide_2012_tree_rows(const double q[12], const double t[12], const double G[27],
+                               const double lu[25], const double v[3], const double a[3],
+                               double MODELER_OUT(phi, 3 * 53))
 {
     (void)q;
     MODELER_ALL_ZEROS(phi, 159);

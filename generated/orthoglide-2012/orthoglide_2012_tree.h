@@ -7,39 +7,64 @@
 #ifndef ORTHOGLIDE_2012_TREE_H
 #define ORTHOGLIDE_2012_TREE_H
 
+#include "orthoglide_2012.h"
+#include "modeler_closure.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-void orthoglide_2012_tree_regressor(const double *q, const double *qd, const double *qdd,
-                                    double *phi);
-void orthoglide_2012_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                                         double *phi);
-void orthoglide_2012_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                           const double *beta, double *tau);
-void orthoglide_2012_tree_inertia_matrix(const double *q, const double *beta, double *M);
-void orthoglide_2012_tree_gravity(const double *q, const double *beta, double *tau);
-void orthoglide_2012_tree_coriolis(const double *q, const double *qd, const double *qdd,
-                                   const double *beta, double *tau);
-void orthoglide_2012_tree_friction(const double *qd, const double *beta, double *tau);
-void orthoglide_2012_tree_forward_kinematics(const double *q, double *T);
-void orthoglide_2012_tree_drift(const double *q, const double *qd, double *values);
-void orthoglide_2012_tree_closure(const double *q, double *values);
-void orthoglide_2012_tree_residual(const double *q, double *f);
-void orthoglide_2012_tree_factor(const double *J, double *lu);
-void orthoglide_2012_tree_solve(const double *lu, const double *right, double *x);
-void orthoglide_2012_tree_coupling(const double *J, const double *lu, double *G);
-void orthoglide_2012_tree_turned(const double *J, const double *K, const double *lu, double *x);
-void orthoglide_2012_tree_spread(const double *J, const double *K, const double *lu, double *x);
-void orthoglide_2012_tree_platform_factor(const double *J, double *lu);
-void orthoglide_2012_tree_platform_solve(const double *lu, const double *right, double *x);
-void orthoglide_2012_tree_platform_coupling(const double *J, const double *lu, double *G);
-void orthoglide_2012_tree_platform_turned(const double *J, const double *K, const double *lu,
-                                          double *x);
-void orthoglide_2012_tree_platform_spread(const double *J, const double *K, const double *lu,
-                                          double *x);
-void orthoglide_2012_tree_rows(const double *q, const double *t, const double *G, const double *lu,
-                               const double *v, const double *a, double *phi);
+extern const modeler_closure orthoglide_2012_loops;
+extern const modeler_closure orthoglide_2012_platform_loops;
+extern const double orthoglide_2012_home[12];
+
+/* Closes the loops from `start`, into p. Returns a status. */
+int orthoglide_2012_posed(const modeler_closure *loops, const double *q, const double *start,
+    struct orthoglide_2012_posture *p);
+
+/* G of that posture; its speeds and accelerations, where qd is not NULL. */
+void orthoglide_2012_moved(const modeler_closure *loops, const double *qd,
+    struct orthoglide_2012_posture *p);
+
+void orthoglide_2012_tree_regressor(const double q[12], const double qd[12], const double qdd[12],
+                                    double phi[12 * 196]);
+void orthoglide_2012_tree_base_regressor(const double q[12], const double qd[12],
+                                         const double qdd[12], double phi[12 * 53]);
+void orthoglide_2012_tree_inverse_dynamics(const double q[12], const double qd[12],
+                                           const double qdd[12], const double beta[53],
+                                           double tau[12]);
+void orthoglide_2012_tree_inertia_matrix(const double q[12], const double beta[53],
+                                         double M[12 * 12]);
+void orthoglide_2012_tree_gravity(const double q[12], const double beta[53], double tau[12]);
+void orthoglide_2012_tree_coriolis(const double q[12], const double qd[12], const double qdd[12],
+                                   const double beta[53], double tau[12]);
+void orthoglide_2012_tree_friction(const double qd[12], const double beta[53], double tau[12]);
+void orthoglide_2012_tree_forward_kinematics(const double q[12], double T[18 * 3 * 4]);
+void orthoglide_2012_tree_drift(const double q[12], const double qd[12], double values[9]);
+void orthoglide_2012_tree_closure(const double q[12], double values[48]);
+void orthoglide_2012_tree_residual(const double q[12], double f[9]);
+void orthoglide_2012_tree_factor(const double J[27], double lu[25]);
+void orthoglide_2012_tree_solve(const double lu[25], const double right[9], double x[9]);
+void orthoglide_2012_tree_coupling(const double J[27], const double lu[25], double G[27]);
+void orthoglide_2012_tree_turned(const double J[27], const double K[27], const double lu[25],
+                                 double x[9]);
+void orthoglide_2012_tree_spread(const double J[27], const double K[27], const double lu[25],
+                                 double x[1]);
+void orthoglide_2012_tree_platform_factor(const double J[27], double lu[18]);
+void orthoglide_2012_tree_platform_solve(const double lu[18], const double right[9], double x[9]);
+void orthoglide_2012_tree_platform_coupling(const double J[27], const double lu[18], double G[18]);
+void orthoglide_2012_tree_platform_turned(const double J[27], const double K[27],
+                                          const double lu[18], double x[9]);
+void orthoglide_2012_tree_platform_spread(const double J[27], const double K[27],
+                                          const double lu[18], double x[1]);
+void orthoglide_2012_tree_rows(const double q[12], const double t[12], const double G[27],
+                               const double lu[25], const double v[3], const double a[3],
+                               double phi[3 * 53]);
+
+/* Regressor of the base parameters, for orthoglide_2012_batch.c: from the posture p if `next`,
+ * and if that is 0 or fails from home. Returns a status. */
+int orthoglide_2012_tree_next(const double *q, const double *qd, const double *qdd, int next,
+    struct orthoglide_2012_posture *p, double *rows, double *phi);
 
 #ifdef __cplusplus
 }

@@ -29,7 +29,7 @@
 #define modeler_lanes_pow MODELER_VERSION(modeler_lanes_pow)
 
 /* Where entry k goes; `values` is that of the first lane. */
-#define MODELER_PUT(k) (*(modeler_lanes *)(values + (k)*MODELER_LANES))
+#define MODELER_PUT(k) (*(modeler_lanes *)(void *)(values + (k)*MODELER_LANES))
 
 /* Entry i of MODELER_WIDTH rows of n > 1; and rows of one. Two neighbours come with one load. */
 #define MODELER_ROWS(x, n, i) MODELER_JOIN(MODELER_ROWS_, MODELER_WIDTH)(x, n, i)
@@ -83,17 +83,20 @@
 #define MODELER_EACH_LANE(function) \
     MODELER_INLINE modeler_lanes MODELER_VERSION(modeler_lanes_##function)(modeler_lanes x) \
     { \
-        for (int i = 0; i < MODELER_WIDTH; i++) \
+        for (int i = 0; i < MODELER_WIDTH; i++) { \
             x[i] = function(x[i]); \
+        } \
         return x; \
     }
 
 /* Sines and cosines of the lanes that modeler_lanes_sincos leaves out. */
 MODELER_SELDOM void modeler_far_sincos(int lanes, const double *x, double *sines, double *cosines)
 {
-    for (int i = 0; i < lanes; i++)
-        if (!(x[i]*x[i] < 1e10))
+    for (int i = 0; i < lanes; i++) {
+        if (!(x[i]*x[i] < 1e10)) {
             modeler_sincos(x[i], sines + i, cosines + i);
+        }
+    }
 }
 
 #endif
@@ -139,8 +142,9 @@ MODELER_EACH_LANE(tanh)
 
 MODELER_INLINE modeler_lanes modeler_lanes_pow(modeler_lanes x, modeler_lanes y)
 {
-    for (int i = 0; i < MODELER_WIDTH; i++)
+    for (int i = 0; i < MODELER_WIDTH; i++) {
         x[i] = pow(x[i], y[i]);
+    }
     return x;
 }
 

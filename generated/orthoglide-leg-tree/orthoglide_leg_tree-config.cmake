@@ -1,6 +1,6 @@
-# find_package(orthoglide_leg_tree) gives the target orthoglide_leg_tree::orthoglide_leg_tree: the kind that BUILD_SHARED_LIBS asks for, else the
+# find_package(orthoglide_leg_tree) gives the targets orthoglide_leg_tree::orthoglide_leg_tree and orthoglide_leg_tree::batch: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. orthoglide_leg_tree_SIGNATURE is what orthoglide_leg_tree_signature() returns.
-set(orthoglide_leg_tree_SIGNATURE 5e75d9cd7655b4d0)
+set(orthoglide_leg_tree_SIGNATURE 6b0dad01cd8fe107)
 
 if(orthoglide_leg_tree_FIND_COMPONENTS)
   set(_modeler_kinds ${orthoglide_leg_tree_FIND_COMPONENTS})
@@ -13,31 +13,39 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_leg_tree-${_modeler_kind}-5e75d9cd7655b4d0.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_leg_tree-${_modeler_kind}-6b0dad01cd8fe107.cmake")
   if(TARGET orthoglide_leg_tree::orthoglide_leg_tree OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
   include("${_modeler_file}")
   if(NOT TARGET orthoglide_leg_tree::orthoglide_leg_tree) # installed by make
-    if(_modeler_kind STREQUAL "shared")
-      set(_modeler_name liborthoglide_leg_tree_model.so.5e75d9cd7655b4d0)
-    else()
-      set(_modeler_name liborthoglide_leg_tree_model.a)
-    endif()
     string(TOUPPER ${_modeler_kind} _modeler_type)
-    add_library(orthoglide_leg_tree::orthoglide_leg_tree ${_modeler_type} IMPORTED)
-    get_filename_component(_modeler_location "${_modeler_lib}/${_modeler_name}" ABSOLUTE)
     get_filename_component(_modeler_include "${_modeler_lib}/../include/orthoglide_leg_tree" ABSOLUTE)
-    set_target_properties(orthoglide_leg_tree::orthoglide_leg_tree PROPERTIES IMPORTED_LOCATION "${_modeler_location}"
-      INTERFACE_INCLUDE_DIRECTORIES "${_modeler_include}" INTERFACE_LINK_LIBRARIES m)
-    if(_modeler_kind STREQUAL "shared")
-      set_target_properties(orthoglide_leg_tree::orthoglide_leg_tree PROPERTIES IMPORTED_SONAME "${_modeler_name}")
-    endif()
+    foreach(_modeler_part orthoglide_leg_tree batch)
+      set(_modeler_name liborthoglide_leg_tree_batch)
+      if(_modeler_part STREQUAL "orthoglide_leg_tree")
+        set(_modeler_name liborthoglide_leg_tree_model)
+      endif()
+      if(_modeler_kind STREQUAL "shared")
+        string(APPEND _modeler_name .so.6b0dad01cd8fe107)
+      else()
+        string(APPEND _modeler_name .a)
+      endif()
+      add_library(orthoglide_leg_tree::${_modeler_part} ${_modeler_type} IMPORTED)
+      get_filename_component(_modeler_location "${_modeler_lib}/${_modeler_name}" ABSOLUTE)
+      set_target_properties(orthoglide_leg_tree::${_modeler_part} PROPERTIES
+        IMPORTED_LOCATION "${_modeler_location}"
+        INTERFACE_INCLUDE_DIRECTORIES "${_modeler_include}" INTERFACE_LINK_LIBRARIES m)
+      if(_modeler_kind STREQUAL "shared")
+        set_target_properties(orthoglide_leg_tree::${_modeler_part} PROPERTIES IMPORTED_SONAME "${_modeler_name}")
+      endif()
+    endforeach()
+    set_target_properties(orthoglide_leg_tree::batch PROPERTIES INTERFACE_LINK_LIBRARIES orthoglide_leg_tree::orthoglide_leg_tree)
   endif()
 endforeach()
 
 if(NOT TARGET orthoglide_leg_tree::orthoglide_leg_tree)
   set(orthoglide_leg_tree_FOUND FALSE)
   set(orthoglide_leg_tree_NOT_FOUND_MESSAGE
-    "no library of signature 5e75d9cd7655b4d0 here that is ${_modeler_kinds}; install it again")
+    "no library of signature 6b0dad01cd8fe107 here that is ${_modeler_kinds}; install it again")
 endif()

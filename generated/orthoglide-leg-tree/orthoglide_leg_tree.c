@@ -71,26 +71,16 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "5e75d9cd7655b4d0";
-}
-
-void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,
-                                     const double *qdd, double *MODELER_RESTRICT W)
-{
-    const modeler_input inputs[3] = {
-        {q, ORTHOGLIDE_LEG_TREE_JOINTS},
-        {qd, ORTHOGLIDE_LEG_TREE_JOINTS},
-        {qdd, ORTHOGLIDE_LEG_TREE_JOINTS},
-    };
-
-    modeler_batch_3(orthoglide_leg_tree_base_regressor, samples, inputs, W,
-                    (size_t)ORTHOGLIDE_LEG_TREE_JOINTS * ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS);
+    return "6b0dad01cd8fe107";
 }
 
 /* Joint torques, by the Newton-Euler recursion.
  * 185 additions, 238 multiplications. */
-void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                          const double *beta, double *MODELER_RESTRICT tau)
+void orthoglide_leg_tree_inverse_dynamics(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                          const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                          const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                          const double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS],
+                                          double MODELER_OUT(tau, ORTHOGLIDE_LEG_TREE_JOINTS))
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -255,8 +245,9 @@ void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, con
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 64 additions, 84 multiplications. */
-void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta,
-                                        double *MODELER_RESTRICT M)
+void orthoglide_leg_tree_inertia_matrix(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                        const double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS],
+                                        double MODELER_OUT(M, 6 * 6))
 {
     M[17] = 0.0;
     M[23] = 0.0;
@@ -369,7 +360,9 @@ void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta,
 
 /* Torques that hold the robot still, without friction.
  * 9 additions, 22 multiplications. */
-void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+void orthoglide_leg_tree_gravity(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                 const double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS],
+                                 double MODELER_OUT(tau, ORTHOGLIDE_LEG_TREE_JOINTS))
 {
     tau[0] = 0.0;
     tau[1] = 0.0;
@@ -402,8 +395,10 @@ void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *MO
 
 /* Coriolis and centripetal torques.
  * 131 additions, 199 multiplications. */
-void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const double *beta,
-                                  double *MODELER_RESTRICT tau)
+void orthoglide_leg_tree_coriolis(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                  const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                  const double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS],
+                                  double MODELER_OUT(tau, ORTHOGLIDE_LEG_TREE_JOINTS))
 {
     const double k1 = orthoglide_leg_tree_geo_D4*2.0;
 
@@ -539,8 +534,9 @@ void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const doubl
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void orthoglide_leg_tree_friction(const double *qd, const double *beta,
-                                  double *MODELER_RESTRICT tau)
+void orthoglide_leg_tree_friction(const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                  const double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS],
+                                  double MODELER_OUT(tau, ORTHOGLIDE_LEG_TREE_JOINTS))
 {
     (void)qd;
     (void)beta;
@@ -554,7 +550,8 @@ void orthoglide_leg_tree_friction(const double *qd, const double *beta,
 
 /* Base parameters from standard ones: the grouping relations.
  * 27 additions, 5 multiplications. */
-void orthoglide_leg_tree_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
+void orthoglide_leg_tree_base_parameters(const double chi[ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS],
+                                         double MODELER_OUT(beta, ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS))
 {
     const double k1 = orthoglide_leg_tree_geo_D4*orthoglide_leg_tree_geo_D4;
 
@@ -597,7 +594,8 @@ void orthoglide_leg_tree_base_parameters(const double *chi, double *MODELER_REST
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 12 additions, 33 multiplications. */
-void orthoglide_leg_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+void orthoglide_leg_tree_forward_kinematics(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                            double MODELER_OUT(T, 6 * 3 * 4))
 {
     MODELER_ALL_ZEROS(T, 72);
 

@@ -1,5 +1,7 @@
 /* One leg of the Orthoglide, cut open
  *
+ * SPDX-License-Identifier: MIT
+ *
  * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
  * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
  *
@@ -18,9 +20,14 @@ extern "C" {
 #endif
 
 /* What orthoglide_leg_tree_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE "5e75d9cd7655b4d0"
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x5e75d9cdu
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x7655b4d0u
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE "6b0dad01cd8fe107"
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x6b0dad01u
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0xcd8fe107u
+
+/* Of the calls: raised when one takes other arguments; orthoglide_leg_tree_generator.h says which version of
+ * modeler wrote the folder. */
+#define ORTHOGLIDE_LEG_TREE_INTERFACE 2
+#define ORTHOGLIDE_LEG_TREE_LICENSE "MIT"
 
 #define ORTHOGLIDE_LEG_TREE_JOINTS 6
 #define ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS 60
@@ -178,8 +185,10 @@ const char *orthoglide_leg_tree_signature(void);
  * qdd    6        joint accelerations [m/s2 or rad/s2]
  * phi    6 x 60   torque per unit of each standard parameter, row-major [SI]
  */
-void orthoglide_leg_tree_regressor(const double *q, const double *qd, const double *qdd,
-                                   double *phi);
+void orthoglide_leg_tree_regressor(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                   const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                   const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                   double phi[6 * 60]);
 
 /* Regressor of the base parameters.
  *
@@ -190,8 +199,10 @@ void orthoglide_leg_tree_regressor(const double *q, const double *qd, const doub
  * qdd    6        joint accelerations [m/s2 or rad/s2]
  * phi    6 x 32   torque per unit of each base parameter, row-major [SI]
  */
-void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                                        double *phi);
+void orthoglide_leg_tree_base_regressor(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                        const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                        const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                        double phi[6 * 32]);
 
 /* The entries of the base regressor that are not always 0.
  *
@@ -202,8 +213,10 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
  * qdd    6        joint accelerations [m/s2 or rad/s2]
  * values 88       entries, row after row [SI]
  */
-void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *qd,
-                                                 const double *qdd, double *values);
+void orthoglide_leg_tree_base_regressor_nonzeros(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                                 const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                                 const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                                 double values[88]);
 
 /* Joint torques, by the Newton-Euler recursion.
  *
@@ -215,8 +228,11 @@ void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *
  * beta   32       base parameters [SI]
  * tau    6        joint torques or forces [N or N m]
  */
-void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                          const double *beta, double *tau);
+void orthoglide_leg_tree_inverse_dynamics(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                          const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                          const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                          const double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS],
+                                          double tau[ORTHOGLIDE_LEG_TREE_JOINTS]);
 
 /* Inertia matrix, rotor inertias included; symmetric.
  *
@@ -226,7 +242,9 @@ void orthoglide_leg_tree_inverse_dynamics(const double *q, const double *qd, con
  * beta   32       base parameters [SI]
  * M      6 x 6    inertia matrix, row-major [kg m2, kg m or kg]
  */
-void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta, double *M);
+void orthoglide_leg_tree_inertia_matrix(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                        const double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS],
+                                        double M[6 * 6]);
 
 /* Torques that hold the robot still, without friction.
  *
@@ -236,7 +254,9 @@ void orthoglide_leg_tree_inertia_matrix(const double *q, const double *beta, dou
  * beta   32       base parameters [SI]
  * tau    6        joint torques or forces [N or N m]
  */
-void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *tau);
+void orthoglide_leg_tree_gravity(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                 const double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS],
+                                 double tau[ORTHOGLIDE_LEG_TREE_JOINTS]);
 
 /* Coriolis and centripetal torques.
  *
@@ -247,8 +267,10 @@ void orthoglide_leg_tree_gravity(const double *q, const double *beta, double *ta
  * beta   32       base parameters [SI]
  * tau    6        joint torques or forces [N or N m]
  */
-void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const double *beta,
-                                  double *tau);
+void orthoglide_leg_tree_coriolis(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                  const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                  const double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS],
+                                  double tau[ORTHOGLIDE_LEG_TREE_JOINTS]);
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  *
@@ -258,7 +280,9 @@ void orthoglide_leg_tree_coriolis(const double *q, const double *qd, const doubl
  * beta   32       base parameters [SI]
  * tau    6        joint torques or forces [N or N m]
  */
-void orthoglide_leg_tree_friction(const double *qd, const double *beta, double *tau);
+void orthoglide_leg_tree_friction(const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                  const double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS],
+                                  double tau[ORTHOGLIDE_LEG_TREE_JOINTS]);
 
 /* Base parameters from standard ones: the grouping relations.
  *
@@ -267,7 +291,8 @@ void orthoglide_leg_tree_friction(const double *qd, const double *beta, double *
  * chi    60       standard parameters [SI]
  * beta   32       base parameters [SI]
  */
-void orthoglide_leg_tree_base_parameters(const double *chi, double *beta);
+void orthoglide_leg_tree_base_parameters(const double chi[ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS],
+                                         double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS]);
 
 /* Poses of the frames of all moving rows of the table, in order.
  *
@@ -276,15 +301,8 @@ void orthoglide_leg_tree_base_parameters(const double *chi, double *beta);
  * q      6         joint positions [m or rad]
  * T      6 x 3 x 4 poses [R | p] of the links' frames in frame 0, row-major [1 | m]
  */
-void orthoglide_leg_tree_forward_kinematics(const double *q, double *T);
-
-/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
- *
- * q qd qdd  samples x 6
- * W         (samples*6) x 32
- */
-void orthoglide_leg_tree_observation(size_t samples, const double *q, const double *qd,
-                                     const double *qdd, double *W);
+void orthoglide_leg_tree_forward_kinematics(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                            double T[6 * 3 * 4]);
 
 #ifdef __cplusplus
 }

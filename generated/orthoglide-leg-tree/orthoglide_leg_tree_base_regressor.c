@@ -44,8 +44,10 @@ static const double orthoglide_leg_tree_geo_D4 = ORTHOGLIDE_LEG_TREE_GEO_D4;
 
 /* Regressor of the base parameters.
  * 140 additions, 202 multiplications. */
-void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                                        double *MODELER_RESTRICT phi)
+void orthoglide_leg_tree_base_regressor(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                        const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                        const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                        double MODELER_OUT(phi, 6 * 32))
 {
     MODELER_ALL_ZEROS(phi, 192);
 
@@ -314,8 +316,10 @@ void orthoglide_leg_tree_base_regressor(const double *q, const double *qd, const
 
 /* The entries of the base regressor that are not always 0.
  * 140 additions, 202 multiplications. */
-void orthoglide_leg_tree_base_regressor_nonzeros(const double *q, const double *qd,
-                                                 const double *qdd, double *MODELER_RESTRICT values)
+void orthoglide_leg_tree_base_regressor_nonzeros(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                                 const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                                 const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                                 double MODELER_OUT(values, 88))
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);

@@ -44,8 +44,10 @@ static const double orthoglide_leg_tree_geo_D4 = ORTHOGLIDE_LEG_TREE_GEO_D4;
 
 /* Regressor of the standard parameters.
  * 152 additions, 218 multiplications. */
-void orthoglide_leg_tree_regressor(const double *q, const double *qd, const double *qdd,
-                                   double *MODELER_RESTRICT phi)
+void orthoglide_leg_tree_regressor(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                   const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                   const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],
+                                   double MODELER_OUT(phi, 6 * 60))
 {
     MODELER_ALL_ZEROS(phi, 360);
 

@@ -54,7 +54,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "5e75d9cd7655b4d0";
+    return "6b0dad01cd8fe107";
 }
 
 #else /* for one instruction set */

@@ -1,11 +1,11 @@
-# find_package(sr400_tree) takes any, find_package(sr400_tree 1) any of this C interface,
-# find_package(sr400_tree 1.51717.28385.36015) only what has the signature ca056ee18caf4cfe.
-set(PACKAGE_VERSION 1.51717.28385.36015)
+# find_package(sr400_tree) takes any, find_package(sr400_tree 2) any of this C interface,
+# find_package(sr400_tree 2.17884.52818.30512) only what has the signature 45dcce527730b4f3.
+set(PACKAGE_VERSION 2.17884.52818.30512)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
   set(PACKAGE_VERSION_EXACT TRUE)
-elseif("${PACKAGE_FIND_VERSION}" STREQUAL "1")
+elseif("${PACKAGE_FIND_VERSION}" STREQUAL "2")
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
 endif()

@@ -84,26 +84,16 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "ca056ee18caf4cfe";
-}
-
-void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                            double *MODELER_RESTRICT W)
-{
-    const modeler_input inputs[3] = {
-        {q, SR400_TREE_JOINTS},
-        {qd, SR400_TREE_JOINTS},
-        {qdd, SR400_TREE_JOINTS},
-    };
-
-    modeler_batch_3(sr400_tree_base_regressor, samples, inputs, W,
-                    (size_t)SR400_TREE_JOINTS * SR400_TREE_BASE_PARAMETERS);
+    return "45dcce527730b4f3";
 }
 
 /* Joint torques, by the Newton-Euler recursion.
  * 323 additions, 408 multiplications. */
-void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                 const double *beta, double *MODELER_RESTRICT tau)
+void sr400_tree_inverse_dynamics(const double q[SR400_TREE_JOINTS],
+                                 const double qd[SR400_TREE_JOINTS],
+                                 const double qdd[SR400_TREE_JOINTS],
+                                 const double beta[SR400_TREE_BASE_PARAMETERS],
+                                 double MODELER_OUT(tau, SR400_TREE_JOINTS))
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -379,7 +369,9 @@ void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 157 additions, 190 multiplications. */
-void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
+void sr400_tree_inertia_matrix(const double q[SR400_TREE_JOINTS],
+                               const double beta[SR400_TREE_BASE_PARAMETERS],
+                               double MODELER_OUT(M, 8 * 8))
 {
     MODELER_ALL_ZEROS(M, 64);
 
@@ -596,7 +588,9 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *MODE
 
 /* Torques that hold the robot still, without friction.
  * 29 additions, 52 multiplications. */
-void sr400_tree_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+void sr400_tree_gravity(const double q[SR400_TREE_JOINTS],
+                        const double beta[SR400_TREE_BASE_PARAMETERS],
+                        double MODELER_OUT(tau, SR400_TREE_JOINTS))
 {
     tau[0] = 0.0;
 
@@ -660,8 +654,9 @@ void sr400_tree_gravity(const double *q, const double *beta, double *MODELER_RES
 
 /* Coriolis and centripetal torques.
  * 267 additions, 376 multiplications. */
-void sr400_tree_coriolis(const double *q, const double *qd, const double *beta,
-                         double *MODELER_RESTRICT tau)
+void sr400_tree_coriolis(const double q[SR400_TREE_JOINTS], const double qd[SR400_TREE_JOINTS],
+                         const double beta[SR400_TREE_BASE_PARAMETERS],
+                         double MODELER_OUT(tau, SR400_TREE_JOINTS))
 {
     const double k1 = sr400_tree_geo_D8*2.0;
     const double k2 = sr400_tree_geo_D4*2.0;
@@ -914,7 +909,9 @@ void sr400_tree_coriolis(const double *q, const double *qd, const double *beta,
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void sr400_tree_friction(const double *qd, const double *beta, double *MODELER_RESTRICT tau)
+void sr400_tree_friction(const double qd[SR400_TREE_JOINTS],
+                         const double beta[SR400_TREE_BASE_PARAMETERS],
+                         double MODELER_OUT(tau, SR400_TREE_JOINTS))
 {
     (void)qd;
     (void)beta;
@@ -930,7 +927,8 @@ void sr400_tree_friction(const double *qd, const double *beta, double *MODELER_R
 
 /* Base parameters from standard ones: the grouping relations.
  * 62 additions, 36 multiplications. */
-void sr400_tree_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
+void sr400_tree_base_parameters(const double chi[SR400_TREE_STANDARD_PARAMETERS],
+                                double MODELER_OUT(beta, SR400_TREE_BASE_PARAMETERS))
 {
     const double k1 = sr400_tree_geo_D2*sr400_tree_geo_D2;
     const double k2 = sr400_tree_geo_D8*sr400_tree_geo_D8;
@@ -1010,7 +1008,8 @@ void sr400_tree_base_parameters(const double *chi, double *MODELER_RESTRICT beta
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 38 additions, 80 multiplications. */
-void sr400_tree_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+void sr400_tree_forward_kinematics(const double q[SR400_TREE_JOINTS],
+                                   double MODELER_OUT(T, 8 * 3 * 4))
 {
     T[2] = 0.0;
     T[3] = 0.0;

@@ -1,5 +1,7 @@
 /* SR400, 6R arm with a parallelogram, cut open
  *
+ * SPDX-License-Identifier: MIT
+ *
  * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
  * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
  *
@@ -18,9 +20,14 @@ extern "C" {
 #endif
 
 /* What sr400_tree_signature() of the library that belongs to this header returns. */
-#define SR400_TREE_SIGNATURE "ca056ee18caf4cfe"
-#define SR400_TREE_SIGNATURE_1 0xca056ee1u
-#define SR400_TREE_SIGNATURE_2 0x8caf4cfeu
+#define SR400_TREE_SIGNATURE "45dcce527730b4f3"
+#define SR400_TREE_SIGNATURE_1 0x45dcce52u
+#define SR400_TREE_SIGNATURE_2 0x7730b4f3u
+
+/* Of the calls: raised when one takes other arguments; sr400_tree_generator.h says which version of
+ * modeler wrote the folder. */
+#define SR400_TREE_INTERFACE 2
+#define SR400_TREE_LICENSE "MIT"
 
 #define SR400_TREE_JOINTS 8
 #define SR400_TREE_STANDARD_PARAMETERS 80
@@ -222,7 +229,8 @@ const char *sr400_tree_signature(void);
  * qdd    8        joint accelerations [rad/s2]
  * phi    8 x 80   torque per unit of each standard parameter, row-major [SI]
  */
-void sr400_tree_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+void sr400_tree_regressor(const double q[SR400_TREE_JOINTS], const double qd[SR400_TREE_JOINTS],
+                          const double qdd[SR400_TREE_JOINTS], double phi[8 * 80]);
 
 /* Regressor of the base parameters.
  *
@@ -233,7 +241,9 @@ void sr400_tree_regressor(const double *q, const double *qd, const double *qdd, 
  * qdd    8        joint accelerations [rad/s2]
  * phi    8 x 50   torque per unit of each base parameter, row-major [SI]
  */
-void sr400_tree_base_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+void sr400_tree_base_regressor(const double q[SR400_TREE_JOINTS],
+                               const double qd[SR400_TREE_JOINTS],
+                               const double qdd[SR400_TREE_JOINTS], double phi[8 * 50]);
 
 /* The entries of the base regressor that are not always 0.
  *
@@ -244,8 +254,9 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
  * qdd    8        joint accelerations [rad/s2]
  * values 172      entries, row after row [SI]
  */
-void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const double *qdd,
-                                        double *values);
+void sr400_tree_base_regressor_nonzeros(const double q[SR400_TREE_JOINTS],
+                                        const double qd[SR400_TREE_JOINTS],
+                                        const double qdd[SR400_TREE_JOINTS], double values[172]);
 
 /* Joint torques, by the Newton-Euler recursion.
  *
@@ -257,8 +268,11 @@ void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const
  * beta   50       base parameters [SI]
  * tau    8        joint torques or forces [N m]
  */
-void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                                 const double *beta, double *tau);
+void sr400_tree_inverse_dynamics(const double q[SR400_TREE_JOINTS],
+                                 const double qd[SR400_TREE_JOINTS],
+                                 const double qdd[SR400_TREE_JOINTS],
+                                 const double beta[SR400_TREE_BASE_PARAMETERS],
+                                 double tau[SR400_TREE_JOINTS]);
 
 /* Inertia matrix, rotor inertias included; symmetric.
  *
@@ -268,7 +282,8 @@ void sr400_tree_inverse_dynamics(const double *q, const double *qd, const double
  * beta   50       base parameters [SI]
  * M      8 x 8    inertia matrix, row-major [kg m2, kg m or kg]
  */
-void sr400_tree_inertia_matrix(const double *q, const double *beta, double *M);
+void sr400_tree_inertia_matrix(const double q[SR400_TREE_JOINTS],
+                               const double beta[SR400_TREE_BASE_PARAMETERS], double M[8 * 8]);
 
 /* Torques that hold the robot still, without friction.
  *
@@ -278,7 +293,9 @@ void sr400_tree_inertia_matrix(const double *q, const double *beta, double *M);
  * beta   50       base parameters [SI]
  * tau    8        joint torques or forces [N m]
  */
-void sr400_tree_gravity(const double *q, const double *beta, double *tau);
+void sr400_tree_gravity(const double q[SR400_TREE_JOINTS],
+                        const double beta[SR400_TREE_BASE_PARAMETERS],
+                        double tau[SR400_TREE_JOINTS]);
 
 /* Coriolis and centripetal torques.
  *
@@ -289,7 +306,9 @@ void sr400_tree_gravity(const double *q, const double *beta, double *tau);
  * beta   50       base parameters [SI]
  * tau    8        joint torques or forces [N m]
  */
-void sr400_tree_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+void sr400_tree_coriolis(const double q[SR400_TREE_JOINTS], const double qd[SR400_TREE_JOINTS],
+                         const double beta[SR400_TREE_BASE_PARAMETERS],
+                         double tau[SR400_TREE_JOINTS]);
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  *
@@ -299,7 +318,9 @@ void sr400_tree_coriolis(const double *q, const double *qd, const double *beta, 
  * beta   50       base parameters [SI]
  * tau    8        joint torques or forces [N m]
  */
-void sr400_tree_friction(const double *qd, const double *beta, double *tau);
+void sr400_tree_friction(const double qd[SR400_TREE_JOINTS],
+                         const double beta[SR400_TREE_BASE_PARAMETERS],
+                         double tau[SR400_TREE_JOINTS]);
 
 /* Base parameters from standard ones: the grouping relations.
  *
@@ -308,7 +329,8 @@ void sr400_tree_friction(const double *qd, const double *beta, double *tau);
  * chi    80       standard parameters [SI]
  * beta   50       base parameters [SI]
  */
-void sr400_tree_base_parameters(const double *chi, double *beta);
+void sr400_tree_base_parameters(const double chi[SR400_TREE_STANDARD_PARAMETERS],
+                                double beta[SR400_TREE_BASE_PARAMETERS]);
 
 /* Poses of the frames of all moving rows of the table, in order.
  *
@@ -317,15 +339,7 @@ void sr400_tree_base_parameters(const double *chi, double *beta);
  * q      8         joint positions [rad]
  * T      8 x 3 x 4 poses [R | p] of the links' frames in frame 0, row-major [1 | m]
  */
-void sr400_tree_forward_kinematics(const double *q, double *T);
-
-/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
- *
- * q qd qdd  samples x 8
- * W         (samples*8) x 50
- */
-void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                            double *W);
+void sr400_tree_forward_kinematics(const double q[SR400_TREE_JOINTS], double T[8 * 3 * 4]);
 
 #ifdef __cplusplus
 }

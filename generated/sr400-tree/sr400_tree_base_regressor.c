@@ -54,8 +54,10 @@ static const double sr400_tree_geo_D8 = SR400_TREE_GEO_D8;
 
 /* Regressor of the base parameters.
  * 340 additions, 454 multiplications. */
-void sr400_tree_base_regressor(const double *q, const double *qd, const double *qdd,
-                               double *MODELER_RESTRICT phi)
+void sr400_tree_base_regressor(const double q[SR400_TREE_JOINTS],
+                               const double qd[SR400_TREE_JOINTS],
+                               const double qdd[SR400_TREE_JOINTS],
+                               double MODELER_OUT(phi, 8 * 50))
 {
     MODELER_ALL_ZEROS(phi, 400);
 
@@ -577,8 +579,10 @@ void sr400_tree_base_regressor(const double *q, const double *qd, const double *
 
 /* The entries of the base regressor that are not always 0.
  * 340 additions, 454 multiplications. */
-void sr400_tree_base_regressor_nonzeros(const double *q, const double *qd, const double *qdd,
-                                        double *MODELER_RESTRICT values)
+void sr400_tree_base_regressor_nonzeros(const double q[SR400_TREE_JOINTS],
+                                        const double qd[SR400_TREE_JOINTS],
+                                        const double qdd[SR400_TREE_JOINTS],
+                                        double MODELER_OUT(values, 172))
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);

@@ -1,11 +1,11 @@
-# find_package(sr400) takes any, find_package(sr400 1) any of this C interface,
-# find_package(sr400 1.9562.31978.45932) only what has the signature 255a7ceab36c9010.
-set(PACKAGE_VERSION 1.9562.31978.45932)
+# find_package(sr400) takes any, find_package(sr400 2) any of this C interface,
+# find_package(sr400 2.441.51607.18678) only what has the signature 01b9c99748f6ccb7.
+set(PACKAGE_VERSION 2.441.51607.18678)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
   set(PACKAGE_VERSION_EXACT TRUE)
-elseif("${PACKAGE_FIND_VERSION}" STREQUAL "1")
+elseif("${PACKAGE_FIND_VERSION}" STREQUAL "2")
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
 endif()

@@ -81,26 +81,15 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "255a7ceab36c9010";
-}
-
-void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                       double *MODELER_RESTRICT W)
-{
-    const modeler_input inputs[3] = {
-        {q, SR400_JOINTS},
-        {qd, SR400_JOINTS},
-        {qdd, SR400_JOINTS},
-    };
-
-    modeler_batch_3(sr400_base_regressor, samples, inputs, W,
-                    (size_t)SR400_JOINTS * SR400_BASE_PARAMETERS);
+    return "01b9c99748f6ccb7";
 }
 
 /* Joint torques, by the Newton-Euler recursion.
  * 264 additions, 331 multiplications. */
-void sr400_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                            const double *beta, double *MODELER_RESTRICT tau)
+void sr400_inverse_dynamics(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
+                            const double qdd[SR400_JOINTS],
+                            const double beta[SR400_BASE_PARAMETERS],
+                            double MODELER_OUT(tau, SR400_JOINTS))
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -322,7 +311,8 @@ void sr400_inverse_dynamics(const double *q, const double *qd, const double *qdd
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 133 additions, 169 multiplications. */
-void sr400_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
+void sr400_inertia_matrix(const double q[SR400_JOINTS], const double beta[SR400_BASE_PARAMETERS],
+                          double MODELER_OUT(M, 6 * 6))
 {
     const double k1 = sr400_geo_D8*2.0;
     const double k2 = sr400_geo_D2*2.0;
@@ -502,7 +492,8 @@ void sr400_inertia_matrix(const double *q, const double *beta, double *MODELER_R
 
 /* Torques that hold the robot still, without friction.
  * 26 additions, 43 multiplications. */
-void sr400_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+void sr400_gravity(const double q[SR400_JOINTS], const double beta[SR400_BASE_PARAMETERS],
+                   double MODELER_OUT(tau, SR400_JOINTS))
 {
     tau[0] = 0.0;
 
@@ -553,8 +544,9 @@ void sr400_gravity(const double *q, const double *beta, double *MODELER_RESTRICT
 
 /* Coriolis and centripetal torques.
  * 227 additions, 309 multiplications. */
-void sr400_coriolis(const double *q, const double *qd, const double *beta,
-                    double *MODELER_RESTRICT tau)
+void sr400_coriolis(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
+                    const double beta[SR400_BASE_PARAMETERS],
+                    double MODELER_OUT(tau, SR400_JOINTS))
 {
     const double k1 = sr400_geo_D8*2.0;
     const double k2 = sr400_geo_D4*2.0;
@@ -765,7 +757,8 @@ void sr400_coriolis(const double *q, const double *qd, const double *beta,
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void sr400_friction(const double *qd, const double *beta, double *MODELER_RESTRICT tau)
+void sr400_friction(const double qd[SR400_JOINTS], const double beta[SR400_BASE_PARAMETERS],
+                    double MODELER_OUT(tau, SR400_JOINTS))
 {
     (void)qd;
     (void)beta;
@@ -779,7 +772,8 @@ void sr400_friction(const double *qd, const double *beta, double *MODELER_RESTRI
 
 /* Base parameters from standard ones: the grouping relations.
  * 75 additions, 37 multiplications. */
-void sr400_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
+void sr400_base_parameters(const double chi[SR400_STANDARD_PARAMETERS],
+                           double MODELER_OUT(beta, SR400_BASE_PARAMETERS))
 {
     const double k1 = sr400_geo_D2*sr400_geo_D2;
     const double k2 = sr400_geo_D8*sr400_geo_D8;
@@ -851,7 +845,7 @@ void sr400_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 34 additions, 60 multiplications. */
-void sr400_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+void sr400_forward_kinematics(const double q[SR400_JOINTS], double MODELER_OUT(T, 9 * 3 * 4))
 {
     T[2] = 0.0;
     T[3] = 0.0;

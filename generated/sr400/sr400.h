@@ -1,5 +1,7 @@
 /* SR400, 6R arm with a parallelogram
  *
+ * SPDX-License-Identifier: MIT
+ *
  * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
  * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
  *
@@ -18,9 +20,14 @@ extern "C" {
 #endif
 
 /* What sr400_signature() of the library that belongs to this header returns. */
-#define SR400_SIGNATURE "255a7ceab36c9010"
-#define SR400_SIGNATURE_1 0x255a7ceau
-#define SR400_SIGNATURE_2 0xb36c9010u
+#define SR400_SIGNATURE "01b9c99748f6ccb7"
+#define SR400_SIGNATURE_1 0x01b9c997u
+#define SR400_SIGNATURE_2 0x48f6ccb7u
+
+/* Of the calls: raised when one takes other arguments; sr400_generator.h says which version of
+ * modeler wrote the folder. */
+#define SR400_INTERFACE 2
+#define SR400_LICENSE "MIT"
 
 #define SR400_JOINTS 6
 #define SR400_STANDARD_PARAMETERS 80
@@ -200,7 +207,8 @@ const char *sr400_signature(void);
  * qdd    6        joint accelerations [rad/s2]
  * phi    6 x 80   torque per unit of each standard parameter, row-major [SI]
  */
-void sr400_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+void sr400_regressor(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
+                     const double qdd[SR400_JOINTS], double phi[6 * 80]);
 
 /* Regressor of the base parameters.
  *
@@ -211,7 +219,8 @@ void sr400_regressor(const double *q, const double *qd, const double *qdd, doubl
  * qdd    6        joint accelerations [rad/s2]
  * phi    6 x 39   torque per unit of each base parameter, row-major [SI]
  */
-void sr400_base_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+void sr400_base_regressor(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
+                          const double qdd[SR400_JOINTS], double phi[6 * 39]);
 
 /* The entries of the base regressor that are not always 0.
  *
@@ -222,8 +231,8 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd, 
  * qdd    6        joint accelerations [rad/s2]
  * values 126      entries, row after row [SI]
  */
-void sr400_base_regressor_nonzeros(const double *q, const double *qd, const double *qdd,
-                                   double *values);
+void sr400_base_regressor_nonzeros(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
+                                   const double qdd[SR400_JOINTS], double values[126]);
 
 /* Joint torques, by the Newton-Euler recursion.
  *
@@ -235,8 +244,9 @@ void sr400_base_regressor_nonzeros(const double *q, const double *qd, const doub
  * beta   39       base parameters [SI]
  * tau    6        joint torques or forces [N m]
  */
-void sr400_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                            const double *beta, double *tau);
+void sr400_inverse_dynamics(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
+                            const double qdd[SR400_JOINTS],
+                            const double beta[SR400_BASE_PARAMETERS], double tau[SR400_JOINTS]);
 
 /* Inertia matrix, rotor inertias included; symmetric.
  *
@@ -246,7 +256,8 @@ void sr400_inverse_dynamics(const double *q, const double *qd, const double *qdd
  * beta   39       base parameters [SI]
  * M      6 x 6    inertia matrix, row-major [kg m2, kg m or kg]
  */
-void sr400_inertia_matrix(const double *q, const double *beta, double *M);
+void sr400_inertia_matrix(const double q[SR400_JOINTS], const double beta[SR400_BASE_PARAMETERS],
+                          double M[6 * 6]);
 
 /* Torques that hold the robot still, without friction.
  *
@@ -256,7 +267,8 @@ void sr400_inertia_matrix(const double *q, const double *beta, double *M);
  * beta   39       base parameters [SI]
  * tau    6        joint torques or forces [N m]
  */
-void sr400_gravity(const double *q, const double *beta, double *tau);
+void sr400_gravity(const double q[SR400_JOINTS], const double beta[SR400_BASE_PARAMETERS],
+                   double tau[SR400_JOINTS]);
 
 /* Coriolis and centripetal torques.
  *
@@ -267,7 +279,8 @@ void sr400_gravity(const double *q, const double *beta, double *tau);
  * beta   39       base parameters [SI]
  * tau    6        joint torques or forces [N m]
  */
-void sr400_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+void sr400_coriolis(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
+                    const double beta[SR400_BASE_PARAMETERS], double tau[SR400_JOINTS]);
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  *
@@ -277,7 +290,8 @@ void sr400_coriolis(const double *q, const double *qd, const double *beta, doubl
  * beta   39       base parameters [SI]
  * tau    6        joint torques or forces [N m]
  */
-void sr400_friction(const double *qd, const double *beta, double *tau);
+void sr400_friction(const double qd[SR400_JOINTS], const double beta[SR400_BASE_PARAMETERS],
+                    double tau[SR400_JOINTS]);
 
 /* Base parameters from standard ones: the grouping relations.
  *
@@ -286,7 +300,8 @@ void sr400_friction(const double *qd, const double *beta, double *tau);
  * chi    80       standard parameters [SI]
  * beta   39       base parameters [SI]
  */
-void sr400_base_parameters(const double *chi, double *beta);
+void sr400_base_parameters(const double chi[SR400_STANDARD_PARAMETERS],
+                           double beta[SR400_BASE_PARAMETERS]);
 
 /* Poses of the frames of all moving rows of the table, in order.
  *
@@ -295,15 +310,7 @@ void sr400_base_parameters(const double *chi, double *beta);
  * q      6         joint positions [rad]
  * T      9 x 3 x 4 poses [R | p] of the links' frames in frame 0, row-major [1 | m]
  */
-void sr400_forward_kinematics(const double *q, double *T);
-
-/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
- *
- * q qd qdd  samples x 6
- * W         (samples*6) x 39
- */
-void sr400_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                       double *W);
+void sr400_forward_kinematics(const double q[SR400_JOINTS], double T[9 * 3 * 4]);
 
 #ifdef __cplusplus
 }

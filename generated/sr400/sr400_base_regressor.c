@@ -54,8 +54,8 @@ static const double sr400_geo_D8 = SR400_GEO_D8;
 
 /* Regressor of the base parameters.
  * 291 additions, 398 multiplications. */
-void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
-                          double *MODELER_RESTRICT phi)
+void sr400_base_regressor(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
+                          const double qdd[SR400_JOINTS], double MODELER_OUT(phi, 6 * 39))
 {
     MODELER_ALL_ZEROS(phi, 234);
 
@@ -436,8 +436,8 @@ void sr400_base_regressor(const double *q, const double *qd, const double *qdd,
 
 /* The entries of the base regressor that are not always 0.
  * 291 additions, 398 multiplications. */
-void sr400_base_regressor_nonzeros(const double *q, const double *qd, const double *qdd,
-                                   double *MODELER_RESTRICT values)
+void sr400_base_regressor_nonzeros(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
+                                   const double qdd[SR400_JOINTS], double MODELER_OUT(values, 126))
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);

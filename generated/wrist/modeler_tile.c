@@ -37,9 +37,11 @@ typedef struct {
 /* The values of FEW samples as rows, one double after another. */
 static void scatter(const plan *p, const double *values)
 {
-    for (size_t k = 0; k < p->entries; k++)
-        for (size_t i = 0; i < FEW; i++)
+    for (size_t k = 0; k < p->entries; k++) {
+        for (size_t i = 0; i < FEW; i++) {
             p->rows[i * p->width + (size_t)p->place[k]] = values[k * MODELER_LANES + i];
+        }
+    }
 }
 
 #define MODELER_BODY "modeler_tile.c"
@@ -94,10 +96,12 @@ static void cover(plan *p)
         int *source = p->source + p->blocks * FEW;
         if (p->blocks == 0 || p->place[k] >= p->first[p->blocks - 1] + FEW) {
             const int first = p->place[k] + FEW <= width ? p->place[k] : width - FEW;
-            for (int i = 0; i < FEW; i++)
+            for (int i = 0; i < FEW; i++) {
                 source[i] = entries;
-            for (int i = k - 1; i >= 0 && p->place[i] >= first; i--)
+            }
+            for (int i = k - 1; i >= 0 && p->place[i] >= first; i--) {
                 source[p->place[i] - first] = i;
+            }
             p->first[p->blocks++] = first;
         } else {
             source -= FEW;
@@ -123,8 +127,9 @@ static plan planned(const modeler_tiled *robot, const double *out, double *work,
     p.place = (int *)(void *)work;
     p.first = p.place + p.entries;
     p.source = p.first + p.entries;
-    for (size_t k = 0; k < p.entries; k++)
+    for (size_t k = 0; k < p.entries; k++) {
         p.place[k] = dense ? robot->row[k] * robot->columns + robot->column[k] : (int)k;
+    }
     cover(&p);
     return p;
 }
@@ -137,9 +142,10 @@ static void push(const plan *p, place_ahead *ahead, size_t rows, stream_function
 
     if (lines > 0) {
         const size_t cut = ahead->foreign > 0;
-        if (cut)
+        if (cut > 0) {
             memcpy(ahead->line + ahead->foreign, from + ahead->foreign,
                    (LINE - ahead->foreign) * sizeof(double));
+        }
         stream(from + cut * LINE, ahead->line + cut * LINE, lines - cut);
         ahead->line += lines * LINE;
         ahead->foreign = 0;
@@ -151,11 +157,13 @@ static void push(const plan *p, place_ahead *ahead, size_t rows, stream_function
 /* The last samples, and after them the last one again, as a tile's inputs; returns what follows. */
 static double *padded(double *to, const double **input, size_t samples, size_t length)
 {
-    if (*input == NULL)
+    if (*input == NULL) {
         return to;
-    for (size_t i = 0; i < MODELER_LANES; i++)
+    }
+    for (size_t i = 0; i < MODELER_LANES; i++) {
         memcpy(to + i * length, *input + (i < samples ? i : samples - 1) * length,
                length * sizeof(double));
+    }
     *input = to;
     return to + MODELER_LANES * length;
 }
@@ -189,8 +197,9 @@ static void evaluate(const modeler_tiled *robot, size_t samples, const double *q
         q += now * joints;
         qd += now * joints;
         qdd += now * joints;
-        if (s != NULL)
+        if (s != NULL) {
             s += now * signals;
+        }
     }
     memcpy(ahead.line + ahead.foreign, p.rows - ahead.held + ahead.foreign,
            (ahead.held - ahead.foreign) * sizeof(double));
@@ -226,8 +235,9 @@ MODELER_TARGET static void MODELER_VERSION(turn)(const plan *p, const double *va
     typedef MODELER_VERSION(four) four;
     const size_t width = p->width;
 
-    if (p->blocks == 0)
+    if (p->blocks == 0) {
         scatter(p, values);
+    }
     for (size_t b = 0; b < p->blocks; b++) {
         const int *const source = p->source + b * FEW;
         double *const to = p->rows + p->first[b];
@@ -262,9 +272,10 @@ typedef double MODELER_VERSION(straight) __attribute__((vector_size(8 * MODELER_
 
 MODELER_TARGET static void MODELER_VERSION(stream)(const double *from, double *to, size_t lines)
 {
-    for (size_t i = 0; i < lines * LINE; i += MODELER_WIDTH)
-        MODELER_STREAM((MODELER_VERSION(straight) *)(to + i),
+    for (size_t i = 0; i < lines * LINE; i += MODELER_WIDTH) {
+        MODELER_STREAM((MODELER_VERSION(straight) *)(void *)(to + i),
                        *(const MODELER_VERSION(wide) *)(from + i));
+    }
 }
 
 #else

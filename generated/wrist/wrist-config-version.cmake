@@ -1,11 +1,11 @@
-# find_package(wrist) takes any, find_package(wrist 1) any of this C interface,
-# find_package(wrist 1.23503.23627.25142) only what has the signature 5bcf5c4b62367c54.
-set(PACKAGE_VERSION 1.23503.23627.25142)
+# find_package(wrist) takes any, find_package(wrist 2) any of this C interface,
+# find_package(wrist 2.32271.56301.47740) only what has the signature 7e0fdbedba7c5633.
+set(PACKAGE_VERSION 2.32271.56301.47740)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
   set(PACKAGE_VERSION_EXACT TRUE)
-elseif("${PACKAGE_FIND_VERSION}" STREQUAL "1")
+elseif("${PACKAGE_FIND_VERSION}" STREQUAL "2")
   set(PACKAGE_VERSION_COMPATIBLE TRUE)
 endif()

@@ -1,6 +1,6 @@
-# find_package(wrist) gives the target wrist::wrist: the kind that BUILD_SHARED_LIBS asks for, else the
+# find_package(wrist) gives the targets wrist::wrist and wrist::batch: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. wrist_SIGNATURE is what wrist_signature() returns.
-set(wrist_SIGNATURE 5bcf5c4b62367c54)
+set(wrist_SIGNATURE 7e0fdbedba7c5633)
 
 if(wrist_FIND_COMPONENTS)
   set(_modeler_kinds ${wrist_FIND_COMPONENTS})
@@ -13,31 +13,39 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/wrist-${_modeler_kind}-5bcf5c4b62367c54.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/wrist-${_modeler_kind}-7e0fdbedba7c5633.cmake")
   if(TARGET wrist::wrist OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
   include("${_modeler_file}")
   if(NOT TARGET wrist::wrist) # installed by make
-    if(_modeler_kind STREQUAL "shared")
-      set(_modeler_name libwrist_model.so.5bcf5c4b62367c54)
-    else()
-      set(_modeler_name libwrist_model.a)
-    endif()
     string(TOUPPER ${_modeler_kind} _modeler_type)
-    add_library(wrist::wrist ${_modeler_type} IMPORTED)
-    get_filename_component(_modeler_location "${_modeler_lib}/${_modeler_name}" ABSOLUTE)
     get_filename_component(_modeler_include "${_modeler_lib}/../include/wrist" ABSOLUTE)
-    set_target_properties(wrist::wrist PROPERTIES IMPORTED_LOCATION "${_modeler_location}"
-      INTERFACE_INCLUDE_DIRECTORIES "${_modeler_include}" INTERFACE_LINK_LIBRARIES m)
-    if(_modeler_kind STREQUAL "shared")
-      set_target_properties(wrist::wrist PROPERTIES IMPORTED_SONAME "${_modeler_name}")
-    endif()
+    foreach(_modeler_part wrist batch)
+      set(_modeler_name libwrist_batch)
+      if(_modeler_part STREQUAL "wrist")
+        set(_modeler_name libwrist_model)
+      endif()
+      if(_modeler_kind STREQUAL "shared")
+        string(APPEND _modeler_name .so.7e0fdbedba7c5633)
+      else()
+        string(APPEND _modeler_name .a)
+      endif()
+      add_library(wrist::${_modeler_part} ${_modeler_type} IMPORTED)
+      get_filename_component(_modeler_location "${_modeler_lib}/${_modeler_name}" ABSOLUTE)
+      set_target_properties(wrist::${_modeler_part} PROPERTIES
+        IMPORTED_LOCATION "${_modeler_location}"
+        INTERFACE_INCLUDE_DIRECTORIES "${_modeler_include}" INTERFACE_LINK_LIBRARIES m)
+      if(_modeler_kind STREQUAL "shared")
+        set_target_properties(wrist::${_modeler_part} PROPERTIES IMPORTED_SONAME "${_modeler_name}")
+      endif()
+    endforeach()
+    set_target_properties(wrist::batch PROPERTIES INTERFACE_LINK_LIBRARIES wrist::wrist)
   endif()
 endforeach()
 
 if(NOT TARGET wrist::wrist)
   set(wrist_FOUND FALSE)
   set(wrist_NOT_FOUND_MESSAGE
-    "no library of signature 5bcf5c4b62367c54 here that is ${_modeler_kinds}; install it again")
+    "no library of signature 7e0fdbedba7c5633 here that is ${_modeler_kinds}; install it again")
 endif()

@@ -57,26 +57,15 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "5bcf5c4b62367c54";
-}
-
-void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                       double *MODELER_RESTRICT W)
-{
-    const modeler_input inputs[3] = {
-        {q, WRIST_JOINTS},
-        {qd, WRIST_JOINTS},
-        {qdd, WRIST_JOINTS},
-    };
-
-    modeler_batch_3(wrist_base_regressor, samples, inputs, W,
-                    (size_t)WRIST_JOINTS * WRIST_BASE_PARAMETERS);
+    return "7e0fdbedba7c5633";
 }
 
 /* Joint torques, by the Newton-Euler recursion.
  * 77 additions, 105 multiplications. */
-void wrist_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                            const double *beta, double *MODELER_RESTRICT tau)
+void wrist_inverse_dynamics(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
+                            const double qdd[WRIST_JOINTS],
+                            const double beta[WRIST_BASE_PARAMETERS],
+                            double MODELER_OUT(tau, WRIST_JOINTS))
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -149,7 +138,8 @@ void wrist_inverse_dynamics(const double *q, const double *qd, const double *qdd
 
 /* Inertia matrix, rotor inertias included; symmetric.
  * 24 additions, 28 multiplications. */
-void wrist_inertia_matrix(const double *q, const double *beta, double *MODELER_RESTRICT M)
+void wrist_inertia_matrix(const double q[WRIST_JOINTS], const double beta[WRIST_BASE_PARAMETERS],
+                          double MODELER_OUT(M, 3 * 3))
 {
     double s1, c1;
     modeler_sincos(q[1], &s1, &c1);
@@ -188,7 +178,8 @@ void wrist_inertia_matrix(const double *q, const double *beta, double *MODELER_R
 
 /* Torques that hold the robot still, without friction.
  * 12 additions, 24 multiplications. */
-void wrist_gravity(const double *q, const double *beta, double *MODELER_RESTRICT tau)
+void wrist_gravity(const double q[WRIST_JOINTS], const double beta[WRIST_BASE_PARAMETERS],
+                   double MODELER_OUT(tau, WRIST_JOINTS))
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);
@@ -219,8 +210,9 @@ void wrist_gravity(const double *q, const double *beta, double *MODELER_RESTRICT
 
 /* Coriolis and centripetal torques.
  * 57 additions, 87 multiplications. */
-void wrist_coriolis(const double *q, const double *qd, const double *beta,
-                    double *MODELER_RESTRICT tau)
+void wrist_coriolis(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
+                    const double beta[WRIST_BASE_PARAMETERS],
+                    double MODELER_OUT(tau, WRIST_JOINTS))
 {
     const double k1 = wrist_geo_bl1*2.0;
 
@@ -281,7 +273,8 @@ void wrist_coriolis(const double *q, const double *qd, const double *beta,
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  * 0 additions, 0 multiplications. */
-void wrist_friction(const double *qd, const double *beta, double *MODELER_RESTRICT tau)
+void wrist_friction(const double qd[WRIST_JOINTS], const double beta[WRIST_BASE_PARAMETERS],
+                    double MODELER_OUT(tau, WRIST_JOINTS))
 {
     (void)qd;
     (void)beta;
@@ -292,7 +285,8 @@ void wrist_friction(const double *qd, const double *beta, double *MODELER_RESTRI
 
 /* Base parameters from standard ones: the grouping relations.
  * 12 additions, 3 multiplications. */
-void wrist_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
+void wrist_base_parameters(const double chi[WRIST_STANDARD_PARAMETERS],
+                           double MODELER_OUT(beta, WRIST_BASE_PARAMETERS))
 {
     const double k1 = wrist_geo_bl1*wrist_geo_bl1;
     const double k2 = wrist_geo_bl1*2.0;
@@ -320,7 +314,7 @@ void wrist_base_parameters(const double *chi, double *MODELER_RESTRICT beta)
 
 /* Poses of the frames of all moving rows of the table, in order.
  * 5 additions, 17 multiplications. */
-void wrist_forward_kinematics(const double *q, double *MODELER_RESTRICT T)
+void wrist_forward_kinematics(const double q[WRIST_JOINTS], double MODELER_OUT(T, 3 * 3 * 4))
 {
     T[2] = 0.0;
     T[3] = 0.0;

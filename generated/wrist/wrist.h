@@ -1,5 +1,7 @@
 /* 3R industrial wrist (Hanssen, Hovland, Brogardh)
  *
+ * SPDX-License-Identifier: MIT
+ *
  * Dynamic model, linear in its parameters: tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta.
  * C99, no dependency but <math.h>, no allocation, no global state, re-entrant.
  *
@@ -18,9 +20,14 @@ extern "C" {
 #endif
 
 /* What wrist_signature() of the library that belongs to this header returns. */
-#define WRIST_SIGNATURE "5bcf5c4b62367c54"
-#define WRIST_SIGNATURE_1 0x5bcf5c4bu
-#define WRIST_SIGNATURE_2 0x62367c54u
+#define WRIST_SIGNATURE "7e0fdbedba7c5633"
+#define WRIST_SIGNATURE_1 0x7e0fdbedu
+#define WRIST_SIGNATURE_2 0xba7c5633u
+
+/* Of the calls: raised when one takes other arguments; wrist_generator.h says which version of
+ * modeler wrote the folder. */
+#define WRIST_INTERFACE 2
+#define WRIST_LICENSE "MIT"
 
 #define WRIST_JOINTS 3
 #define WRIST_STANDARD_PARAMETERS 30
@@ -111,7 +118,8 @@ const char *wrist_signature(void);
  * qdd    3        joint accelerations [rad/s2]
  * phi    3 x 30   torque per unit of each standard parameter, row-major [SI]
  */
-void wrist_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+void wrist_regressor(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
+                     const double qdd[WRIST_JOINTS], double phi[3 * 30]);
 
 /* Regressor of the base parameters.
  *
@@ -122,7 +130,8 @@ void wrist_regressor(const double *q, const double *qd, const double *qdd, doubl
  * qdd    3        joint accelerations [rad/s2]
  * phi    3 x 17   torque per unit of each base parameter, row-major [SI]
  */
-void wrist_base_regressor(const double *q, const double *qd, const double *qdd, double *phi);
+void wrist_base_regressor(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
+                          const double qdd[WRIST_JOINTS], double phi[3 * 17]);
 
 /* The entries of the base regressor that are not always 0.
  *
@@ -133,8 +142,8 @@ void wrist_base_regressor(const double *q, const double *qd, const double *qdd, 
  * qdd    3        joint accelerations [rad/s2]
  * values 37       entries, row after row [SI]
  */
-void wrist_base_regressor_nonzeros(const double *q, const double *qd, const double *qdd,
-                                   double *values);
+void wrist_base_regressor_nonzeros(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
+                                   const double qdd[WRIST_JOINTS], double values[37]);
 
 /* Joint torques, by the Newton-Euler recursion.
  *
@@ -146,8 +155,9 @@ void wrist_base_regressor_nonzeros(const double *q, const double *qd, const doub
  * beta   17       base parameters [SI]
  * tau    3        joint torques or forces [N m]
  */
-void wrist_inverse_dynamics(const double *q, const double *qd, const double *qdd,
-                            const double *beta, double *tau);
+void wrist_inverse_dynamics(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
+                            const double qdd[WRIST_JOINTS],
+                            const double beta[WRIST_BASE_PARAMETERS], double tau[WRIST_JOINTS]);
 
 /* Inertia matrix, rotor inertias included; symmetric.
  *
@@ -157,7 +167,8 @@ void wrist_inverse_dynamics(const double *q, const double *qd, const double *qdd
  * beta   17       base parameters [SI]
  * M      3 x 3    inertia matrix, row-major [kg m2, kg m or kg]
  */
-void wrist_inertia_matrix(const double *q, const double *beta, double *M);
+void wrist_inertia_matrix(const double q[WRIST_JOINTS], const double beta[WRIST_BASE_PARAMETERS],
+                          double M[3 * 3]);
 
 /* Torques that hold the robot still, without friction.
  *
@@ -167,7 +178,8 @@ void wrist_inertia_matrix(const double *q, const double *beta, double *M);
  * beta   17       base parameters [SI]
  * tau    3        joint torques or forces [N m]
  */
-void wrist_gravity(const double *q, const double *beta, double *tau);
+void wrist_gravity(const double q[WRIST_JOINTS], const double beta[WRIST_BASE_PARAMETERS],
+                   double tau[WRIST_JOINTS]);
 
 /* Coriolis and centripetal torques.
  *
@@ -178,7 +190,8 @@ void wrist_gravity(const double *q, const double *beta, double *tau);
  * beta   17       base parameters [SI]
  * tau    3        joint torques or forces [N m]
  */
-void wrist_coriolis(const double *q, const double *qd, const double *beta, double *tau);
+void wrist_coriolis(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
+                    const double beta[WRIST_BASE_PARAMETERS], double tau[WRIST_JOINTS]);
 
 /* Torques of all effects but rotor inertias: friction, offsets.
  *
@@ -188,7 +201,8 @@ void wrist_coriolis(const double *q, const double *qd, const double *beta, doubl
  * beta   17       base parameters [SI]
  * tau    3        joint torques or forces [N m]
  */
-void wrist_friction(const double *qd, const double *beta, double *tau);
+void wrist_friction(const double qd[WRIST_JOINTS], const double beta[WRIST_BASE_PARAMETERS],
+                    double tau[WRIST_JOINTS]);
 
 /* Base parameters from standard ones: the grouping relations.
  *
@@ -197,7 +211,8 @@ void wrist_friction(const double *qd, const double *beta, double *tau);
  * chi    30       standard parameters [SI]
  * beta   17       base parameters [SI]
  */
-void wrist_base_parameters(const double *chi, double *beta);
+void wrist_base_parameters(const double chi[WRIST_STANDARD_PARAMETERS],
+                           double beta[WRIST_BASE_PARAMETERS]);
 
 /* Poses of the frames of all moving rows of the table, in order.
  *
@@ -206,15 +221,7 @@ void wrist_base_parameters(const double *chi, double *beta);
  * q      3         joint positions [rad]
  * T      3 x 3 x 4 poses [R | p] of the links' frames in frame 0, row-major [1 | m]
  */
-void wrist_forward_kinematics(const double *q, double *T);
-
-/* Observation matrix of many samples: y = W beta, with the torques of one sample together in y.
- *
- * q qd qdd  samples x 3
- * W         (samples*3) x 17
- */
-void wrist_observation(size_t samples, const double *q, const double *qd, const double *qdd,
-                       double *W);
+void wrist_forward_kinematics(const double q[WRIST_JOINTS], double T[3 * 3 * 4]);
 
 #ifdef __cplusplus
 }

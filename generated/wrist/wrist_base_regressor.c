@@ -41,8 +41,8 @@ static const double wrist_geo_bl1 = WRIST_GEO_bl1;
 
 /* Regressor of the base parameters.
  * 64 additions, 92 multiplications. */
-void wrist_base_regressor(const double *q, const double *qd, const double *qdd,
-                          double *MODELER_RESTRICT phi)
+void wrist_base_regressor(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
+                          const double qdd[WRIST_JOINTS], double MODELER_OUT(phi, 3 * 17))
 {
     phi[7] = 0.0;
     phi[17] = 0.0;
@@ -176,8 +176,8 @@ void wrist_base_regressor(const double *q, const double *qd, const double *qdd,
 
 /* The entries of the base regressor that are not always 0.
  * 64 additions, 92 multiplications. */
-void wrist_base_regressor_nonzeros(const double *q, const double *qd, const double *qdd,
-                                   double *MODELER_RESTRICT values)
+void wrist_base_regressor_nonzeros(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
+                                   const double qdd[WRIST_JOINTS], double MODELER_OUT(values, 37))
 {
     double s0, c0;
     modeler_sincos(q[0], &s0, &c0);

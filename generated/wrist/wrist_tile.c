@@ -48,7 +48,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "5bcf5c4b62367c54";
+    return "7e0fdbedba7c5633";
 }
 
 #else /* for one instruction set */

@@ -94,7 +94,9 @@ def _ros2(thing: Robot | IdentifiedModel) -> Exported:
     emitted = generate(_derivation(thing))
     fitted = thing if isinstance(thing, IdentifiedModel) else None
     values, told = _values(emitted.spec, fitted)
-    source = "Values of the robot file" if fitted is None else f"Values of a fit, {fitted.fit.method}"
+    source = (
+        "Values of the robot file" if fitted is None else f"Values of a fit, {fitted.fit.method}"
+    )
     texts = ros2_files(emitted, [value.now for value in values], source)
     files = {name: text.encode() for name, text in texts.items()}
     notes = ("the ROS part was never built or run with ROS; see README.md of the package", *told)

@@ -29,8 +29,9 @@ def export(
 
     Args:
         thing: a robot with values, or a model.
-        out: the file that is written; None: none.
-        to: "urdf", "mjcf", "sdf", "casadi", "fmu", "simulink"; None: by the original, or the ending of `out`.
+        out: the file that is written, of "ros2" the folder; None: none.
+        to: "urdf", "mjcf", "sdf", "casadi", "fmu", "simulink" or "ros2"; None: by the original, or
+            the ending of `out`.
         like: a file of the same robot, of which only the numbers are replaced.
         force: write also over a file with another content.
 

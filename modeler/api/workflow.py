@@ -17,7 +17,7 @@ from modeler.codegen import (
     load as load,
 )
 from modeler.core.builtin import builtin_names
-from modeler.core.errors import DataError, ManifestError, Precision
+from modeler.core.errors import DataError, Machine, ManifestError, Precision
 from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
@@ -89,7 +89,11 @@ def generate(
     precision: Precision = "double",
     cuda: bool = False,
     structured_text: bool = False,
+    a2l: bool = False,
     frames: Sequence[str] = (),
+    only: Sequence[str] = (),
+    vectors: bool = False,
+    measure: Machine | None = None,
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
 
@@ -103,10 +107,15 @@ def generate(
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
         structured_text: add function blocks in Structured Text, of a robot without loops.
+        a2l: add a description of the controller's parameter set for calibration tools.
         frames: rows, or links of [frames], whose pose, Jacobian and twist a controller reads
             besides those of the tool.
+        only: names of the functions that are wanted, without the robot's; empty: all.
+        vectors: add `vectors.csv`, 50 states by which a port qualifies itself.
+        measure: add what calls cost on this machine or a Cortex-M: `cost.json`.
 
     Raises:
+        BuildError: the compiler for that machine is missing.
         ManifestError: this version derives another manifest than the one that the values of the
             model belong to.
         ModelerError: the folder holds such files and `force` is not given; or it cannot be written.
@@ -116,13 +125,14 @@ def generate(
     else:
         derivation, fitted = emitted_anew(source)[0], model_file.fitted_spec(source)
     control = None
-    if frames:
+    if frames or only or vectors or measure:
         from modeler.codegen import Control  # who fits need not wait for it
 
-        control = Control(tuple(frames))
+        control = Control(tuple(frames), tuple(only), vectors)
     return generate_robot(
-        derivation, folder, force, fitted, precision, cuda, control, structured_text
-    )
+        derivation, folder, force, fitted, precision, cuda, control,
+        structured_text=structured_text, a2l=a2l, measure=measure,
+    )  # fmt: skip
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:

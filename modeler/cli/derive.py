@@ -332,13 +332,18 @@ def _facts(table: formulas.coefficients.CoefficientTable) -> list[str]:
 
 def run_generate(args: argparse.Namespace) -> Json:
     """Writes the folder and says what is in it."""
-    kinds = {name: vars(args)[name] for name in ("precision", "cuda", "structured_text")}
+    wanted = ("precision", "cuda", "structured_text", "a2l", "measure")
+    kinds = {name: vars(args)[name] for name in wanted}
+    only = tuple(name.strip() for name in args.only.split(",")) if args.only else ()
     model = _model(args)
     if model is not None:
         from modeler.api.workflow import generate as generate_of_model
 
         with working(f"deriving {model.spec.robot}"):
-            emitted = generate_of_model(model, args.out, args.force, frames=args.frame, **kinds)
+            emitted = generate_of_model(
+                model, args.out, args.force, frames=args.frame, only=only, vectors=args.vectors,
+                **kinds,
+            )  # fmt: skip
         for line in model.warning:
             print_error(line)
     else:
@@ -346,7 +351,7 @@ def run_generate(args: argparse.Namespace) -> Json:
 
         robot = robot_of(args)
         with working(f"deriving {robot.name}"):
-            control = Control(tuple(args.frame))
+            control = Control(tuple(args.frame), only, args.vectors)
             emitted = generate(derive(robot), args.out, args.force, control=control, **kinds)
     spec, fitted = emitted.spec, emitted.spec.fitted
     single = ", single precision" if spec.precision == "single" else ""

@@ -192,8 +192,8 @@ class ModuleFolder(OutputFolder):
     """Of an emitted module."""
 
     writes = (
-        "*.c", "*.h", "*.md", "*.sha256", "*.pc.in", "*.cmake", "manifest.json", "Makefile",
-        "CMakeLists.txt",
+        "*.c", "*.h", "*.hpp", "*.cu", "*.st", "*.a2l", "*.md", "*.sha256", "*.pc.in", "*.cmake",
+        "manifest.json", "Makefile", "CMakeLists.txt",
     )  # fmt: skip
 
 

@@ -24,8 +24,18 @@ GENERATE = Command(
                "of all numbers of the C: double, or float for a microcontroller", "double"),
         flag("--cuda", "also the base regressor for graphics processors"),
         flag("--structured-text", "also function blocks for a PLC, IEC 61131-3"),
+        flag("--a2l", "also a description of the parameter set for calibration tools"),
         repeated("--frame", "NAME", places.Word,
                  "also pose, Jacobian and twist of this row, or link of [frames]; may be repeated"),
+        value("--only", "LIST", places.Word,
+              'leave out what is not named: "inverse_dynamics,gravity"; with values and without; '
+              "observation is that of many samples"),
+        flag("--vectors",
+             "also vectors.csv, 50 states with 50 digits, and a program in C that checks a port "
+             "by them"),
+        choice("--measure", get_args(errors.Machine),
+               "also cost.json: stack, flash and instructions of every function there; wants gcc, "
+               "for a Cortex-M arm-none-eabi-gcc"),
         FORCE,
     ),
     "write the manifest for machines",

@@ -8,24 +8,29 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from modeler.codegen.fitted import Width
+from modeler.codegen.fitted import widths
+from modeler.codegen.functions import CFunction
 from modeler.codegen.package import render
+from modeler.codegen.parameter_set import SMOOTH
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ModuleSpec
+from modeler.derivation import SymbolicModel
 
 _WORD = 4  # bytes of uint32_t
 _SIZE = {"double": 8, "single": 4}
 
 
 def a2l_files(
-    spec: ModuleSpec, values: Mapping[str, Any], smooth: Sequence[Width]
-) -> dict[str, str]:
+    model: SymbolicModel, spec: ModuleSpec, values: Mapping[str, Any],
+    functions: Sequence[CFunction],
+) -> dict[str, str]:  # fmt: skip
     """{name: text} of the description.
 
     Args:
+        model: as derived.
         spec: of the module, with the controller's unit.
         values: what all templates of the module are given.
-        smooth: the widths of the set.
+        functions: of the module, those of the controller's unit too.
 
     Raises:
         EmitError: without the controller's unit there is no set.
@@ -34,26 +39,28 @@ def a2l_files(
         raise EmitError(f"{spec.robot}: A2L is of the controller's unit; write a folder with it")
     size, start = _SIZE[spec.precision], 2 * _WORD
     prefix = spec.prefix
+    signed = {each.name for each in spec.standard if not each.nonnegative}
     rows = [
         {
             "name": f"{prefix}_beta_{base.name}",
             "about": relation,
             "unit": base.unit,
-            "least": 0 if base.kind in ("viscous", "coulomb") else -1,
+            "positive": base.kind == "friction" and base.column_of not in signed,
         }
         for base, relation in zip(spec.base, values["relations"], strict=True)
     ]
+    smooth = widths(prefix, model, [f for f in functions if f.role.startswith(SMOOTH)])
+    about = "width over which dry friction turns, 0: none"
     rows += [
-        {"name": width.constant, "about": "width over which dry friction turns, 0: none",
-         "unit": width.unit, "least": 0}
-        for width in smooth
-    ]  # fmt: skip
+        {"name": width.constant, "about": about, "unit": width.unit, "positive": True}
+        for width in dict.fromkeys(smooth.values())
+    ]
     for at, row in enumerate(rows):
         row |= {"offset": start + size * at, "about": re.sub(r'["\\]', "'", row["about"])}
     units = list(dict.fromkeys(row["unit"] for row in rows))
     text = render(
         "a2l", **{**values, "spec": spec, "rows": rows, "units": units,
         "number": "FLOAT64_IEEE" if size == 8 else "FLOAT32_IEEE",
-        "largest": "1000000000000.0", "checksum": start + size * len(rows)},
+        "checksum": start + size * len(rows)},
     )  # fmt: skip
     return {f"{prefix}.a2l": text}

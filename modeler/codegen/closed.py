@@ -164,22 +164,27 @@ def _solving_functions(
     return [*found, rows]
 
 
-def closure_tables(model: SymbolicModel, solving: Solving, target: Target) -> dict[str, Any]:
+def closure_tables(
+    model: SymbolicModel, base: BaseParameters, solving: Solving, target: Target
+) -> dict[str, Any]:
     """Numbers of the closures, as C initialisers.
 
     Args:
         model: with loops.
+        base: its base parameters.
         solving: how they are solved.
         target: the number type.
     """
     closure, places, literal = solving.closure, solving.pattern.places, target.literal
+    n, m, g = len(closure.home), len(closure.solved), len(closure.given)
+    factors = max(len(own.factors) for own in solving.eliminations.values())
     scales = [closure.size if long else 1.0 for long in closure.lengths]
     return {
         "home": ", ".join(map(literal, closure.home)),
         "scale": ", ".join(map(literal, scales)),
-        "unknowns": len(closure.home),
-        "solved": len(closure.solved),
-        "given": len(closure.given),
+        "unknowns": n,
+        "solved": m,
+        "given": g,
         "equations": solving.equations,
         "alignments": len(closure.alignments),
         # Where the robot is small, its directions are as exact as its lengths.
@@ -190,7 +195,11 @@ def closure_tables(model: SymbolicModel, solving: Solving, target: Target) -> di
         "column": layout.name_lines([column for _, column in places]),
         "length": len(solving.values),
         "turned_from": solving.turned_from,
-        "factors": max(len(own.factors) for own in solving.eliminations.values()),
+        "factors": factors,
+        # Sizes of a posture's arrays, as in modeler_closure.h, and of what functions work in.
+        "places": 2 * m + n,
+        "numbers": 2 * (len(solving.values) + factors + m * (m + 1)) + m * (n - m + 5) + 5 * n,
+        "rows": n * max(base.rank, n + g),
         "sets": [
             {
                 "head": head,

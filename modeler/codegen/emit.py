@@ -10,8 +10,10 @@ from typing import Any
 import sympy
 
 from modeler.codegen import functions as layout
+from modeler.codegen.a2l import a2l_files
 from modeler.codegen.block import Block, float_text, make_block
 from modeler.codegen.closed import Solving, closed_functions, closure_tables, solving_of
+from modeler.codegen.closed_control import AtState
 from modeler.codegen.control import (
     OBSERVATION,
     UNIT as CONTROL_UNIT,
@@ -19,6 +21,7 @@ from modeler.codegen.control import (
     chosen,
     control_functions,
     fitted_control_functions,
+    plain_effects,
 )
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
@@ -39,6 +42,7 @@ from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec, ModuleSpec
 from modeler.derivation import (
     BaseParameters,
     Geometry,
+    Label,
     SymbolicModel,
     coefficient_text,
     geometric_symbol,
@@ -293,6 +297,9 @@ class _Written(CFunction):
     arguments: list[str]
     declaration: str
     definition: str
+    made: str  # prototypes of what is made of a closed posture, and of a state
+    at_declaration: str
+    at_definition: str
     lines: list[str]
     symbols: frozenset[str]
     additions: int
@@ -308,6 +315,7 @@ def emit(
     cuda: bool = False,
     control: Control | None = None,
     structured_text: bool = False,
+    a2l: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -319,6 +327,7 @@ def emit(
         cuda: add the kernels of `codegen.cuda`, of a robot without loops.
         control: add the controller's unit.
         structured_text: add the function blocks of `codegen.structured_text`.
+        a2l: add the description of the controller's parameter set, of `codegen.a2l`.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -330,31 +339,47 @@ def emit(
         check_values(base, fitted)
     with model.labelled():
         solving = solving_of(model, base) if model.closure is not None else None
-        parts = _parts(model, base, solving, fitted, control)
+        parts, labels = list[Sequence[CFunction]](), list[dict[int, Label]]()
+        for part in _parts(model, base, solving, fitted, control):
+            parts.append(part)
+            labels.append(model.graph.labels.copy())  # without those of the parts to come
         every = [function for part in parts for function in part]
         units, kept = None, frozenset(f.role for f in every)
         if control is not None and control.only:
+            if cuda or a2l:
+                raise EmitError(
+                    f"--{'cuda' if cuda else 'a2l'}: not with --only; generate two folders"
+                )
             kept = chosen(every, control.only, model.robot.name)
             units = {f.unit for f in every if f.role in kept} | {UNIT}
             units |= {"_batch"} if OBSERVATION in control.only else set()
         main, twins, more = ([f for f in part if f.role in kept] for part in parts)
+        model.graph.labels = labels[0]
         values = _module(model, base, precision, solving, main, units)
         spec: ModuleSpec = values["spec"]
         code = _code(spec, values)
         kernels = cuda_files(values) if cuda else {}
         if fitted is not None:
+            model.graph.labels = labels[1]
             spec, unit = _fitted_unit(model, fitted, twins, values)
             code |= unit
         if control is not None:
+            model.graph.labels = labels[2]
             spec, unit = _control_unit(model, spec, more, values)
             code |= unit
         values |= {"spec": spec}
         if structured_text:
             kernels |= structured_texts(model, spec, values, twins)
+        if a2l:
+            kernels |= a2l_files(model, spec, values, [*main, *twins, *more])
 
     def others() -> dict[str, str]:
         stored = stored_states(model, every, OF_PRECISION[precision], kept)
-        more = {"vectors.csv": vectors_text(spec.prefix, model, every, kept)} if control and control.vectors else {}
+        more = (
+            {"vectors.csv": vectors_text(spec.prefix, model, every, kept)}
+            if control and control.vectors
+            else {}
+        )
         return {
             **package_files(spec, code, {**values, "vectors": stored, "many_states": bool(more)}),
             **more,
@@ -371,17 +396,17 @@ def _parts(
     solving: Solving | None,
     fitted: FittedSpec | None,
     control: Control | None,
-) -> tuple[Sequence[CFunction], ...]:
+) -> Iterator[Sequence[CFunction]]:
     """The functions of the robot, those with its fitted values, those of the controller's unit."""
-    main = (
+    yield (
         layout.tree_functions(model, base) if solving is None
         else closed_functions(model, base, solving)
     )  # fmt: skip
-    twins = fitted_functions(model, base, fitted) if fitted is not None else ()
+    yield fitted_functions(model, base, fitted) if fitted is not None else ()
     more = control_functions(model, base, control) if control is not None else ()
     if control is not None and fitted is not None:
-        more += fitted_control_functions(model, base, fitted)
-    return main, twins, more
+        more = (*more, *fitted_control_functions(model, base, fitted, more))
+    yield more
 
 
 class _Files(Mapping[str, str]):
@@ -432,7 +457,12 @@ def _module(
         precision=precision,
         units=None if units is None else tuple(sorted(units)),
     )
-    shown = spec.has("_batch") or any(f.role == "base_regressor_nonzeros" for f in functions)
+    there = {f.role for f in functions}
+    shown = spec.has("_batch") or "base_regressor_nonzeros" in there
+    loops = closure_tables(model, base, solving, target) if solving else None
+    if loops is not None:
+        loops["sets"] = [each for each in loops["sets"] if f"tree_{each['head']}factor" in there]
+        loops["rowed"] = "tree_rows" in there
     symbols = symbol_lines(model, base, macros, target)
     written = [_written(prefix, f, block, target) for f, block in blocks]
     relations = [layout.relation(parameter) for parameter in base.parameters]
@@ -468,9 +498,12 @@ def _module(
         ],
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.name_lines([row for row, _ in spec.nonzeros] if shown else []),
-        "nonzero_columns": layout.name_lines([column for _, column in spec.nonzeros] if shown else []),
-        "loops": closure_tables(model, solving, target) if solving else None,
+        "nonzero_columns": layout.name_lines(
+            [column for _, column in spec.nonzeros] if shown else []
+        ),
+        "loops": loops,
         "names": constants,
+        "plain": plain_effects(model),
         "signature": "",
         "blocks": blocks,
         "places": places,
@@ -482,10 +515,7 @@ def _module(
 
 
 def _fitted_unit(
-    model: SymbolicModel,
-    fitted: FittedSpec,
-    functions: Sequence[CFunction],
-    values: dict[str, Any],
+    model: SymbolicModel, fitted: FittedSpec, functions: Sequence[CFunction], values: dict[str, Any]
 ) -> tuple[ModuleSpec, dict[str, str]]:
     """The manifest with the values, and the C of the functions that have them."""
     spec: ModuleSpec = values["spec"]
@@ -633,6 +663,7 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
     returns = "int" if function.status else "void"
     if function.internal and function.unit in (UNIT, CONTROL_UNIT):
         returns = "static void"
+    made, declared, defined = _at_state(prefix, function, number)
     return _Written(
         **vars(function),
         name=name,
@@ -641,8 +672,31 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         definition=layout.prototype(
             name, layout.arguments(function, number, prefix, defined=True), returns
         ),
+        made=made,
+        at_declaration=declared,
+        at_definition=defined,
         lines=[] if function.status else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
+    )
+
+
+def _at_state(prefix: str, function: CFunction, number: str) -> tuple[str, str, str]:
+    """Prototypes where loops are closed: made of a posture; of a state, declared and defined."""
+    closed = function.closed
+    if closed is None and not isinstance(function.composed, AtState):
+        return "", "", ""
+    motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
+    kept = dataclasses.replace(
+        function, inputs=tuple(a for a in function.inputs if a.name not in motion)
+    )
+    name = f"{prefix}_{function.role}_at"
+    plain, state = layout.arguments(kept, number, prefix), f"struct {prefix}_state *state"
+    posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
+    own = layout.arguments(kept, number, prefix, defined=True)
+    return (
+        layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
+        layout.prototype(name, [state, *plain], "int"),
+        layout.prototype(name, [state, *own], "int"),
     )
 
 

@@ -102,6 +102,8 @@ def widths(
     its motor have one width. A sign of anything else than such a speed leaps where it did.
     """
     values = [value for function in functions for _, value in function.entries]
+    if values:
+        model = dataclasses.replace(model, graph=values[0].graph)
     nodes = [model.graph.nodes[index] for index in model.graph.reachable(values)]
     read = {node.args[0] for node in nodes if node.op == "sign"}
     found: dict[int, Width] = {}

@@ -144,9 +144,9 @@ def _variables(
         about = " + ".join(f"{term.coefficient}*{term.parameter}" for term in base.terms)
         yield _Variable(base.name, base.unit, about, "parameter", float(value))
     units = {joint.name: joint.unit for joint in spec.joints}
-    for joint in widths:
-        about = f"width over which the Coulomb friction of joint {joint} turns"
-        yield _Variable(f"width{joint}", f"{units.get(joint, 'rad')}/s", about, "parameter", WIDTH)
+    for name in widths:
+        about = f"width over which the Coulomb friction of joint {name} turns"
+        yield _Variable(f"width{name}", f"{units.get(name, 'rad')}/s", about, "parameter", WIDTH)
 
 
 def _attributes(place: int, variables: Sequence[_Variable], n: int) -> list[tuple[str, str]]:

@@ -105,6 +105,16 @@ class Closed:
     tree: str = "tree"
 
     @property
+    def at(self) -> bool:
+        """True if it exists at a state too, of which the coordinates are given."""
+        return self.loops == "loops" and self.kind != "posture" and self.role != "regressor"
+
+    @property
+    def reads_accelerations(self) -> bool:
+        """True if it reads accelerations that are given."""
+        return "udd" in self.reads.split(", ") and self.qdd != "standing"
+
+    @property
     def calls(self) -> tuple[str, ...]:
         """Roles of the tree's functions that it calls."""
         head = self.loops.removesuffix("loops")
@@ -455,7 +465,7 @@ def prototype(name: str, parameters: Sequence[str], returns: str = "void") -> st
     return "\n".join(
         textwrap.wrap(
             f"{returns} {name}({', '.join(p.replace(' ', chr(160)) for p in parameters)})",
-            _WIDTH,
+            _WIDTH - 1,  # and a semicolon
             subsequent_indent=indent,
             break_long_words=False,
             break_on_hyphens=False,

@@ -38,7 +38,7 @@ def ros2_files(emitted: Emitted, beta: Sequence[float], source: str) -> dict[str
         )
     roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.functions}
     status = roles["inverse_dynamics"].status
-    calls = []
+    calls: list[str] = []
     for role, out, speed in (
         ("inverse_dynamics", "tau", "qd"), ("friction", "f", "qd"),
         ("friction", "f_d", "wanted.qd"),
@@ -47,7 +47,9 @@ def ros2_files(emitted: Emitted, beta: Sequence[float], source: str) -> dict[str
         words = [f"{given[argument.name]}.data()" for argument in roles[role].inputs]
         call = f"{roles[role].name}({', '.join(words)}, {out}.data())"
         if status:
-            call = f"int status = {call}" if not calls else f"status = status != 0 ? status : {call}"
+            call = (
+                f"int status = {call}" if not calls else f"status = status != 0 ? status : {call}"
+            )
         calls.append(f"{call};")
     names = [joint.name for joint in spec.joints]
     title = spec.title or spec.robot

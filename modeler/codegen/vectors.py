@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler.codegen.closed_control import AtState
 from modeler.codegen.functions import CFunction, Closed, name_lines
 from modeler.codegen.targets import Target
 from modeler.core.errors import EmitError
@@ -72,7 +73,9 @@ def stored_states(
         inputs, balls = _tables(model, functions, STATES)
     expected = {role: [_numbers(row) for row in rows] for role, rows in balls.items()}
     products = {role for role in kept if role in PRODUCTS}
-    shown = {*kept} | {f"{'platform_' * role.startswith('platform_')}inverse_dynamics" for role in products}
+    shown = {*kept} | {
+        f"{'platform_' * role.startswith('platform_')}inverse_dynamics" for role in products
+    }
     read = {a.name for f in functions if f.role in kept and not f.internal for a in f.inputs}
     read |= {"beta"} if products - {"regressor"} or "base_parameters" in kept else set()
     read |= {"chi"} if "regressor" in kept else set()
@@ -111,7 +114,9 @@ def vectors_text(
                     lines.append(",".join([name, str(state), *map(repr, table[state])]))
             for role, rows in expected.items():
                 if role in kept and state < len(rows):
-                    lines.append(",".join([f"{prefix}_{role}", str(state), *map(_digits, rows[state])]))
+                    lines.append(
+                        ",".join([f"{prefix}_{role}", str(state), *map(_digits, rows[state])])
+                    )
     return "".join(f"{line}\n" for line in lines)
 
 
@@ -119,7 +124,9 @@ def _digits(x: Ball) -> str:
     if x.contains(0):
         return "0"
     if x.rel_accuracy_bits() < _DIGITS / math.log10(2) + 1:
-        raise EmitError(f"a number of the vectors is known as {x} only; fewer than {_DIGITS} digits")
+        raise EmitError(
+            f"a number of the vectors is known as {x} only; fewer than {_DIGITS} digits"
+        )
     return str(x.str(_DIGITS, radius=False))
 
 
@@ -131,9 +138,7 @@ def _inputs(model: SymbolicModel, states: int) -> dict[str, Table]:
         return [[number(i, state) for i in range(length)] for state in range(states)]
 
     def spread(factor: int, per: float) -> Callable[[int, int], float]:
-        return lambda i, state: (
-            ((factor * i + 7 * state + 3) % 23 - 11.5 + state // 23 / 4) * per
-        )
+        return lambda i, state: ((factor * i + 7 * state + 3) % 23 - 11.5 + state // 23 / 4) * per
 
     def speed(i: int, state: int) -> float:
         return (-1) ** (i + state) * (1 + (5 * i + 3 * state) % 13 / 16) / 64 ** (state % 3)
@@ -144,10 +149,18 @@ def _inputs(model: SymbolicModel, states: int) -> dict[str, Table]:
         "qdd": table(coordinates, spread(5, 1 / 4)),
         "v": table(coordinates, lambda i, state: speed(i + 2, state)),
         "a": table(coordinates, spread(9, 1 / 4)),
+        "tau": table(coordinates, spread(13, 2.0)),
+        "damping": table(1, lambda i, state: (state % 7 + 1) / 8),
         "s": table(len(model.signals), lambda i, state: (i + 1 + 2 * state) / 16),
         "dq": table(coordinates, spread(3, 1 / 512)),
         "dt": table(1, lambda i, state: (state + 1) / 256),
-        "chi": [[1 + (40503 * k + 977) % 4096 / 4096 for k in range(len(model.columns))]],
+        # Inertias of bodies that can be: their matrix is positive definite.
+        "chi": [
+            [
+                1 + (40503 * k + 977) % 4096 / 4096 + 32 * name.startswith(("XX", "YY", "ZZ"))
+                for k, name in enumerate(model.names)
+            ]
+        ],
     }
 
 
@@ -179,6 +192,8 @@ def _tables(
         return out
 
     inputs, closure = _inputs(model, states), model.closure
+    smooth = [a.size for f in functions for a in f.inputs if a.name == "widths"]
+    inputs["widths"] = [[0.0] * size for size in smooth[:1]] * states  # then signs leap
     chi = _named(chi=inputs["chi"][0])
     found = outputs("base_parameters", chi)
     beta = [exact_ball(_fine(float(x))) for x in found] if exact else found
@@ -204,14 +219,129 @@ def _tables(
             signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")})
             for role, f in roles.items():
                 c = f.closed or _DIRECT
-                if f.internal or f.composed or role in left or c.q != name:
+                if f.internal or role in left or c.q != name or (closure and f.composed):
+                    continue
+                if f.composed:
+                    own = {**constants, **signals, **_named(tau=inputs["tau"][k]), **moving.inputs}
+                    if isinstance(f.composed, AtState):
+                        made = _carried(f.composed, own, _Carrying(enclosures, u, qd), outputs)
+                    else:
+                        made = _solved(f, own, _named(damping=inputs["damping"][k]), outputs)
+                    expected.setdefault(role, []).extend([made] if made else [])
                     continue
                 state = standing if c.qdd == "standing" else moving
                 tree = role if not f.closed else f"{c.tree}_{_ROWS.get(c.kind, c.role)}"
                 given = {**constants, **signals, **state.inputs}
                 out = outputs(tree, given) if tree in roles else []
                 expected.setdefault(role, []).append(_made(c.kind, state, out))
-    return inputs, expected
+    # Where a matrix is not positive definite, its functions have no number.
+    return inputs, {
+        role: rows
+        for role, rows in expected.items()
+        if len(rows) == (1 if role == "base_parameters" else states)
+    }
+
+
+def _solved(
+    f: CFunction,
+    given: Mapping[str, Ball],
+    damping: Mapping[str, Ball],
+    outputs: Callable[[str, Mapping[str, Ball]], list[Ball]],
+) -> list[Ball]:
+    """Output of a function that solves with the inertia matrix; [] where that has no meaning."""
+    assert f.composed is not None
+    head = "fitted_" * f.role.startswith("fitted_")
+    M = outputs(f"{head}inertia_matrix", given)
+    n, matrix = math.isqrt(len(M)), flint().arb_mat
+    pivots = np.linalg.eigvalsh(np.reshape(_numbers(M), (n, n)))
+    if f.composed.turns > 1 or pivots[0] < 1e-6 * pivots[-1]:
+        return []
+    inverse = matrix(n, n, M).inv()
+    if f.composed.kind.startswith("operational"):
+        J = matrix(6, n, outputs("jacobian", given))
+        square = damping["damping[0]"] * damping["damping[0]"]
+        add = matrix(6, 6, [square if i % 7 == 0 else exact_ball(0) for i in range(36)])
+        L = (J * inverse * J.transpose() + add).inv()
+        return list((L if f.output.name == "L" else inverse * J.transpose() * L).entries())
+    still = {**given, **{f"qdd[{j}]": exact_ball(0) for j in range(n)}}
+    rest = outputs(f"{head}inverse_dynamics", still)
+    qdd = (inverse * matrix(n, 1, [given[f"tau[{j}]"] - x for j, x in enumerate(rest)])).entries()
+    if f.composed.kind == "forward_dynamics":
+        return list(qdd)
+    moving = {**given, **{f"qdd[{j}]": x for j, x in enumerate(qdd)}}
+    slopes = outputs(f"{head}derivatives", moving)
+    parts = [matrix(n, n, [-x for x in slopes[k : k + n * n]]) for k in (0, n * n)]
+    return [x for part in parts for x in (inverse * part).entries()] + list(inverse.entries())
+
+
+class _Carrying:
+    """What a state of the opened tree is made of: G, its rate, and gamma, udd at qdd = 0."""
+
+    def __init__(self, enclosures: Enclosures, u: np.ndarray, qd: np.ndarray) -> None:
+        matrix, n, g = flint().arb_mat, len(u), len(qd)
+        states = [enclosures.state(u, speed, 0.0 * qd) for speed in _polar(qd)]
+        self.G = matrix(states[0].coupling)
+        # gamma is a square of the speeds, dG/dt v a product of two of them.
+        own, *others = [[state.inputs[f"qdd[{k}]"] for k in range(n)] for state in states]
+        self.gamma = matrix(n, 1, own)
+        ahead, behind = others[:g], others[g:]
+        rate = [(ahead[j][k] - behind[j][k]) / 4 for k in range(n) for j in range(g)]
+        self.rate = matrix(n, g, rate)
+
+
+def _polar(qd: np.ndarray) -> Iterable[np.ndarray]:
+    return (qd, *(qd + unit for unit in np.eye(len(qd))), *(qd - unit for unit in np.eye(len(qd))))
+
+
+def _carried(
+    made: AtState,
+    given: Mapping[str, Ball],
+    by: _Carrying,
+    outputs: Callable[[str, Mapping[str, Ball]], list[Ball]],
+) -> list[Ball]:
+    """Output of a controller's function of closed loops; [] where that has no number here."""
+    n, g, matrix = by.G.nrows(), by.G.ncols(), flint().arb_mat
+
+    def tree(role: str, rows: int, values: Mapping[str, Ball] = given) -> Ball:
+        out = outputs(role, values)
+        return matrix(rows, len(out) // rows, out)
+
+    def column(name: str, rows: int = g) -> Ball:
+        return matrix(rows, 1, [given[f"{name}[{k}]"] for k in range(rows)])
+
+    back, form, role = by.G.transpose(), made.form, made.roles.get("made", "")
+    beside = made.roles.get("beside", "")
+    if form == "fitted":
+        return []
+    if form == "rate":
+        return list(by.rate.entries())
+    if form == "direct":
+        return outputs(role, given)
+    if form.startswith("jacobian"):
+        J = tree(beside, 6)
+        found = J * by.G if form == "jacobian" else tree(role, 6) + J * by.gamma
+    elif form == "forward_dynamics":
+        head = "fitted_" * made.roles["matrix"].startswith("fitted_")
+        M = back * tree(f"{head}tree_inertia_matrix", n) * by.G
+        pivots = np.linalg.eigvalsh(np.reshape(_numbers(M.entries()), (g, g)))
+        if pivots[0] < 1e-6 * pivots[-1]:
+            return []
+        still = {f"qdd[{k}]": x for k, x in enumerate(by.gamma.entries())}
+        bias = back * tree(f"{head}tree_inverse_dynamics", n, {**given, **still})
+        found = M.inv() * (column("tau") - bias)
+    elif form == "slotine_li":
+        v, a = by.G * column("v"), by.G * column("a") + by.rate * column("v")
+        own = {f"{x}[{k}]": y for x, ys in (("v", v), ("a", a)) for k, y in enumerate(ys.entries())}
+        found = back * tree(role, n, {**given, **own})
+    elif form == "coriolis_matrix":
+        found = back * (tree(role, n) * by.G + tree(beside, n) * by.rate)
+    else:
+        found = back * tree(role, n)
+        if form == "coriolis_transpose":
+            found += by.rate.transpose() * tree(beside, n)
+        elif form == "momentum_rest":
+            found -= by.rate.transpose() * tree(beside, n)
+    return list(found.entries())
 
 
 def _made(kind: str, state: EnclosedState, out: list[Ball]) -> list[Ball]:

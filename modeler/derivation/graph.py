@@ -9,7 +9,7 @@ fold numbers, so that symbolic lengths cost no more operations than numeric ones
 Two expressions are equal when they are equal as functions, however they are written: every node
 carries its value modulo the prime 2**61 - 1 at a fixed random point, with cos and sin on the unit
 circle (those of a sum are composed of those of its terms), and a new node whose value is known is
-the known node, unless that reads symbols which the new one does without. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
+the known node. So c*c + s*s is 1, and what vanishes identically is the zero. (Two different
 rational functions of degree d share a value with a probability of about d * 2**-61; emitted code is
 compared with other derivations anyway.)
 """
@@ -143,14 +143,19 @@ class Graph:
         labels: {node: what it is}, of those that were named; see `named`.
         links: {name: the row}, for those who write of them.
         called: {quantity: another}, while speeds are put in the place of accelerations.
+
+    Args:
+        apart: True for functions of different inputs: a known node is taken only where it reads no
+            symbol that the new one does without. (What qdd cancels out of may be written with it.)
     """
 
-    def __init__(self) -> None:
+    def __init__(self, apart: bool = False) -> None:
         one = Node("num", (Fraction(1),), True)
         self.nodes: list[Node] = [Node("num", (Fraction(0),), True), one]
         self._index: dict[tuple[str, tuple[Any, ...]], int] = {("num", one.args): 1}
         self._residue = [0, 1]
         self._by_residue = {0: 0, 1: 1}
+        self._apart = apart
         self._read = [0, 0]  # symbols that a node reads, a bit for each
         self._symbols = 0
         self._plans: dict[tuple[int, ...], Plan] = {}
@@ -200,7 +205,7 @@ class Graph:
         ref = self._index.get(key)
         if ref is None:
             residue = self._modular(op, args)
-            read = self._bits(op, args)
+            read = self._bits(op, args) if self._apart else 0
             # Numbers are compared as numbers: two of them may well agree modulo the prime.
             ref = None if op == "num" else self._known(residue)
             if ref is None or self._read[abs(ref)] & ~read:
@@ -211,7 +216,8 @@ class Graph:
                 if op == "num":
                     self._by_residue.setdefault(residue, ref)
                 else:
-                    self._by_residue.pop(PRIME - residue, None)
+                    if ref is not None:
+                        self._by_residue.pop(PRIME - residue, None)
                     self._by_residue[residue] = ref
             self._index[key] = ref
         return ref

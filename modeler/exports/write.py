@@ -37,8 +37,8 @@ def format_of(to: str | None, like: str, out: str) -> str:
     ending = Path(out).suffix.lower()
     if ending not in ENDINGS:
         raise DataError(
-            f"export: {out or 'nothing'} does not say the format; give --to {', '.join(FORMATS)}, or "
-            f"an ending {', '.join(ENDINGS)}"
+            f"export: {out or 'nothing'} does not say the format; give --to {', '.join(FORMATS)}, "
+            f"or an ending {', '.join(ENDINGS)}"
         )
     return ENDINGS[ending]
 

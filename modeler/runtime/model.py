@@ -31,6 +31,23 @@ _REFUSED = {
 """The same without loops."""
 
 
+class _Functions(dict[str, FunctionSpec]):
+    """Functions of a module by name without the robot's; what is not there is told."""
+
+    def __init__(self, spec: ModuleSpec) -> None:
+        start = f"{spec.prefix}_"
+        super().__init__({f.name.removeprefix(start): f for f in spec.every_function})
+        self._spec = spec
+
+    def __missing__(self, role: str) -> FunctionSpec:
+        some = "; it was generated with --only: generate it without" * (
+            self._spec.units is not None
+        )
+        raise ManifestError(
+            f"{self._spec.robot} has no function {role}; expected {', '.join(sorted(self))}{some}"
+        )
+
+
 class CompiledModel(Batches, Presented):
     """tau = M(q) qdd + c(q, qd) + g(q) + f(qd) = phi beta, over n samples at once.
 
@@ -54,10 +71,7 @@ class CompiledModel(Batches, Presented):
         self._tile_files = tile_files or {}
         self.log: Mapping[str, object] = log or {}
         self._library = library
-        self._functions = {
-            function.name.removeprefix(f"{spec.prefix}_"): function
-            for function in spec.every_function
-        }
+        self._functions = _Functions(spec)
         self._joints = len(spec.joints)
 
     def __reduce__(self) -> tuple[Callable[..., "CompiledModel"], tuple[Any, ...]]:
@@ -88,6 +102,8 @@ class CompiledModel(Batches, Presented):
                 into fresh memory pages.
             s: signals of effects, where there are any.
         """
+        if not self.spec.has("_batch"):
+            self._functions["observation"]
         inputs = self._motion(q, qd, qdd, s)
         shape = (len(inputs[0]) * self._joints, len(self.spec.base))
         W = np.empty(shape) if out is None else checked_out(out, shape)
@@ -227,10 +243,7 @@ class CompiledModel(Batches, Presented):
         self, role: str, arrays: Mapping[str, Any]
     ) -> tuple[np.ndarray, np.ndarray | None, list[np.ndarray]]:
         """Output, statuses, inputs."""
-        function = self._functions.get(role)
-        if function is None:
-            known = ", ".join(sorted(self._functions))
-            raise ManifestError(f"{self.spec.robot} has no function {role}; expected {known}")
+        function = self._functions[role]
         wanted = {argument.name: argument.size for argument in function.inputs}
         if wanted.keys() != arrays.keys():
             raise ShapeError(
@@ -254,8 +267,6 @@ class CompiledModel(Batches, Presented):
     def _evaluate(
         self, role: str, states: Mapping[str, Any], beta: Any = None, s: Any = None
     ) -> np.ndarray:
-        if role not in self._functions:
-            raise ManifestError(f"{self.spec.robot} has no {role}: it has no platform in a loop")
         function: FunctionSpec = self._functions[role]
         given = self._states(states)
         samples = len(next(iter(given.values())))

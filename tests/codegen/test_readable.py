@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from modeler.codegen import naming
+from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.codegen.naming import Naming
 from modeler.codegen.workflow import derive, load
@@ -81,6 +82,20 @@ def test_the_text_does_not_depend_on_what_was_asked_of_the_model_before() -> Non
     second.closed_form()
     second.regressor()
     assert dict(emit(second.model, second.base).files) == before
+
+
+@pytest.mark.parametrize("name", ["ur10e", "five-bar"])
+def test_the_names_of_a_robot_do_not_depend_on_its_other_units(name: str) -> None:
+    """Its signature neither: a model fitted without them belongs to a folder with them."""
+    made = module(name)
+    fitted = fitted_of(made.emitted.spec)
+    more = emit(made.model, made.base, fitted, control=Control())
+    for file, text in made.emitted.code.items():
+        if "tile" not in file and "/" not in file and file.endswith(".c"):
+            assert more.files[file] == text, file
+    alone = emit(made.model, made.base, fitted)
+    unit = f"{made.emitted.spec.prefix}_fitted.c"
+    assert alone.files[unit] == more.files[unit]
 
 
 def values_at(model, refs, q, qd, qdd) -> np.ndarray:

@@ -131,7 +131,8 @@ namespace hardware_interface { struct CommandInterface {
 namespace rclcpp {
 struct Logger {}; struct Time {}; struct Duration {}; struct SystemDefaultsQoS {};
 struct Parameter {
-    std::vector<std::string> as_string_array() const; std::vector<double> as_double_array() const; };
+    std::vector<std::string> as_string_array() const;
+    std::vector<double> as_double_array() const; };
 template <typename T> struct Subscription {};
 struct Node {
     Logger get_logger() const; const char *get_name() const;
@@ -209,7 +210,9 @@ def test_the_files_name_one_another(package) -> None:
     made = ET.parse(folder / "plugin.xml").getroot()
     assert made.get("path") == name
     assert made.find("class").get("type") == f"{name}::Controller"
-    assert f"PLUGINLIB_EXPORT_CLASS({name}::Controller" in found.files["src/controller.cpp"].decode()
+    assert (
+        f"PLUGINLIB_EXPORT_CLASS({name}::Controller" in found.files["src/controller.cpp"].decode()
+    )
     cmake = found.files["CMakeLists.txt"].decode()
     assert all(f"src/{p.name}\n" in cmake for p in (folder / "src").glob("*.c"))
     assert f"type: {name}/Controller" in found.files["config/controller.yaml"].decode()

@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "five_bar.h"
-#include "modeler_closure.h"
-#include "modeler_runtime.h"
+#include "five_bar_batch.h"
+#include "modeler_batch.h"
 #include "modeler_sincos.h"
 
 #define N 2
@@ -66,17 +66,17 @@ static double qdd[] = {
     -2.125, -0.875, -0.375, 0.875
 };
 static double chi[] = {
-    1.238525390625, 1.126953125, 1.015380859375, 1.90380859375, 1.792236328125, 1.6806640625,
-    1.569091796875, 1.45751953125, 1.345947265625, 1.234375, 1.122802734375, 1.01123046875,
-    1.899658203125, 1.7880859375, 1.676513671875, 1.56494140625, 1.453369140625, 1.341796875,
-    1.230224609375, 1.11865234375, 1.007080078125, 1.8955078125, 1.783935546875, 1.67236328125,
-    1.560791015625, 1.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 1.0029296875,
-    1.891357421875, 1.77978515625, 1.668212890625, 1.556640625, 1.445068359375, 1.33349609375,
+    33.238525390625, 1.126953125, 1.015380859375, 33.90380859375, 1.792236328125, 33.6806640625,
+    1.569091796875, 1.45751953125, 1.345947265625, 1.234375, 33.122802734375, 1.01123046875,
+    1.899658203125, 33.7880859375, 1.676513671875, 33.56494140625, 1.453369140625, 1.341796875,
+    1.230224609375, 1.11865234375, 33.007080078125, 1.8955078125, 1.783935546875, 33.67236328125,
+    1.560791015625, 33.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 1.0029296875,
+    33.891357421875, 1.77978515625, 1.668212890625, 33.556640625, 1.445068359375, 33.33349609375,
     1.221923828125, 1.1103515625, 1.998779296875, 1.88720703125
 };
 static double beta[] = {
-    2.04318359375, 2.777490234375, 1.45751953125, 2.0304361979166665, 2.6171061197916665,
-    1.341796875, 1.3509915364583334, 1.0207845052083333, 1.22607421875, 0.8202880859375,
+    34.04318359375, 2.777490234375, 1.45751953125, 34.030436197916664, 2.6171061197916665,
+    1.341796875, 33.35099153645833, 1.0207845052083333, 1.22607421875, 32.8202880859375,
     1.1103515625
 };
 static double start[] = {
@@ -84,20 +84,20 @@ static double start[] = {
     -1.350132251110884, 0.94146728515625, 1.4270768889925665
 };
 static double at_inverse_dynamics[] = {
-    -37.76194951627745, -0.9806222433076481, -34.26950054960603, 5.427649204602496
+    -134.76945474141746, -36.83154365182733, -56.04163732168564, 51.71165524392496
 };
 static double at_gravity[] = {
     -33.84787879730468, 1.8281897924623383, -33.38160824854484, 3.155057060920931
 };
 static double at_coriolis[] = {
-    1.0340352171029454, -0.5879674469923919, 0.000358991925491991, -0.00016553978655419173
+    2.420399765868296, -0.8349636927842448, 0.0012407967559906986, 0.0003433504053242518
 };
 static double at_friction[] = {
     0.0, 0.0, 0.0, 0.0
 };
 static double at_inertia_matrix[] = {
-    2.3379989167428397, -0.0230191565746493, -0.0230191565746493, 2.5940117674271135,
-    2.3175133717722476, -0.02192431836809524, -0.02192431836809524, 2.588041216091523
+    50.3915093272485, -4.274264697625131, -4.274264697625131, 53.60866541023866, 50.29058576362389,
+    -4.345485952614664, -4.345485952614664, 53.63051154327795
 };
 static double at_forward_kinematics[] = {
     -0.5968680217005637, -0.8023394323297686, 0.0, 0.0, 0.8023394323297686, -0.5968680217005637,
@@ -128,23 +128,26 @@ static double at_coupling[] = {
     0.6936714346412841, -1.0459308652490307
 };
 
-static double out[STATES * 80], product[STATES * N], worst;
+static double out[STATES * 80], worst;
+static double product[STATES * N];
 static int failed;
 static int status[STATES];
 
 /* Whether a part of the library belongs to the header. */
 static int belongs(const char *part, const char *signature, const char *header)
 {
-    if (strcmp(signature, header) == 0)
+    if (strcmp(signature, header) == 0) {
         return 1;
+    }
     printf("five_bar: the %s is %s,\nthe header %s\n", part, signature, header);
     return 0;
 }
 
 static void empty(void)
 {
-    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++)
+    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++) {
         out[i] = NAN;
+    }
 }
 
 /* Compares what a function gave with what it should. */
@@ -155,8 +158,9 @@ static void compare(const char *name, const double *given, const double *expecte
         const double *const state = expected + k / length * length;
         double largest = LEAST, apart;
 
-        for (int i = 0; i < length; i++)
+        for (int i = 0; i < length; i++) {
             largest = fmax(largest, fabs(state[i]));
+        }
         apart = fabs(given[k] - expected[k]) / largest;
         if (!(apart <= tolerance)) {
             printf("%s: state %d, number %d: %.12g, expected %.12g\n", name, k / length, k % length,
@@ -166,11 +170,12 @@ static void compare(const char *name, const double *given, const double *expecte
         }
         worst = fmax(worst, apart);
     }
-    for (int i = 0; i < STATES; i++)
+    for (int i = 0; i < STATES; i++) {
         if (status[i] != 0) {
             printf("%s: state %d: status %d\n", name, i, status[i]);
             failed = 1;
         }
+    }
 }
 
 /* Rows times parameters, into `product`. */
@@ -178,8 +183,9 @@ static void multiply(const double *rows, int columns, const double *parameters)
 {
     for (int i = 0; i < STATES * N; i++) {
         product[i] = 0.0;
-        for (int k = 0; k < columns; k++)
+        for (int k = 0; k < columns; k++) {
             product[i] += rows[i * columns + k] * parameters[k];
+        }
     }
 }
 
@@ -188,8 +194,9 @@ static void add_up(const double *M, const double *c, const double *g, const doub
 {
     for (int i = 0; i < STATES * N; i++) {
         product[i] = c[i] + g[i] + f[i];
-        for (int k = 0; k < N; k++)
+        for (int k = 0; k < N; k++) {
             product[i] += M[i * N + k] * qdd[i / N * N + k];
+        }
     }
 }
 
@@ -208,8 +215,9 @@ static void compare_sines(void)
 int main(void)
 {
     if (!belongs("library", five_bar_signature(),
-            FIVE_BAR_SIGNATURE))
+            FIVE_BAR_SIGNATURE)) {
         return 1;
+    }
     compare_sines();
     empty();
     {
@@ -218,8 +226,9 @@ int main(void)
         modeler_batch_1(five_bar_base_parameters, 1, inputs,
             out, 11);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(beta, out, sizeof(beta));
+    }
     compare("five_bar_base_parameters", out,
             beta, 1, 11, TOLERANCE);
     empty();
@@ -229,8 +238,9 @@ int main(void)
         modeler_batch_status_4(five_bar_inverse_dynamics, 2, inputs,
             out, 2, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
+    }
     compare("five_bar_inverse_dynamics", out,
             at_inverse_dynamics, 2, 2, TOLERANCE);
     empty();
@@ -240,8 +250,9 @@ int main(void)
         modeler_batch_status_2(five_bar_gravity, 2, inputs,
             out, 2, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_gravity, out, sizeof(at_gravity));
+    }
     compare("five_bar_gravity", out,
             at_gravity, 2, 2, TOLERANCE);
     empty();
@@ -251,8 +262,9 @@ int main(void)
         modeler_batch_status_3(five_bar_coriolis, 2, inputs,
             out, 2, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_coriolis, out, sizeof(at_coriolis));
+    }
     compare("five_bar_coriolis", out,
             at_coriolis, 2, 2, TOLERANCE);
     empty();
@@ -262,8 +274,9 @@ int main(void)
         modeler_batch_status_3(five_bar_friction, 2, inputs,
             out, 2, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_friction, out, sizeof(at_friction));
+    }
     compare("five_bar_friction", out,
             at_friction, 2, 2, TOLERANCE);
     empty();
@@ -273,8 +286,9 @@ int main(void)
         modeler_batch_status_2(five_bar_inertia_matrix, 2, inputs,
             out, 4, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
+    }
     compare("five_bar_inertia_matrix", out,
             at_inertia_matrix, 2, 4, TOLERANCE);
     empty();
@@ -284,8 +298,9 @@ int main(void)
         modeler_batch_status_1(five_bar_forward_kinematics, 2, inputs,
             out, 48, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
+    }
     compare("five_bar_forward_kinematics", out,
             at_forward_kinematics, 2, 48, TOLERANCE);
     empty();
@@ -295,8 +310,9 @@ int main(void)
         modeler_batch_status_1(five_bar_close, 2, inputs,
             out, 4, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_close, out, sizeof(at_close));
+    }
     compare("five_bar_close", out,
             at_close, 2, 4, TOLERANCE);
     empty();
@@ -306,8 +322,9 @@ int main(void)
         modeler_batch_status_2(five_bar_close_from, 2, inputs,
             out, 4, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_close_from, out, sizeof(at_close_from));
+    }
     compare("five_bar_close_from", out,
             at_close_from, 2, 4, TOLERANCE);
     empty();
@@ -317,8 +334,9 @@ int main(void)
         modeler_batch_status_1(five_bar_coupling, 2, inputs,
             out, 8, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_coupling, out, sizeof(at_coupling));
+    }
     compare("five_bar_coupling", out,
             at_coupling, 2, 8, TOLERANCE);
     empty();
@@ -350,7 +368,7 @@ int main(void)
     compare("five_bar_inertia_matrix and others", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     printf("five_bar %s:\n", FIVE_BAR_SIGNATURE);
-    if (failed) {
+    if (failed != 0) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }

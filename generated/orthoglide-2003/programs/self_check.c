@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "orthoglide_2003.h"
-#include "modeler_closure.h"
-#include "modeler_runtime.h"
+#include "orthoglide_2003_batch.h"
+#include "modeler_batch.h"
 #include "modeler_sincos.h"
 
 #define N 3
@@ -75,44 +75,44 @@ static double qdd[] = {
     -2.125, -0.875, 0.375, -0.375, 0.875, 2.125
 };
 static double chi[] = {
-    1.238525390625, 1.126953125, 1.015380859375, 1.90380859375, 1.792236328125, 1.6806640625,
-    1.569091796875, 1.45751953125, 1.345947265625, 1.234375, 1.122802734375, 1.01123046875,
-    1.899658203125, 1.7880859375, 1.676513671875, 1.56494140625, 1.453369140625, 1.341796875,
-    1.230224609375, 1.11865234375, 1.007080078125, 1.8955078125, 1.783935546875, 1.67236328125,
-    1.560791015625, 1.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 1.0029296875,
-    1.891357421875, 1.77978515625, 1.668212890625, 1.556640625, 1.445068359375, 1.33349609375,
+    1.238525390625, 33.126953125, 1.015380859375, 1.90380859375, 33.792236328125, 1.6806640625,
+    33.569091796875, 1.45751953125, 1.345947265625, 1.234375, 1.122802734375, 1.01123046875,
+    1.899658203125, 1.7880859375, 1.676513671875, 33.56494140625, 1.453369140625, 1.341796875,
+    33.230224609375, 1.11865234375, 33.007080078125, 1.8955078125, 1.783935546875, 1.67236328125,
+    1.560791015625, 1.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 33.0029296875,
+    1.891357421875, 1.77978515625, 33.668212890625, 1.556640625, 33.445068359375, 1.33349609375,
     1.221923828125, 1.1103515625, 1.998779296875, 1.88720703125, 1.775634765625, 1.6640625,
-    1.552490234375, 1.44091796875, 1.329345703125, 1.2177734375, 1.106201171875, 1.99462890625,
-    1.883056640625, 1.771484375, 1.659912109375, 1.54833984375, 1.436767578125, 1.3251953125,
-    1.213623046875, 1.10205078125, 1.990478515625, 1.87890625, 1.767333984375, 1.65576171875,
-    1.544189453125, 1.4326171875, 1.321044921875, 1.20947265625, 1.097900390625, 1.986328125,
-    1.874755859375, 1.76318359375, 1.651611328125, 1.5400390625, 1.428466796875, 1.31689453125,
-    1.205322265625, 1.09375, 1.982177734375, 1.87060546875, 1.759033203125, 1.6474609375,
-    1.535888671875, 1.42431640625, 1.312744140625, 1.201171875, 1.089599609375, 1.97802734375,
-    1.866455078125, 1.7548828125, 1.643310546875, 1.53173828125, 1.420166015625, 1.30859375,
-    1.197021484375, 1.08544921875, 1.973876953125, 1.8623046875, 1.750732421875, 1.63916015625,
-    1.527587890625, 1.416015625, 1.304443359375, 1.19287109375, 1.081298828125, 1.9697265625,
-    1.858154296875, 1.74658203125, 1.635009765625, 1.5234375, 1.411865234375, 1.30029296875,
-    1.188720703125, 1.0771484375, 1.965576171875, 1.85400390625, 1.742431640625, 1.630859375,
-    1.519287109375, 1.40771484375, 1.296142578125, 1.1845703125, 1.072998046875, 1.96142578125,
-    1.849853515625, 1.73828125, 1.626708984375, 1.51513671875, 1.403564453125, 1.2919921875,
-    1.180419921875, 1.06884765625, 1.957275390625, 1.845703125, 1.734130859375, 1.62255859375,
-    1.510986328125, 1.3994140625, 1.287841796875, 1.17626953125, 1.064697265625, 1.953125,
-    1.841552734375, 1.72998046875, 1.618408203125, 1.5068359375, 1.395263671875, 1.28369140625,
-    1.172119140625, 1.060546875, 1.948974609375, 1.83740234375, 1.725830078125, 1.6142578125,
-    1.502685546875, 1.39111328125, 1.279541015625, 1.16796875, 1.056396484375, 1.94482421875,
-    1.833251953125, 1.7216796875, 1.610107421875, 1.49853515625, 1.386962890625, 1.275390625,
+    1.552490234375, 33.44091796875, 1.329345703125, 1.2177734375, 33.106201171875, 1.99462890625,
+    33.883056640625, 1.771484375, 1.659912109375, 1.54833984375, 1.436767578125, 33.3251953125,
+    1.213623046875, 1.10205078125, 33.990478515625, 1.87890625, 33.767333984375, 1.65576171875,
+    1.544189453125, 1.4326171875, 1.321044921875, 33.20947265625, 1.097900390625, 1.986328125,
+    33.874755859375, 1.76318359375, 33.651611328125, 1.5400390625, 1.428466796875, 1.31689453125,
+    1.205322265625, 33.09375, 1.982177734375, 1.87060546875, 33.759033203125, 1.6474609375,
+    33.535888671875, 1.42431640625, 1.312744140625, 1.201171875, 1.089599609375, 33.97802734375,
+    1.866455078125, 1.7548828125, 33.643310546875, 1.53173828125, 33.420166015625, 1.30859375,
+    1.197021484375, 1.08544921875, 1.973876953125, 33.8623046875, 1.750732421875, 1.63916015625,
+    33.527587890625, 1.416015625, 33.304443359375, 1.19287109375, 1.081298828125, 1.9697265625,
+    1.858154296875, 33.74658203125, 1.635009765625, 1.5234375, 33.411865234375, 1.30029296875,
+    33.188720703125, 1.0771484375, 1.965576171875, 1.85400390625, 1.742431640625, 33.630859375,
+    1.519287109375, 1.40771484375, 33.296142578125, 1.1845703125, 33.072998046875, 1.96142578125,
+    1.849853515625, 1.73828125, 1.626708984375, 33.51513671875, 1.403564453125, 1.2919921875,
+    33.180419921875, 1.06884765625, 33.957275390625, 1.845703125, 1.734130859375, 1.62255859375,
+    1.510986328125, 33.3994140625, 1.287841796875, 1.17626953125, 33.064697265625, 1.953125,
+    33.841552734375, 1.72998046875, 1.618408203125, 1.5068359375, 1.395263671875, 33.28369140625,
+    1.172119140625, 1.060546875, 33.948974609375, 1.83740234375, 33.725830078125, 1.6142578125,
+    1.502685546875, 1.39111328125, 1.279541015625, 33.16796875, 1.056396484375, 1.94482421875,
+    33.833251953125, 1.7216796875, 33.610107421875, 1.49853515625, 1.386962890625, 1.275390625,
     1.163818359375
 };
 static double beta[] = {
     35.991273941532256, -3.954290574596774, 1.899658203125, 1.7880859375, 1.676513671875,
     -1.7064012096774193, 1.337646484375, 1.22607421875, 1.114501953125, -2.4585118447580645,
-    1.775634765625, 1.6640625, 44.18399240801411, 6.5525, 1.771484375, 5.610595703125,
-    -0.3757421875, 3.19580078125, 2.5644189453125, 3.5263671875, 2.3483984375, 2.85693359375,
-    1.5400390625, 4.6779296875, 1.30859375, 6.759033203125, 1.647265625, 3.27001953125,
-    2.4721337890625, 2.6005859375, 1.399609375, 2.93115234375, 1.0771484375, 5.803359375,
+    1.775634765625, 1.6640625, 44.18399240801411, 134.5525, 1.771484375, 5.610595703125,
+    -0.3757421875, 3.19580078125, 2.5644189453125, 3.5263671875, 66.3483984375, 2.85693359375,
+    1.5400390625, 132.6779296875, 1.30859375, 6.759033203125, 1.647265625, 3.27001953125,
+    2.4721337890625, 2.6005859375, 65.399609375, 2.93115234375, 1.0771484375, 133.803359375,
     1.845703125, 5.907470703125, 0.6702734375, 2.34423828125, 2.6898486328125, 3.6748046875,
-    2.4508203125, 3.00537109375, 1.6142578125
+    66.4508203125, 3.00537109375, 1.6142578125
 };
 static double x[] = {
     0.0040283203125, 0.00103759765625, 0.589599609375, 0.01580810546875, 0.0157470703125,
@@ -133,27 +133,27 @@ static double start[] = {
     -1.5674967768002275, 0.03355957733404803, -1.6043587520915985, -0.013024978026628277
 };
 static double at_inverse_dynamics[] = {
-    -2281.1263938152406, -2563.994987602677, -2503.223955284358, 189.96274043464624,
-    48.889104156307745, -157.96685886839958
+    -36953.492868904905, -29136.34657460355, -19958.218322897672, -1228.2477154045914,
+    1514.0859057250161, 4089.4459775604882
 };
 static double at_gravity[] = {
     165.5817799481417, -91.74539880362852, -425.3354424814579, 223.64967646011584,
     -83.41305227329865, -435.5986756113111
 };
 static double at_coriolis[] = {
-    -2175.9668535239443, -2291.603264595406, -2100.7864164735306, -0.37206142100157696,
-    -0.2620433801981794, -0.4183342127650762
+    -32580.598485956347, -27019.90901316419, -20208.77082456491, -5.080119407460269,
+    -3.0019877050328745, -5.7895013290993615
 };
 static double at_friction[] = {
     5.3642578125, -1.8672332763671875, 48.73346140215474, -0.1468198299407959, 2.371927261352539,
     42.49218561480122
 };
 static double at_inertia_matrix[] = {
-    120.87731815172738, 32.038391958848266, 23.446175958599497, 32.038391958848266,
-    135.99071295142033, 22.118308847386942, 23.446175958599497, 22.118308847386942,
-    115.57623045856862, 111.69679486099311, 11.846367090775017, -0.7752131322743302,
-    11.846367090775017, 131.5570994956199, 9.186916775917766, -0.7752131322743302,
-    9.186916775917766, 106.93115681757385
+    2123.47508138438, 71.43063794569414, 82.78916116023528, 71.43063794569414, 2133.4128563706563,
+    -11.462865067841603, 82.78916116023528, -11.462865067841603, 2114.8038487404665,
+    2162.0091533676905, -203.2251908334089, -215.57410735773624, -203.2251908334089,
+    2169.601613343639, -177.16792460998468, -215.57410735773624, -177.16792460998468,
+    2147.0699353697332
 };
 static double at_forward_kinematics[] = {
     0.0, 0.0, 1.0, 0.004037629021999144, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0,
@@ -259,8 +259,8 @@ static double at_coupling[] = {
     -3.2482498408869946, 0.15505335122668829
 };
 static double at_platform_inverse_dynamics[] = {
-    -178.3956219798448, -485.55557233868484, -156.7568044763711, -65.2527329211027,
-    -267.0433839512115, 437.00772277038436
+    -4282.624960303166, -1543.5470954401403, 59.79139171622435, -805.1580010715252,
+    1498.8382501708452, 4710.676409632289
 };
 static double at_platform_close[] = {
     0.0040283203125, 0.00103759765625, 0.589599609375, 0.17962752026605516, 0.19420457160050866,
@@ -291,23 +291,26 @@ static double at_platform_coupling[] = {
     0.0, 3.2368910998779423, -3.230008805095861, 0.0, 0.0
 };
 
-static double out[STATES * 489], product[STATES * N], worst;
+static double out[STATES * 489], worst;
+static double product[STATES * N];
 static int failed;
 static int status[STATES];
 
 /* Whether a part of the library belongs to the header. */
 static int belongs(const char *part, const char *signature, const char *header)
 {
-    if (strcmp(signature, header) == 0)
+    if (strcmp(signature, header) == 0) {
         return 1;
+    }
     printf("orthoglide_2003: the %s is %s,\nthe header %s\n", part, signature, header);
     return 0;
 }
 
 static void empty(void)
 {
-    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++)
+    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++) {
         out[i] = NAN;
+    }
 }
 
 /* Compares what a function gave with what it should. */
@@ -318,8 +321,9 @@ static void compare(const char *name, const double *given, const double *expecte
         const double *const state = expected + k / length * length;
         double largest = LEAST, apart;
 
-        for (int i = 0; i < length; i++)
+        for (int i = 0; i < length; i++) {
             largest = fmax(largest, fabs(state[i]));
+        }
         apart = fabs(given[k] - expected[k]) / largest;
         if (!(apart <= tolerance)) {
             printf("%s: state %d, number %d: %.12g, expected %.12g\n", name, k / length, k % length,
@@ -329,11 +333,12 @@ static void compare(const char *name, const double *given, const double *expecte
         }
         worst = fmax(worst, apart);
     }
-    for (int i = 0; i < STATES; i++)
+    for (int i = 0; i < STATES; i++) {
         if (status[i] != 0) {
             printf("%s: state %d: status %d\n", name, i, status[i]);
             failed = 1;
         }
+    }
 }
 
 /* Rows times parameters, into `product`. */
@@ -341,8 +346,9 @@ static void multiply(const double *rows, int columns, const double *parameters)
 {
     for (int i = 0; i < STATES * N; i++) {
         product[i] = 0.0;
-        for (int k = 0; k < columns; k++)
+        for (int k = 0; k < columns; k++) {
             product[i] += rows[i * columns + k] * parameters[k];
+        }
     }
 }
 
@@ -351,8 +357,9 @@ static void add_up(const double *M, const double *c, const double *g, const doub
 {
     for (int i = 0; i < STATES * N; i++) {
         product[i] = c[i] + g[i] + f[i];
-        for (int k = 0; k < N; k++)
+        for (int k = 0; k < N; k++) {
             product[i] += M[i * N + k] * qdd[i / N * N + k];
+        }
     }
 }
 
@@ -371,8 +378,9 @@ static void compare_sines(void)
 int main(void)
 {
     if (!belongs("library", orthoglide_2003_signature(),
-            ORTHOGLIDE_2003_SIGNATURE))
+            ORTHOGLIDE_2003_SIGNATURE)) {
         return 1;
+    }
     compare_sines();
     empty();
     {
@@ -381,8 +389,9 @@ int main(void)
         modeler_batch_1(orthoglide_2003_base_parameters, 1, inputs,
             out, 43);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(beta, out, sizeof(beta));
+    }
     compare("orthoglide_2003_base_parameters", out,
             beta, 1, 43, TOLERANCE);
     empty();
@@ -392,8 +401,9 @@ int main(void)
         modeler_batch_status_4(orthoglide_2003_inverse_dynamics, 2, inputs,
             out, 3, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
+    }
     compare("orthoglide_2003_inverse_dynamics", out,
             at_inverse_dynamics, 2, 3, TOLERANCE);
     empty();
@@ -403,8 +413,9 @@ int main(void)
         modeler_batch_status_2(orthoglide_2003_gravity, 2, inputs,
             out, 3, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_gravity, out, sizeof(at_gravity));
+    }
     compare("orthoglide_2003_gravity", out,
             at_gravity, 2, 3, TOLERANCE);
     empty();
@@ -414,8 +425,9 @@ int main(void)
         modeler_batch_status_3(orthoglide_2003_coriolis, 2, inputs,
             out, 3, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_coriolis, out, sizeof(at_coriolis));
+    }
     compare("orthoglide_2003_coriolis", out,
             at_coriolis, 2, 3, TOLERANCE);
     empty();
@@ -425,8 +437,9 @@ int main(void)
         modeler_batch_status_3(orthoglide_2003_friction, 2, inputs,
             out, 3, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_friction, out, sizeof(at_friction));
+    }
     compare("orthoglide_2003_friction", out,
             at_friction, 2, 3, TOLERANCE);
     empty();
@@ -436,8 +449,9 @@ int main(void)
         modeler_batch_status_2(orthoglide_2003_inertia_matrix, 2, inputs,
             out, 9, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
+    }
     compare("orthoglide_2003_inertia_matrix", out,
             at_inertia_matrix, 2, 9, TOLERANCE);
     empty();
@@ -447,8 +461,9 @@ int main(void)
         modeler_batch_status_1(orthoglide_2003_forward_kinematics, 2, inputs,
             out, 252, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
+    }
     compare("orthoglide_2003_forward_kinematics", out,
             at_forward_kinematics, 2, 252, TOLERANCE);
     empty();
@@ -458,8 +473,9 @@ int main(void)
         modeler_batch_status_1(orthoglide_2003_close, 2, inputs,
             out, 12, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_close, out, sizeof(at_close));
+    }
     compare("orthoglide_2003_close", out,
             at_close, 2, 12, TOLERANCE);
     empty();
@@ -469,8 +485,9 @@ int main(void)
         modeler_batch_status_2(orthoglide_2003_close_from, 2, inputs,
             out, 12, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_close_from, out, sizeof(at_close_from));
+    }
     compare("orthoglide_2003_close_from", out,
             at_close_from, 2, 12, TOLERANCE);
     empty();
@@ -480,8 +497,9 @@ int main(void)
         modeler_batch_status_1(orthoglide_2003_coupling, 2, inputs,
             out, 36, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_coupling, out, sizeof(at_coupling));
+    }
     compare("orthoglide_2003_coupling", out,
             at_coupling, 2, 36, TOLERANCE);
     empty();
@@ -491,8 +509,9 @@ int main(void)
         modeler_batch_status_4(orthoglide_2003_platform_inverse_dynamics, 2, inputs,
             out, 3, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_platform_inverse_dynamics, out, sizeof(at_platform_inverse_dynamics));
+    }
     compare("orthoglide_2003_platform_inverse_dynamics", out,
             at_platform_inverse_dynamics, 2, 3, TOLERANCE);
     empty();
@@ -502,8 +521,9 @@ int main(void)
         modeler_batch_status_1(orthoglide_2003_platform_close, 2, inputs,
             out, 12, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_platform_close, out, sizeof(at_platform_close));
+    }
     compare("orthoglide_2003_platform_close", out,
             at_platform_close, 2, 12, TOLERANCE);
     empty();
@@ -513,8 +533,9 @@ int main(void)
         modeler_batch_status_2(orthoglide_2003_platform_close_from, 2, inputs,
             out, 12, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_platform_close_from, out, sizeof(at_platform_close_from));
+    }
     compare("orthoglide_2003_platform_close_from", out,
             at_platform_close_from, 2, 12, TOLERANCE);
     empty();
@@ -524,8 +545,9 @@ int main(void)
         modeler_batch_status_1(orthoglide_2003_platform_coupling, 2, inputs,
             out, 36, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_platform_coupling, out, sizeof(at_platform_coupling));
+    }
     compare("orthoglide_2003_platform_coupling", out,
             at_platform_coupling, 2, 36, TOLERANCE);
     empty();
@@ -567,7 +589,7 @@ int main(void)
     compare("orthoglide_2003_inertia_matrix and others", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     printf("orthoglide_2003 %s:\n", ORTHOGLIDE_2003_SIGNATURE);
-    if (failed) {
+    if (failed != 0) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }

@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "orthoglide_2012.h"
-#include "modeler_closure.h"
-#include "modeler_runtime.h"
+#include "orthoglide_2012_batch.h"
+#include "modeler_batch.h"
 #include "modeler_sincos.h"
 
 #define N 3
@@ -59,51 +59,51 @@ static double qdd[] = {
     -2.125, -0.875, 0.375, -0.375, 0.875, 2.125
 };
 static double chi[] = {
-    1.238525390625, 1.126953125, 1.015380859375, 1.90380859375, 1.792236328125, 1.6806640625,
-    1.569091796875, 1.45751953125, 1.345947265625, 1.234375, 1.122802734375, 1.01123046875,
-    1.899658203125, 1.7880859375, 1.676513671875, 1.56494140625, 1.453369140625, 1.341796875,
-    1.230224609375, 1.11865234375, 1.007080078125, 1.8955078125, 1.783935546875, 1.67236328125,
-    1.560791015625, 1.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 1.0029296875,
-    1.891357421875, 1.77978515625, 1.668212890625, 1.556640625, 1.445068359375, 1.33349609375,
-    1.221923828125, 1.1103515625, 1.998779296875, 1.88720703125, 1.775634765625, 1.6640625,
-    1.552490234375, 1.44091796875, 1.329345703125, 1.2177734375, 1.106201171875, 1.99462890625,
-    1.883056640625, 1.771484375, 1.659912109375, 1.54833984375, 1.436767578125, 1.3251953125,
-    1.213623046875, 1.10205078125, 1.990478515625, 1.87890625, 1.767333984375, 1.65576171875,
+    1.238525390625, 33.126953125, 1.015380859375, 1.90380859375, 33.792236328125, 1.6806640625,
+    33.569091796875, 1.45751953125, 1.345947265625, 1.234375, 1.122802734375, 1.01123046875,
+    1.899658203125, 1.7880859375, 33.676513671875, 1.56494140625, 1.453369140625, 33.341796875,
+    1.230224609375, 33.11865234375, 1.007080078125, 1.8955078125, 1.783935546875, 1.67236328125,
+    1.560791015625, 1.44921875, 1.337646484375, 33.22607421875, 1.114501953125, 1.0029296875,
+    33.891357421875, 1.77978515625, 33.668212890625, 1.556640625, 1.445068359375, 1.33349609375,
+    1.221923828125, 1.1103515625, 1.998779296875, 1.88720703125, 33.775634765625, 1.6640625,
+    1.552490234375, 33.44091796875, 1.329345703125, 33.2177734375, 1.106201171875, 1.99462890625,
+    1.883056640625, 1.771484375, 1.659912109375, 1.54833984375, 1.436767578125, 33.3251953125,
+    1.213623046875, 1.10205078125, 33.990478515625, 1.87890625, 33.767333984375, 1.65576171875,
     1.544189453125, 1.4326171875, 1.321044921875, 1.20947265625, 1.097900390625, 1.986328125,
-    1.874755859375, 1.76318359375, 1.651611328125, 1.5400390625, 1.428466796875, 1.31689453125,
+    33.874755859375, 1.76318359375, 1.651611328125, 33.5400390625, 1.428466796875, 33.31689453125,
     1.205322265625, 1.09375, 1.982177734375, 1.87060546875, 1.759033203125, 1.6474609375,
-    1.535888671875, 1.42431640625, 1.312744140625, 1.201171875, 1.089599609375, 1.97802734375,
-    1.866455078125, 1.7548828125, 1.643310546875, 1.53173828125, 1.420166015625, 1.30859375,
-    1.197021484375, 1.08544921875, 1.973876953125, 1.8623046875, 1.750732421875, 1.63916015625,
-    1.527587890625, 1.416015625, 1.304443359375, 1.19287109375, 1.081298828125, 1.9697265625,
-    1.858154296875, 1.74658203125, 1.635009765625, 1.5234375, 1.411865234375, 1.30029296875,
-    1.188720703125, 1.0771484375, 1.965576171875, 1.85400390625, 1.742431640625, 1.630859375,
-    1.519287109375, 1.40771484375, 1.296142578125, 1.1845703125, 1.072998046875, 1.96142578125,
-    1.849853515625, 1.73828125, 1.626708984375, 1.51513671875, 1.403564453125, 1.2919921875,
-    1.180419921875, 1.06884765625, 1.957275390625, 1.845703125, 1.734130859375, 1.62255859375,
-    1.510986328125, 1.3994140625, 1.287841796875, 1.17626953125, 1.064697265625, 1.953125,
+    1.535888671875, 33.42431640625, 1.312744140625, 1.201171875, 33.089599609375, 1.97802734375,
+    33.866455078125, 1.7548828125, 1.643310546875, 1.53173828125, 1.420166015625, 1.30859375,
+    1.197021484375, 1.08544921875, 33.973876953125, 1.8623046875, 1.750732421875, 33.63916015625,
+    1.527587890625, 33.416015625, 1.304443359375, 1.19287109375, 1.081298828125, 1.9697265625,
+    1.858154296875, 1.74658203125, 1.635009765625, 33.5234375, 1.411865234375, 1.30029296875,
+    33.188720703125, 1.0771484375, 33.965576171875, 1.85400390625, 1.742431640625, 1.630859375,
+    1.519287109375, 1.40771484375, 1.296142578125, 1.1845703125, 33.072998046875, 1.96142578125,
+    1.849853515625, 33.73828125, 1.626708984375, 33.51513671875, 1.403564453125, 1.2919921875,
+    1.180419921875, 1.06884765625, 1.957275390625, 1.845703125, 1.734130859375, 33.62255859375,
+    1.510986328125, 1.3994140625, 33.287841796875, 1.17626953125, 33.064697265625, 1.953125,
     1.841552734375, 1.72998046875, 1.618408203125, 1.5068359375, 1.395263671875, 1.28369140625,
-    1.172119140625, 1.060546875, 1.948974609375, 1.83740234375, 1.725830078125, 1.6142578125,
+    33.172119140625, 1.060546875, 1.948974609375, 33.83740234375, 1.725830078125, 33.6142578125,
     1.502685546875, 1.39111328125, 1.279541015625, 1.16796875, 1.056396484375, 1.94482421875,
-    1.833251953125, 1.7216796875, 1.610107421875, 1.49853515625, 1.386962890625, 1.275390625,
-    1.163818359375, 1.05224609375, 1.940673828125, 1.8291015625, 1.717529296875, 1.60595703125,
-    1.494384765625, 1.3828125, 1.271240234375, 1.15966796875, 1.048095703125, 1.9365234375,
-    1.824951171875, 1.71337890625, 1.601806640625, 1.490234375, 1.378662109375, 1.26708984375,
-    1.155517578125, 1.0439453125, 1.932373046875, 1.82080078125, 1.709228515625, 1.59765625,
-    1.486083984375, 1.37451171875, 1.262939453125, 1.1513671875, 1.039794921875, 1.92822265625,
+    1.833251953125, 33.7216796875, 1.610107421875, 1.49853515625, 33.386962890625, 1.275390625,
+    33.163818359375, 1.05224609375, 1.940673828125, 1.8291015625, 1.717529296875, 1.60595703125,
+    1.494384765625, 1.3828125, 33.271240234375, 1.15966796875, 1.048095703125, 33.9365234375,
+    1.824951171875, 33.71337890625, 1.601806640625, 1.490234375, 1.378662109375, 1.26708984375,
+    1.155517578125, 1.0439453125, 1.932373046875, 33.82080078125, 1.709228515625, 1.59765625,
+    33.486083984375, 1.37451171875, 33.262939453125, 1.1513671875, 1.039794921875, 1.92822265625,
     1.816650390625, 1.705078125, 1.593505859375, 1.48193359375
 };
 static double beta[] = {
     24.90185546875, 1.899658203125, 1.7880859375, 0.7415102066532258, 1.44921875, 1.337646484375,
-    0.7130796370967742, 1.1103515625, 1.998779296875, 1.88720703125, 9.607592529296875,
+    0.7130796370967742, 1.1103515625, 1.998779296875, 1.88720703125, 105.60759252929688,
     1.106201171875, 5.409423828125, 2.745361328125, 2.522216796875, -2.556078857421875,
-    1.213623046875, 0.48757568359375, 1.87890625, 6.626635498046875, 7.7551025390625,
-    1.544189453125, 2.745361328125, 3.522216796875, 1.205322265625, 7.1332666015625, 1.304443359375,
-    4.004150390625, 3.141845703125, 2.918701171875, 0.9094580078125, 1.411865234375,
-    0.93436279296875, 1.0771484375, 4.7558251953125, 1.742431640625, 3.141845703125, 2.918701171875,
-    1.403564453125, 7.3730224609375, 1.502685546875, 4.598876953125, 3.538330078125, 3.315185546875,
-    0.6609130859375, 1.610107421875, 1.07114990234375, 1.275390625, 3.5990966796875, 1.940673828125,
-    2.538330078125, 3.315185546875, 1.601806640625
+    1.213623046875, 0.48757568359375, 1.87890625, 38.62663549804687, 7.7551025390625,
+    1.544189453125, 2.745361328125, 3.522216796875, 1.205322265625, 103.1332666015625,
+    1.304443359375, 4.004150390625, 3.141845703125, 2.918701171875, 0.9094580078125, 1.411865234375,
+    0.93436279296875, 1.0771484375, 36.7558251953125, 1.742431640625, 3.141845703125,
+    2.918701171875, 1.403564453125, 103.3730224609375, 1.502685546875, 4.598876953125,
+    3.538330078125, 3.315185546875, 0.6609130859375, 1.610107421875, 1.07114990234375, 1.275390625,
+    35.5990966796875, 1.940673828125, 2.538330078125, 3.315185546875, 1.601806640625
 };
 static double x[] = {
     0.0040283203125, 0.00103759765625, 0.589599609375, 0.01580810546875, 0.0157470703125,
@@ -124,26 +124,27 @@ static double start[] = {
     -1.5674967768002275, 0.03355957733404803, -1.6043587520915985, -0.013024978026628277
 };
 static double at_inverse_dynamics[] = {
-    -2497.9086608398875, -2290.784647957076, -2000.4996883455276, 37.35912460716014,
-    100.3038579987603, -37.37882499960785
+    -25645.375036809255, -19995.96677227696, -13677.615128974301, -907.2894628957752,
+    1077.645557647381, 2795.224509250748
 };
 static double at_gravity[] = {
     129.01566707334436, -58.82954403209273, -336.2734474981738, 174.74767113628496,
     -52.46877295342063, -344.11982433473594
 };
 static double at_coriolis[] = {
-    -2376.994674446932, -2005.1492689213728, -1826.2106421477058, -0.38339014820018985,
-    -0.21913357625794558, -0.4571155336717011
+    -22679.31216661858, -18481.06963473148, -13938.71349677862, -3.527413443130718,
+    -2.058831065820661, -4.0189264370481474
 };
 static double at_friction[] = {
     95.24854222101774, -95.50548480514293, 128.63220783521396, -23.393162913629375,
     23.820670864938375, -23.73256132868932
 };
 static double at_inertia_matrix[] = {
-    162.16959021603517, 3.831420122093761, 7.425803009571541, 3.831420122093761, 145.1533523480896,
-    10.2682689748276, 7.425803009571541, 10.2682689748276, 154.97802723587134, 162.5929128438908,
-    -16.750860925861353, -17.874187219156482, -16.750860925861353, 145.25156905974706,
-    -1.979106875753501, -17.874187219156482, -1.979106875753501, 153.39274094427753
+    1497.2497081304002, 30.04447289123113, 46.979904191704236, 30.04447289123113,
+    1476.7704958139361, -12.115786605820754, 46.979904191704236, -12.115786605820754,
+    1487.9215749188184, 1529.6756484229704, -159.81978077764674, -160.77453239352715,
+    -159.81978077764674, 1504.1792314556826, -125.99376682995565, -160.77453239352715,
+    -125.99376682995565, 1513.9058436140515
 };
 static double at_forward_kinematics[] = {
     0.0, 0.0, 1.0, 0.004037629021999144, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0,
@@ -234,8 +235,8 @@ static double at_coupling[] = {
     -3.2482498408869946, 0.15505335122668829
 };
 static double at_platform_inverse_dynamics[] = {
-    -203.34666585455926, -598.3262062019048, 64.73217719426887, -125.27693538924133,
-    -185.64220839281063, 464.02920994388876
+    -2934.642212422807, -1249.2334161136273, 212.32586293647574, -617.6176233299253,
+    992.695491728621, 3313.9686251740095
 };
 static double at_platform_close[] = {
     0.0040283203125, 0.00103759765625, 0.589599609375, 0.17962752026605516, 0.19420457160050866,
@@ -266,23 +267,26 @@ static double at_platform_coupling[] = {
     0.0, 3.2368910998779423, -3.230008805095861, 0.0, 0.0
 };
 
-static double out[STATES * 588], product[STATES * N], worst;
+static double out[STATES * 588], worst;
+static double product[STATES * N];
 static int failed;
 static int status[STATES];
 
 /* Whether a part of the library belongs to the header. */
 static int belongs(const char *part, const char *signature, const char *header)
 {
-    if (strcmp(signature, header) == 0)
+    if (strcmp(signature, header) == 0) {
         return 1;
+    }
     printf("orthoglide_2012: the %s is %s,\nthe header %s\n", part, signature, header);
     return 0;
 }
 
 static void empty(void)
 {
-    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++)
+    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++) {
         out[i] = NAN;
+    }
 }
 
 /* Compares what a function gave with what it should. */
@@ -293,8 +297,9 @@ static void compare(const char *name, const double *given, const double *expecte
         const double *const state = expected + k / length * length;
         double largest = LEAST, apart;
 
-        for (int i = 0; i < length; i++)
+        for (int i = 0; i < length; i++) {
             largest = fmax(largest, fabs(state[i]));
+        }
         apart = fabs(given[k] - expected[k]) / largest;
         if (!(apart <= tolerance)) {
             printf("%s: state %d, number %d: %.12g, expected %.12g\n", name, k / length, k % length,
@@ -304,11 +309,12 @@ static void compare(const char *name, const double *given, const double *expecte
         }
         worst = fmax(worst, apart);
     }
-    for (int i = 0; i < STATES; i++)
+    for (int i = 0; i < STATES; i++) {
         if (status[i] != 0) {
             printf("%s: state %d: status %d\n", name, i, status[i]);
             failed = 1;
         }
+    }
 }
 
 /* Rows times parameters, into `product`. */
@@ -316,8 +322,9 @@ static void multiply(const double *rows, int columns, const double *parameters)
 {
     for (int i = 0; i < STATES * N; i++) {
         product[i] = 0.0;
-        for (int k = 0; k < columns; k++)
+        for (int k = 0; k < columns; k++) {
             product[i] += rows[i * columns + k] * parameters[k];
+        }
     }
 }
 
@@ -326,8 +333,9 @@ static void add_up(const double *M, const double *c, const double *g, const doub
 {
     for (int i = 0; i < STATES * N; i++) {
         product[i] = c[i] + g[i] + f[i];
-        for (int k = 0; k < N; k++)
+        for (int k = 0; k < N; k++) {
             product[i] += M[i * N + k] * qdd[i / N * N + k];
+        }
     }
 }
 
@@ -346,8 +354,9 @@ static void compare_sines(void)
 int main(void)
 {
     if (!belongs("library", orthoglide_2012_signature(),
-            ORTHOGLIDE_2012_SIGNATURE))
+            ORTHOGLIDE_2012_SIGNATURE)) {
         return 1;
+    }
     compare_sines();
     empty();
     {
@@ -356,8 +365,9 @@ int main(void)
         modeler_batch_1(orthoglide_2012_base_parameters, 1, inputs,
             out, 53);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(beta, out, sizeof(beta));
+    }
     compare("orthoglide_2012_base_parameters", out,
             beta, 1, 53, TOLERANCE);
     empty();
@@ -367,8 +377,9 @@ int main(void)
         modeler_batch_status_4(orthoglide_2012_inverse_dynamics, 2, inputs,
             out, 3, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
+    }
     compare("orthoglide_2012_inverse_dynamics", out,
             at_inverse_dynamics, 2, 3, TOLERANCE);
     empty();
@@ -378,8 +389,9 @@ int main(void)
         modeler_batch_status_2(orthoglide_2012_gravity, 2, inputs,
             out, 3, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_gravity, out, sizeof(at_gravity));
+    }
     compare("orthoglide_2012_gravity", out,
             at_gravity, 2, 3, TOLERANCE);
     empty();
@@ -389,8 +401,9 @@ int main(void)
         modeler_batch_status_3(orthoglide_2012_coriolis, 2, inputs,
             out, 3, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_coriolis, out, sizeof(at_coriolis));
+    }
     compare("orthoglide_2012_coriolis", out,
             at_coriolis, 2, 3, TOLERANCE);
     empty();
@@ -400,8 +413,9 @@ int main(void)
         modeler_batch_status_3(orthoglide_2012_friction, 2, inputs,
             out, 3, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_friction, out, sizeof(at_friction));
+    }
     compare("orthoglide_2012_friction", out,
             at_friction, 2, 3, TOLERANCE);
     empty();
@@ -411,8 +425,9 @@ int main(void)
         modeler_batch_status_2(orthoglide_2012_inertia_matrix, 2, inputs,
             out, 9, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
+    }
     compare("orthoglide_2012_inertia_matrix", out,
             at_inertia_matrix, 2, 9, TOLERANCE);
     empty();
@@ -422,8 +437,9 @@ int main(void)
         modeler_batch_status_1(orthoglide_2012_forward_kinematics, 2, inputs,
             out, 216, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
+    }
     compare("orthoglide_2012_forward_kinematics", out,
             at_forward_kinematics, 2, 216, TOLERANCE);
     empty();
@@ -433,8 +449,9 @@ int main(void)
         modeler_batch_status_1(orthoglide_2012_close, 2, inputs,
             out, 12, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_close, out, sizeof(at_close));
+    }
     compare("orthoglide_2012_close", out,
             at_close, 2, 12, TOLERANCE);
     empty();
@@ -444,8 +461,9 @@ int main(void)
         modeler_batch_status_2(orthoglide_2012_close_from, 2, inputs,
             out, 12, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_close_from, out, sizeof(at_close_from));
+    }
     compare("orthoglide_2012_close_from", out,
             at_close_from, 2, 12, TOLERANCE);
     empty();
@@ -455,8 +473,9 @@ int main(void)
         modeler_batch_status_1(orthoglide_2012_coupling, 2, inputs,
             out, 36, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_coupling, out, sizeof(at_coupling));
+    }
     compare("orthoglide_2012_coupling", out,
             at_coupling, 2, 36, TOLERANCE);
     empty();
@@ -466,8 +485,9 @@ int main(void)
         modeler_batch_status_4(orthoglide_2012_platform_inverse_dynamics, 2, inputs,
             out, 3, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_platform_inverse_dynamics, out, sizeof(at_platform_inverse_dynamics));
+    }
     compare("orthoglide_2012_platform_inverse_dynamics", out,
             at_platform_inverse_dynamics, 2, 3, TOLERANCE);
     empty();
@@ -477,8 +497,9 @@ int main(void)
         modeler_batch_status_1(orthoglide_2012_platform_close, 2, inputs,
             out, 12, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_platform_close, out, sizeof(at_platform_close));
+    }
     compare("orthoglide_2012_platform_close", out,
             at_platform_close, 2, 12, TOLERANCE);
     empty();
@@ -488,8 +509,9 @@ int main(void)
         modeler_batch_status_2(orthoglide_2012_platform_close_from, 2, inputs,
             out, 12, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_platform_close_from, out, sizeof(at_platform_close_from));
+    }
     compare("orthoglide_2012_platform_close_from", out,
             at_platform_close_from, 2, 12, TOLERANCE);
     empty();
@@ -499,8 +521,9 @@ int main(void)
         modeler_batch_status_1(orthoglide_2012_platform_coupling, 2, inputs,
             out, 36, status);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_platform_coupling, out, sizeof(at_platform_coupling));
+    }
     compare("orthoglide_2012_platform_coupling", out,
             at_platform_coupling, 2, 36, TOLERANCE);
     empty();
@@ -542,7 +565,7 @@ int main(void)
     compare("orthoglide_2012_inertia_matrix and others", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     printf("orthoglide_2012 %s:\n", ORTHOGLIDE_2012_SIGNATURE);
-    if (failed) {
+    if (failed != 0) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }

@@ -15,7 +15,7 @@ int main(void)
 #include <stddef.h>
 #include <stdint.h>
 
-#include "modeler_runtime.h"
+#include "modeler_batch.h"
 #include "orthoglide_leg_tree.h"
 
 #define N ORTHOGLIDE_LEG_TREE_JOINTS
@@ -129,10 +129,12 @@ static void prepare(int state)
         dq[i] = 0.01 * (double)(sign * i);
     }
     dt[0] = 0.001;
-    for (int k = 0; k < ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS; k++)
+    for (int k = 0; k < ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS; k++) {
         beta[k] = 1.0 + 0.1 * (double)k;
-    for (int k = 0; k < ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS; k++)
+    }
+    for (int k = 0; k < ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS; k++) {
         chi[k] = 1.0 + 0.1 * (double)k;
+    }
 }
 
 /* Ticks of `before` to `after`, less those of the loop, as instructions of one call. */
@@ -142,8 +144,9 @@ static void keep(unsigned long *most, uint32_t before, uint32_t between, uint32_
     const unsigned long all = (unsigned long)(whole - loop) * PER_TICK;
     const unsigned long found = 1 + (all + REPEAT / 2) / REPEAT;
 
-    if (found > *most)
+    if (found > *most) {
         *most = found;
+    }
 }
 
 static unsigned long count_regressor(void)
@@ -363,7 +366,7 @@ static unsigned long count_forward_kinematics(void)
 int main(void)
 {
     say("/* Instructions of one call at most, counted in qemu:\n");
-    say(" * orthoglide_leg_tree 5e75d9cd7655b4d0. */\n");
+    say(" * orthoglide_leg_tree 6b0dad01cd8fe107. */\n");
     say("#define ORTHOGLIDE_LEG_TREE_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");

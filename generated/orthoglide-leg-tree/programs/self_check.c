@@ -10,7 +10,8 @@
 #include <string.h>
 
 #include "orthoglide_leg_tree.h"
-#include "modeler_runtime.h"
+#include "orthoglide_leg_tree_batch.h"
+#include "modeler_batch.h"
 #include "modeler_sincos.h"
 #include "orthoglide_leg_tree_tile.h"
 
@@ -60,55 +61,55 @@ static double qdd[] = {
     -2.125, -0.875, 0.375, 1.625, -2.875, -1.625, -0.375, 0.875, 2.125, -2.375, -1.125, 0.125
 };
 static double chi[] = {
-    1.238525390625, 1.126953125, 1.015380859375, 1.90380859375, 1.792236328125, 1.6806640625,
-    1.569091796875, 1.45751953125, 1.345947265625, 1.234375, 1.122802734375, 1.01123046875,
-    1.899658203125, 1.7880859375, 1.676513671875, 1.56494140625, 1.453369140625, 1.341796875,
-    1.230224609375, 1.11865234375, 1.007080078125, 1.8955078125, 1.783935546875, 1.67236328125,
-    1.560791015625, 1.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 1.0029296875,
-    1.891357421875, 1.77978515625, 1.668212890625, 1.556640625, 1.445068359375, 1.33349609375,
-    1.221923828125, 1.1103515625, 1.998779296875, 1.88720703125, 1.775634765625, 1.6640625,
-    1.552490234375, 1.44091796875, 1.329345703125, 1.2177734375, 1.106201171875, 1.99462890625,
-    1.883056640625, 1.771484375, 1.659912109375, 1.54833984375, 1.436767578125, 1.3251953125,
-    1.213623046875, 1.10205078125, 1.990478515625, 1.87890625, 1.767333984375, 1.65576171875
+    33.238525390625, 1.126953125, 1.015380859375, 33.90380859375, 1.792236328125, 33.6806640625,
+    1.569091796875, 1.45751953125, 1.345947265625, 1.234375, 33.122802734375, 1.01123046875,
+    1.899658203125, 33.7880859375, 1.676513671875, 33.56494140625, 1.453369140625, 1.341796875,
+    1.230224609375, 1.11865234375, 33.007080078125, 1.8955078125, 1.783935546875, 33.67236328125,
+    1.560791015625, 33.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 1.0029296875,
+    33.891357421875, 1.77978515625, 1.668212890625, 33.556640625, 1.445068359375, 33.33349609375,
+    1.221923828125, 1.1103515625, 1.998779296875, 1.88720703125, 33.775634765625, 1.6640625,
+    1.552490234375, 33.44091796875, 1.329345703125, 33.2177734375, 1.106201171875, 1.99462890625,
+    1.883056640625, 1.771484375, 33.659912109375, 1.54833984375, 1.436767578125, 33.3251953125,
+    1.213623046875, 33.10205078125, 1.990478515625, 1.87890625, 1.767333984375, 1.65576171875
 };
 static double beta[] = {
-    8.67041015625, 6.470740869140625, 1.453369140625, 6.222412109375, -1.016883447265625,
-    1.8955078125, 1.16431396484375, 1.560791015625, 1.800818994140625, 2.4718408203125,
-    1.22607421875, 1.775634765625, 1.77978515625, 1.668212890625, 1.445068359375, 2.7744140625,
+    8.67041015625, 134.47074086914063, 1.453369140625, 6.222412109375, -1.016883447265625,
+    1.8955078125, 1.16431396484375, 1.560791015625, 33.80081899414063, 2.4718408203125,
+    1.22607421875, 33.775634765625, 1.77978515625, 1.668212890625, 1.445068359375, 66.7744140625,
     1.221923828125, -0.772705078125, 0.334716796875, 1.6640625, 1.552490234375, 1.329345703125,
-    1.2177734375, 1.106201171875, 1.99462890625, 0.334716796875, 1.54833984375, 1.436767578125,
-    1.213623046875, 1.10205078125, 1.990478515625, 1.87890625
+    33.2177734375, 1.106201171875, 1.99462890625, 0.334716796875, 1.54833984375, 1.436767578125,
+    1.213623046875, 33.10205078125, 1.990478515625, 1.87890625
 };
 static double at_inverse_dynamics[] = {
-    23.193469306690776, -5.304337802486618, 48.575797445179546, 21.429553405952944,
-    -12.152515438895557, 13.69603294526637, 1.24175575553303, 5.179205577251672, 54.557379465603354,
-    24.95952544381214, -11.224053401869257, -5.75045996873926
+    23.193469306690776, -175.65831729177384, 239.3796081529563, 200.2333641137297,
+    -136.9518706841693, -38.30396705473363, 1.24175575553303, 118.84111055312869,
+    106.54439903999744, 8.946545018206228, -26.739261309095717, -1.7504599687392601
 };
 static double at_inertia_matrix[] = {
     8.67041015625, -4.528802506516393, -1.580285530093216, -1.0164587748150502, -2.196959993914295,
-    0.614742259158303, -4.528802506516393, 6.875977218519408, -0.6345082497914306,
-    -1.291637620101791, 2.329487889969512, -1.3009929836895997, -1.580285530093216,
-    -0.6345082497914306, 6.246619839094626, 3.3555891941528504, -1.1290688692888267, 0.0,
-    -1.0164587748150502, -1.291637620101791, 3.3555891941528504, 2.2653775433517005,
-    -1.1614290071585522, 0.0, -2.196959993914295, 2.329487889969512, -1.1290688692888267,
-    -1.1614290071585522, 1.2177734375, 0.0, 0.614742259158303, -1.3009929836895997, 0.0, 0.0, 0.0,
-    1.10205078125, 8.67041015625, 4.536844304675597, 1.7930437472733314, 1.4158052026908212,
-    0.21724852395831631, 2.5193206022847536, 4.536844304675597, 10.604672483008068,
-    -3.6889622095302395, -2.4341904428830734, 0.09342350451259979, -1.8763794800778526,
-    1.7930437472733314, -3.6889622095302395, 4.70265193435817, 2.229544417189861,
-    0.18402022510914537, 0.0, 1.4158052026908212, -2.4341904428830734, 2.229544417189861,
-    1.557255894162178, 0.5463862760484332, 0.0, 0.21724852395831631, 0.09342350451259979,
-    0.18402022510914537, 0.5463862760484332, 1.2177734375, 0.0, 2.5193206022847536,
-    -1.8763794800778526, 0.0, 0.0, 0.0, 1.10205078125
+    0.614742259158303, -4.528802506516393, 166.8759772185194, -0.6345082497914306,
+    -1.291637620101791, 19.619161677749982, -1.3009929836895997, -1.580285530093216,
+    -0.6345082497914306, 102.24661983909462, 67.35558919415286, -1.1290688692888267, 0.0,
+    -1.0164587748150502, -1.291637620101791, 67.35558919415286, 66.2653775433517,
+    -1.1614290071585522, 0.0, -2.196959993914295, 19.619161677749982, -1.1290688692888267,
+    -1.1614290071585522, 33.2177734375, 0.0, 0.614742259158303, -1.3009929836895997, 0.0, 0.0, 0.0,
+    33.10205078125, 8.67041015625, 4.536844304675597, 1.7930437472733314, 1.4158052026908212,
+    0.21724852395831631, 2.5193206022847536, 4.536844304675597, 170.60467248300807,
+    -3.6889622095302395, -2.4341904428830734, 23.50746730847487, -1.8763794800778526,
+    1.7930437472733314, -3.6889622095302395, 100.70265193435817, 66.22954441718986,
+    0.18402022510914537, 0.0, 1.4158052026908212, -2.4341904428830734, 66.22954441718986,
+    65.55725589416218, 0.5463862760484332, 0.0, 0.21724852395831631, 23.50746730847487,
+    0.18402022510914537, 0.5463862760484332, 33.2177734375, 0.0, 2.5193206022847536,
+    -1.8763794800778526, 0.0, 0.0, 0.0, 33.10205078125
 };
 static double at_gravity[] = {
     0.0, 0.0, 32.04087158968079, 11.8173151522388, -4.622780079397156, 18.337214233825964, 0.0, 0.0,
     53.96809869876655, 27.19595207755799, -8.94764880511874, -3.301806095552644
 };
 static double at_coriolis[] = {
-    34.58243746700824, -1.9915472511255272, 1.5802365061189247, -1.9566124116915729,
-    -4.348151847414498, -2.6823903290453477, 0.005229705138015863, -0.0010749601361728987,
-    -0.0014305110341394783, -0.00019762255289796341, -6.242226907902476e-05, 0.00016705008203756074
+    34.58243746700824, 17.36228539945609, 52.38404721389568, 48.84719829608518, -22.019042528380325,
+    -2.6823903290453477, 0.005229705138015863, 0.0016292951983923308, -0.01441093664005258,
+    -0.013178048158811064, -0.002558657962523852, 0.00016705008203756074
 };
 static double at_friction[] = {
     0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -141,22 +142,25 @@ static double at_forward_kinematics[] = {
     -0.1875
 };
 
-static double out[STATES * 360], product[STATES * N], worst;
+static double out[STATES * 360], worst;
+static double product[STATES * N];
 static int failed;
 
 /* Whether a part of the library belongs to the header. */
 static int belongs(const char *part, const char *signature, const char *header)
 {
-    if (strcmp(signature, header) == 0)
+    if (strcmp(signature, header) == 0) {
         return 1;
+    }
     printf("orthoglide_leg_tree: the %s is %s,\nthe header %s\n", part, signature, header);
     return 0;
 }
 
 static void empty(void)
 {
-    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++)
+    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++) {
         out[i] = NAN;
+    }
 }
 
 /* Compares what a function gave with what it should. */
@@ -167,8 +171,9 @@ static void compare(const char *name, const double *given, const double *expecte
         const double *const state = expected + k / length * length;
         double largest = LEAST, apart;
 
-        for (int i = 0; i < length; i++)
+        for (int i = 0; i < length; i++) {
             largest = fmax(largest, fabs(state[i]));
+        }
         apart = fabs(given[k] - expected[k]) / largest;
         if (!(apart <= tolerance)) {
             printf("%s: state %d, number %d: %.12g, expected %.12g\n", name, k / length, k % length,
@@ -185,8 +190,9 @@ static void multiply(const double *rows, int columns, const double *parameters)
 {
     for (int i = 0; i < STATES * N; i++) {
         product[i] = 0.0;
-        for (int k = 0; k < columns; k++)
+        for (int k = 0; k < columns; k++) {
             product[i] += rows[i * columns + k] * parameters[k];
+        }
     }
 }
 
@@ -195,21 +201,25 @@ static void add_up(const double *M, const double *c, const double *g, const doub
 {
     for (int i = 0; i < STATES * N; i++) {
         product[i] = c[i] + g[i] + f[i];
-        for (int k = 0; k < N; k++)
+        for (int k = 0; k < N; k++) {
             product[i] += M[i * N + k] * qdd[i / N * N + k];
+        }
     }
 }
 
 /* The same as `multiply` of the entries that are not always 0. */
 static void multiply_nonzeros(const double *values, const double *parameters)
 {
-    for (int i = 0; i < STATES * N; i++)
+    for (int i = 0; i < STATES * N; i++) {
         product[i] = 0.0;
-    for (int i = 0; i < STATES; i++)
-        for (int k = 0; k < ORTHOGLIDE_LEG_TREE_NONZEROS; k++)
+    }
+    for (int i = 0; i < STATES; i++) {
+        for (int k = 0; k < ORTHOGLIDE_LEG_TREE_NONZEROS; k++) {
             product[i * N + orthoglide_leg_tree_nonzero_row[k]] +=
                 values[i * ORTHOGLIDE_LEG_TREE_NONZEROS + k]
                 * parameters[orthoglide_leg_tree_nonzero_column[k]];
+        }
+    }
 }
 
 /* Many samples, the states one after another, against the same one by one. */
@@ -254,11 +264,13 @@ static void compare_sines(void)
 int main(void)
 {
     if (!belongs("library", orthoglide_leg_tree_signature(),
-            ORTHOGLIDE_LEG_TREE_SIGNATURE))
+            ORTHOGLIDE_LEG_TREE_SIGNATURE)) {
         return 1;
+    }
     if (!belongs("unit of tiles", orthoglide_leg_tree_tile_signature(),
-            ORTHOGLIDE_LEG_TREE_SIGNATURE))
+            ORTHOGLIDE_LEG_TREE_SIGNATURE)) {
         return 1;
+    }
     compare_tiles();
     compare_sines();
     empty();
@@ -268,8 +280,9 @@ int main(void)
         modeler_batch_1(orthoglide_leg_tree_base_parameters, 1, inputs,
             out, 32);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(beta, out, sizeof(beta));
+    }
     compare("orthoglide_leg_tree_base_parameters", out,
             beta, 1, 32, TOLERANCE);
     empty();
@@ -279,8 +292,9 @@ int main(void)
         modeler_batch_4(orthoglide_leg_tree_inverse_dynamics, 2, inputs,
             out, 6);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
+    }
     compare("orthoglide_leg_tree_inverse_dynamics", out,
             at_inverse_dynamics, 2, 6, TOLERANCE);
     empty();
@@ -290,8 +304,9 @@ int main(void)
         modeler_batch_2(orthoglide_leg_tree_inertia_matrix, 2, inputs,
             out, 36);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
+    }
     compare("orthoglide_leg_tree_inertia_matrix", out,
             at_inertia_matrix, 2, 36, TOLERANCE);
     empty();
@@ -301,8 +316,9 @@ int main(void)
         modeler_batch_2(orthoglide_leg_tree_gravity, 2, inputs,
             out, 6);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_gravity, out, sizeof(at_gravity));
+    }
     compare("orthoglide_leg_tree_gravity", out,
             at_gravity, 2, 6, TOLERANCE);
     empty();
@@ -312,8 +328,9 @@ int main(void)
         modeler_batch_3(orthoglide_leg_tree_coriolis, 2, inputs,
             out, 6);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_coriolis, out, sizeof(at_coriolis));
+    }
     compare("orthoglide_leg_tree_coriolis", out,
             at_coriolis, 2, 6, TOLERANCE);
     empty();
@@ -323,8 +340,9 @@ int main(void)
         modeler_batch_2(orthoglide_leg_tree_friction, 2, inputs,
             out, 6);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_friction, out, sizeof(at_friction));
+    }
     compare("orthoglide_leg_tree_friction", out,
             at_friction, 2, 6, TOLERANCE);
     empty();
@@ -334,8 +352,9 @@ int main(void)
         modeler_batch_1(orthoglide_leg_tree_forward_kinematics, 2, inputs,
             out, 72);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
+    }
     compare("orthoglide_leg_tree_forward_kinematics", out,
             at_forward_kinematics, 2, 72, TOLERANCE);
     empty();
@@ -377,7 +396,7 @@ int main(void)
     compare("orthoglide_leg_tree_inertia_matrix and others", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     printf("orthoglide_leg_tree %s:\n", ORTHOGLIDE_LEG_TREE_SIGNATURE);
-    if (failed) {
+    if (failed != 0) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }

@@ -10,7 +10,8 @@
 #include <string.h>
 
 #include "wrist.h"
-#include "modeler_runtime.h"
+#include "wrist_batch.h"
+#include "modeler_batch.h"
 #include "modeler_sincos.h"
 #include "wrist_tile.h"
 
@@ -54,34 +55,34 @@ static double qdd[] = {
     -2.125, -0.875, 0.375, -0.375, 0.875, 2.125
 };
 static double chi[] = {
-    1.238525390625, 1.126953125, 1.015380859375, 1.90380859375, 1.792236328125, 1.6806640625,
-    1.569091796875, 1.45751953125, 1.345947265625, 1.234375, 1.122802734375, 1.01123046875,
-    1.899658203125, 1.7880859375, 1.676513671875, 1.56494140625, 1.453369140625, 1.341796875,
-    1.230224609375, 1.11865234375, 1.007080078125, 1.8955078125, 1.783935546875, 1.67236328125,
-    1.560791015625, 1.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 1.0029296875
+    33.238525390625, 1.126953125, 1.015380859375, 33.90380859375, 1.792236328125, 33.6806640625,
+    1.569091796875, 1.45751953125, 1.345947265625, 1.234375, 33.122802734375, 1.01123046875,
+    1.899658203125, 33.7880859375, 1.676513671875, 33.56494140625, 1.453369140625, 1.341796875,
+    1.230224609375, 1.11865234375, 33.007080078125, 1.8955078125, 1.783935546875, 33.67236328125,
+    1.560791015625, 33.44921875, 1.337646484375, 1.22607421875, 1.114501953125, 1.0029296875
 };
 static double beta[] = {
-    3.46875, 1.569091796875, 0.227294921875, 1.240009765625, 1.01123046875, 1.899658203125,
-    1.676513671875, 3.470234375, 1.453369140625, 2.556591796875, -0.665283203125, 1.8955078125,
-    1.783935546875, 1.560791015625, 1.44921875, 1.337646484375, 1.22607421875
+    67.46875, 1.569091796875, 0.227294921875, 33.240009765625, 1.01123046875, 1.899658203125,
+    1.676513671875, 67.470234375, 1.453369140625, 2.556591796875, -0.665283203125, 1.8955078125,
+    1.783935546875, 1.560791015625, 33.44921875, 1.337646484375, 1.22607421875
 };
 static double at_inverse_dynamics[] = {
-    19.49365279353774, -34.41754378769622, 9.068627096422816, -6.020832219475529,
-    -36.946706189030344, 1.7157099484278833
+    -152.1048532097732, -74.43074102951641, -30.7255757584769, -16.579348922031667,
+    19.061897962058676, 65.24086060516701
 };
 static double at_inertia_matrix[] = {
-    6.746847460137868, 3.4726530415158603, 1.9788287770635065, 3.4726530415158603,
-    1.5831127916394179, 0.9925780417565672, 1.9788287770635065, 0.9925780417565672, 1.44921875,
-    7.2712626642155165, 0.4605737967909322, 2.408354908636751, 0.4605737967909322,
-    2.298296392386746, -0.8612033214018361, 2.408354908636751, -0.8612033214018361, 1.44921875
+    102.74684746013787, 3.4726530415158603, 32.42900311460502, 3.4726530415158603,
+    65.58311279163942, 0.9925780417565672, 32.42900311460502, 0.9925780417565672, 33.44921875,
+    103.27126266421551, 0.4605737967909322, 14.375703095021812, 0.4605737967909322,
+    66.29829639238675, -0.8612033214018361, 14.375703095021812, -0.8612033214018361, 33.44921875
 };
 static double at_gravity[] = {
     34.563645046478875, -16.151784965436768, 17.584819585215286, -8.816118958666443,
     -36.95339978393445, 0.2938888286061526
 };
 static double at_coriolis[] = {
-    1.563569219779396, -9.873364182012468, -3.9861325822455242, 0.0012539852265708537,
-    -0.0015435166587939148, -0.0010827269628812491
+    22.546247839890388, 6.1134385761673355, 8.92628503013047, 0.012122386602174772,
+    0.007060634430225854, 0.011823499670648404
 };
 static double at_friction[] = {
     0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -102,22 +103,25 @@ static double at_forward_kinematics[] = {
     0.37397963082453317, 0.2373979630824533
 };
 
-static double out[STATES * 90], product[STATES * N], worst;
+static double out[STATES * 90], worst;
+static double product[STATES * N];
 static int failed;
 
 /* Whether a part of the library belongs to the header. */
 static int belongs(const char *part, const char *signature, const char *header)
 {
-    if (strcmp(signature, header) == 0)
+    if (strcmp(signature, header) == 0) {
         return 1;
+    }
     printf("wrist: the %s is %s,\nthe header %s\n", part, signature, header);
     return 0;
 }
 
 static void empty(void)
 {
-    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++)
+    for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++) {
         out[i] = NAN;
+    }
 }
 
 /* Compares what a function gave with what it should. */
@@ -128,8 +132,9 @@ static void compare(const char *name, const double *given, const double *expecte
         const double *const state = expected + k / length * length;
         double largest = LEAST, apart;
 
-        for (int i = 0; i < length; i++)
+        for (int i = 0; i < length; i++) {
             largest = fmax(largest, fabs(state[i]));
+        }
         apart = fabs(given[k] - expected[k]) / largest;
         if (!(apart <= tolerance)) {
             printf("%s: state %d, number %d: %.12g, expected %.12g\n", name, k / length, k % length,
@@ -146,8 +151,9 @@ static void multiply(const double *rows, int columns, const double *parameters)
 {
     for (int i = 0; i < STATES * N; i++) {
         product[i] = 0.0;
-        for (int k = 0; k < columns; k++)
+        for (int k = 0; k < columns; k++) {
             product[i] += rows[i * columns + k] * parameters[k];
+        }
     }
 }
 
@@ -156,21 +162,25 @@ static void add_up(const double *M, const double *c, const double *g, const doub
 {
     for (int i = 0; i < STATES * N; i++) {
         product[i] = c[i] + g[i] + f[i];
-        for (int k = 0; k < N; k++)
+        for (int k = 0; k < N; k++) {
             product[i] += M[i * N + k] * qdd[i / N * N + k];
+        }
     }
 }
 
 /* The same as `multiply` of the entries that are not always 0. */
 static void multiply_nonzeros(const double *values, const double *parameters)
 {
-    for (int i = 0; i < STATES * N; i++)
+    for (int i = 0; i < STATES * N; i++) {
         product[i] = 0.0;
-    for (int i = 0; i < STATES; i++)
-        for (int k = 0; k < WRIST_NONZEROS; k++)
+    }
+    for (int i = 0; i < STATES; i++) {
+        for (int k = 0; k < WRIST_NONZEROS; k++) {
             product[i * N + wrist_nonzero_row[k]] +=
                 values[i * WRIST_NONZEROS + k]
                 * parameters[wrist_nonzero_column[k]];
+        }
+    }
 }
 
 /* Many samples, the states one after another, against the same one by one. */
@@ -215,11 +225,13 @@ static void compare_sines(void)
 int main(void)
 {
     if (!belongs("library", wrist_signature(),
-            WRIST_SIGNATURE))
+            WRIST_SIGNATURE)) {
         return 1;
+    }
     if (!belongs("unit of tiles", wrist_tile_signature(),
-            WRIST_SIGNATURE))
+            WRIST_SIGNATURE)) {
         return 1;
+    }
     compare_tiles();
     compare_sines();
     empty();
@@ -229,8 +241,9 @@ int main(void)
         modeler_batch_1(wrist_base_parameters, 1, inputs,
             out, 17);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(beta, out, sizeof(beta));
+    }
     compare("wrist_base_parameters", out,
             beta, 1, 17, TOLERANCE);
     empty();
@@ -240,8 +253,9 @@ int main(void)
         modeler_batch_4(wrist_inverse_dynamics, 2, inputs,
             out, 3);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_inverse_dynamics, out, sizeof(at_inverse_dynamics));
+    }
     compare("wrist_inverse_dynamics", out,
             at_inverse_dynamics, 2, 3, TOLERANCE);
     empty();
@@ -251,8 +265,9 @@ int main(void)
         modeler_batch_2(wrist_inertia_matrix, 2, inputs,
             out, 9);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_inertia_matrix, out, sizeof(at_inertia_matrix));
+    }
     compare("wrist_inertia_matrix", out,
             at_inertia_matrix, 2, 9, TOLERANCE);
     empty();
@@ -262,8 +277,9 @@ int main(void)
         modeler_batch_2(wrist_gravity, 2, inputs,
             out, 3);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_gravity, out, sizeof(at_gravity));
+    }
     compare("wrist_gravity", out,
             at_gravity, 2, 3, TOLERANCE);
     empty();
@@ -273,8 +289,9 @@ int main(void)
         modeler_batch_3(wrist_coriolis, 2, inputs,
             out, 3);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_coriolis, out, sizeof(at_coriolis));
+    }
     compare("wrist_coriolis", out,
             at_coriolis, 2, 3, TOLERANCE);
     empty();
@@ -284,8 +301,9 @@ int main(void)
         modeler_batch_2(wrist_friction, 2, inputs,
             out, 3);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_friction, out, sizeof(at_friction));
+    }
     compare("wrist_friction", out,
             at_friction, 2, 3, TOLERANCE);
     empty();
@@ -295,8 +313,9 @@ int main(void)
         modeler_batch_1(wrist_forward_kinematics, 2, inputs,
             out, 36);
     }
-    if (REPLACED)
+    if (REPLACED != 0) {
         memcpy(at_forward_kinematics, out, sizeof(at_forward_kinematics));
+    }
     compare("wrist_forward_kinematics", out,
             at_forward_kinematics, 2, 36, TOLERANCE);
     empty();
@@ -338,7 +357,7 @@ int main(void)
     compare("wrist_inertia_matrix and others", product,
             at_inverse_dynamics, STATES, N, TOLERANCE);
     printf("wrist %s:\n", WRIST_SIGNATURE);
-    if (failed) {
+    if (failed != 0) {
         printf("functions do not agree with the stored states; other compiler flags?\n");
         return 1;
     }

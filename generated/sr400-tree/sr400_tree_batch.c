@@ -1,0 +1,21 @@
+/* SR400, 6R arm with a parallelogram, cut open
+ *
+ * Functions of sr400_tree_batch.h.
+ * Emitted by modeler, which writes over a file that was edited only with --force.
+ */
+#include "sr400_tree_batch.h"
+
+#include "modeler_batch.h"
+
+void sr400_tree_observation(size_t samples, const double *q, const double *qd, const double *qdd,
+                            double *MODELER_RESTRICT W)
+{
+    const modeler_input inputs[3] = {
+        {q, SR400_TREE_JOINTS},
+        {qd, SR400_TREE_JOINTS},
+        {qdd, SR400_TREE_JOINTS},
+    };
+
+    modeler_batch_3(sr400_tree_base_regressor, samples, inputs, W,
+                    (size_t)SR400_TREE_JOINTS * SR400_TREE_BASE_PARAMETERS);
+}

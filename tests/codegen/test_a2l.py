@@ -1,0 +1,90 @@
+"""The description of the parameter set: where the compiler puts what it names; a reader's word."""
+
+import re
+import subprocess
+
+import pytest
+
+from modeler.cli import main
+from modeler.codegen.control import Control
+from modeler.codegen.emit import emit
+from modeler.core.errors import EmitError
+from tests.codegen.fitted_library import fitted_of, robot_module
+from tests.modules import compiler
+
+_BLOCK = re.compile(
+    r'/begin (CHARACTERISTIC|MEASUREMENT) (\w+)\n\s+"(.*)"\n\s+(.*)\n(?:\s+ECU_ADDRESS 0x0\n)?'
+    r'\s+SYMBOL_LINK "(\w+)" (\d+)\n\s+/end \1\n'
+)
+
+
+def described(name: str, precision="double", fitted: bool = False):
+    made = robot_module(name)
+    values = fitted_of(made.emitted.spec) if fitted else None
+    return emit(made.model, made.base, values, precision, control=Control(), a2l=True)
+
+
+@pytest.mark.parametrize(
+    ("name", "precision"), [("two-link", "double"), ("two-link", "single"), ("five-bar", "double")]
+)
+def test_offsets_are_those_of_the_compiler(name: str, precision, tmp_path) -> None:
+    emitted = described(name, precision)
+    prefix, spec = emitted.spec.prefix, emitted.spec
+    found = {at[2]: int(at[6]) for at in _BLOCK.finditer(emitted.files[f"{prefix}.a2l"])}
+    for file, text in emitted.files.items():
+        if file.endswith(".h") and "/" not in file:
+            (tmp_path / file).write_text(text)
+    widths = [n.removeprefix(f"{prefix}_width_") for n in found if f"{prefix}_width_" in n]
+    places = {f"{prefix}_beta_{base.name}": f"beta[{k}]" for k, base in enumerate(spec.base)}
+    places |= {f"{prefix}_width_{joint}": f"widths[{k}]" for k, joint in enumerate(widths)}
+    places |= {f"{prefix}_signature_{k + 1}": f"signature[{k}]" for k in (0, 1)}
+    places[f"{prefix}_checksum"] = "checksum"
+    lines = [f'printf("{n} %zu\\n", offsetof({prefix}_set, {at}));' for n, at in places.items()]
+    (tmp_path / "at.c").write_text(
+        f'#include <stddef.h>\n#include <stdio.h>\n#include "{prefix}_control.h"\n'
+        f"int main(void) {{ {' '.join(lines)} return 0; }}\n"
+    )
+    subprocess.run([compiler("gcc"), "at.c", "-o", "at"], cwd=tmp_path, check=True)
+    told = subprocess.run([tmp_path / "at"], capture_output=True, text=True, check=True).stdout
+    assert {n: int(at) for n, at in (line.split() for line in told.splitlines())} == found
+    assert len(widths) == (2 if name == "two-link" else 0)
+
+
+def test_a_reader_of_the_standard_finds_names_units_and_limits(tmp_path, capfd) -> None:
+    pya2l = pytest.importorskip("pya2l", reason="pya2ldb reads A2L: pip install pya2ldb")
+    from pya2l import model
+
+    emitted = described("two-link", fitted=True)
+    (tmp_path / "arm.a2l").write_text(emitted.files["two_link.a2l"])
+    read = pya2l.import_a2l(str(tmp_path / "arm.a2l"), in_memory=True)
+    said = "".join(capfd.readouterr())
+    assert "[error]" not in said and "[warning]" not in said, said
+    numbers = {each.name: each for each in read.query(model.Characteristic).all()}
+    units = {each.name: each.unit for each in read.query(model.CompuMethod).all()}
+    assert len(numbers) == len(emitted.spec.base) + 2
+    for base in emitted.spec.base:
+        number = numbers[f"two_link_beta_{base.name}"]
+        assert units[number.conversion] == base.unit and number.type == "VALUE"
+        assert number.symbol_link.symbolName == "two_link_parameters"
+        assert (float(number.lowerLimit) == 0.0) == (base.name[:2] in ("Fv", "Fs")), base.name
+    assert {each.datatype for each in read.query(model.Measurement).all()} == {"ULONG"}
+    read.close()
+    broken = emitted.files["two_link.a2l"].replace("VALUE 0x0 ", "VALUE ")
+    (tmp_path / "broken.a2l").write_text(broken)
+    pya2l.import_a2l(str(tmp_path / "broken.a2l"), in_memory=True).close()
+    assert "[error]" in "".join(capfd.readouterr())  # it does tell
+
+
+def test_without_the_controllers_unit_there_is_no_set() -> None:
+    made = robot_module("two-link")
+    with pytest.raises(
+        EmitError, match="two-link: A2L is of the controller's unit; write a folder"
+    ):
+        emit(made.model, made.base, a2l=True)
+
+
+def test_the_command_writes_it_and_takes_it_away(tmp_path) -> None:
+    words = ["generate", "two-link", "--out", str(tmp_path / "arm")]
+    assert main([*words, "--a2l"]) == 0
+    assert "/end PROJECT" in (tmp_path / "arm" / "two_link.a2l").read_text()
+    assert main(words) == 0 and not (tmp_path / "arm" / "two_link.a2l").exists()

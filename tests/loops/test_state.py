@@ -1,0 +1,203 @@
+"""A controller's state of a robot with loops: closed once a cycle, then every quantity from it."""
+
+import ctypes
+import shutil
+import subprocess
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+
+from modeler.codegen.package import write_emitted
+from modeler.core.manifest import ModuleSpec
+from tests.modules import STRICT, compiler, module
+
+ROBOTS = ("five-bar", "delta", "orthoglide-2003", "stewart", "evra")
+
+COUNTING = """
+#include <stddef.h>
+#include "{prefix}.h"
+size_t state_size(void);
+double *last_posture(struct {prefix}_state *state);
+extern int evaluations;
+int evaluations;
+size_t state_size(void) {{ return sizeof(struct {prefix}_state); }}
+double *last_posture(struct {prefix}_state *state) {{ return state->at.u; }}
+void __real_{prefix}_tree_closure(const double *u, double *values);
+void __wrap_{prefix}_tree_closure(const double *u, double *values);
+void __wrap_{prefix}_tree_closure(const double *u, double *values)
+{{ evaluations++; __real_{prefix}_tree_closure(u, values); }}
+void __real_{prefix}_tree_residual(const double *u, double *f);
+void __wrap_{prefix}_tree_residual(const double *u, double *f);
+void __wrap_{prefix}_tree_residual(const double *u, double *f)
+{{ evaluations++; __real_{prefix}_tree_residual(u, f); }}
+"""
+
+
+class Robot(NamedTuple):
+    """A robot's compiled C, and a state of it."""
+
+    spec: ModuleSpec
+    library: ctypes.CDLL
+    memory: Any
+
+    def call(self, role: str, *arguments: np.ndarray | int | None, out: tuple[int, ...] = ()):
+        """(status, output) of `<prefix>_<role>`; at the state where the name ends so."""
+        given = [
+            a if a is None or isinstance(a, int) else ctypes.c_void_p(a.ctypes.data)
+            for a in arguments
+        ]
+        result = np.zeros(out)
+        given += [ctypes.c_void_p(result.ctypes.data)] if out else []
+        given = [self.memory, *given] if role.endswith("_at") else given
+        return getattr(self.library, f"{self.spec.prefix}_{role}")(*given), result
+
+    def state(self, q: np.ndarray, qd: np.ndarray, first: bool = False) -> int:
+        q, qd = np.ascontiguousarray(q), np.ascontiguousarray(qd)
+        previous = None if first else ctypes.c_void_p(self.library.last_posture(self.memory))
+        pointers = [ctypes.c_void_p(x.ctypes.data) for x in (q, qd)]
+        return int(getattr(self.library, f"{self.spec.prefix}_state")(*pointers, previous,
+                                                                      self.memory))  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def robots(tmp_path_factory) -> Any:
+    """{name: Robot}, each compiled once."""
+
+    @cache
+    def robot(name: str) -> Robot:
+        emitted = module(name).emitted
+        folder, prefix = tmp_path_factory.mktemp("c"), emitted.spec.prefix
+        write_emitted(emitted, folder)
+        (folder / "counting.c").write_text(COUNTING.format(prefix=prefix))
+        wrap = [f"-Wl,--wrap={prefix}_tree_{part}" for part in ("closure", "residual")]
+        command = [compiler("gcc"), *STRICT, "-O1", *wrap, "-shared", "-fPIC", "-o", "robot.so"]
+        subprocess.run(
+            [*command, *(path.name for path in folder.glob("*.c")), "-lm"], cwd=folder, check=True
+        )
+        library = ctypes.CDLL(str(folder / "robot.so"))
+        library.state_size.restype = ctypes.c_size_t
+        library.last_posture.restype = ctypes.c_void_p
+        memory = ctypes.create_string_buffer(library.state_size())
+        return Robot(emitted.spec, library, memory)
+
+    return robot
+
+
+def motion(spec: ModuleSpec, t: np.ndarray, seed: int) -> tuple[np.ndarray, ...]:
+    """q, qd, qdd around home: up to some 0.3 rad or 0.1 m, and 2 rad/s or 0.7 m/s."""
+    rng = np.random.default_rng(seed)
+    closure = spec.closure
+    assert closure is not None
+    home = np.array([closure.home[k] for k in closure.given])
+    size = np.array([0.3 if joint.unit == "rad" else 0.08 for joint in spec.joints])
+    size = size * rng.uniform(0.5, 1, len(home))
+    w, phase = rng.uniform(4, 8, len(home)), rng.uniform(-3, 3, len(home))
+    angle = t[:, None] * w + phase
+    q = home + size * (np.sin(angle) - np.sin(phase))
+    return q, size * w * np.cos(angle), -size * w**2 * np.sin(angle)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_one_cycle_of_a_controller_at_1_khz_evaluates_the_loops_at_most_4_times(name, robots):
+    """Torques, M, g, C, friction and regressor together; they are those of the plain functions."""
+    robot = robots(name)
+    spec, n, c = robot.spec, len(robot.spec.joints), len(robot.spec.base)
+    counter = ctypes.c_int.in_dll(robot.library, "evaluations")
+    q, qd, qdd = motion(spec, np.arange(0, 0.15, 1e-3), 11)
+    beta = np.random.default_rng(4).normal(size=c)
+    assert robot.state(q[0], 0 * qd[0], first=True) == 0
+    for k in range(len(q)):
+        now = [np.ascontiguousarray(x[k]) for x in (q, qd, qdd)]
+        counter.value = 0
+        assert robot.state(*now[:2]) == 0
+        at = {
+            "inverse_dynamics": robot.call("inverse_dynamics_at", now[2], beta, out=(n,)),
+            "inertia_matrix": robot.call("inertia_matrix_at", beta, out=(n, n)),
+            "gravity": robot.call("gravity_at", beta, out=(n,)),
+            "coriolis": robot.call("coriolis_at", beta, out=(n,)),
+            "friction": robot.call("friction_at", beta, out=(n,)),
+            "base_regressor": robot.call("base_regressor_at", now[2], out=(n, c)),
+        }
+        assert counter.value <= 4
+        if k % 50:
+            continue
+        given = {
+            "inverse_dynamics": (*now, beta), "inertia_matrix": (now[0], beta),
+            "gravity": (now[0], beta), "coriolis": (*now[:2], beta),
+            "friction": (*now[:2], beta), "base_regressor": now,
+        }  # fmt: skip
+        for role, (status, got) in at.items():
+            plain = robot.call(role, *given[role], out=got.shape)
+            assert status == plain[0] == 0
+            np.testing.assert_allclose(got, plain[1], atol=1e-9 * (1 + np.abs(plain[1]).max()))
+
+
+@pytest.mark.parametrize("name", ["five-bar", "delta", "evra"])
+def test_the_rate_of_the_coupling_is_its_derivative(name, robots):
+    """Central differences of G along the motion; and u has the second derivative G qdd + G' qd."""
+    robot = robots(name)
+    spec, n = robot.spec, len(robot.spec.joints)
+    assert spec.closure is not None
+    shape, h = (len(spec.closure.home), n), 1e-4
+    q, qd, _ = motion(spec, np.array([0.02 - h, 0.02, 0.02 + h]), 12)
+    G = [robot.call("coupling", np.ascontiguousarray(x), out=shape)[1] for x in q]
+    assert robot.state(q[1], qd[1], first=True) == 0
+    status, rate = robot.call("coupling_rate_at", out=shape)
+    expected = (G[2] - G[0]) / (2 * h)
+    assert status == 0 and np.abs(expected).max() > 0.1
+    np.testing.assert_allclose(rate, expected, atol=1e-5 * np.abs(expected).max())
+    np.testing.assert_allclose(robot.call("coupling_at", out=shape)[1], G[1], atol=1e-9)
+    assert robot.state(q[1], 1e-9 * qd[1]) == 0  # linear in the speeds, down to small ones
+    slow = 1e9 * robot.call("coupling_rate_at", out=shape)[1]
+    np.testing.assert_allclose(slow, rate, atol=1e-9 * np.abs(rate).max())
+
+
+def test_what_cannot_be_closed_is_told_and_the_last_posture_is_kept(robots):
+    robot = robots("five-bar")
+    n, beta = len(robot.spec.joints), np.ones(len(robot.spec.base))
+    q, qd, _ = motion(robot.spec, np.array([0.0, 1e-3]), 13)
+    assert robot.state(q[0], qd[0], first=True) == 0
+    for bad_q, bad_qd, expected in (
+        (q[0] + [4.0, -4.0], qd[0], {1, 2, 4}),
+        (q[0] + [np.nan, 0], qd[0], {3}),
+        (q[0], qd[0] + [0, np.inf], {3}),
+    ):
+        told = robot.state(bad_q, bad_qd)
+        assert told in expected
+        status, tau = robot.call("gravity_at", beta, out=(n,))
+        assert status == told and np.isnan(tau).all()
+        status, rate = robot.call("coupling_rate_at", out=(4, n))
+        assert status == told and np.isnan(rate).all()
+        assert robot.state(q[1], qd[1]) == 0
+        status, tau = robot.call("gravity_at", beta, out=(n,))
+        assert status == 0 and np.isfinite(tau).all()
+    status, tau = robot.call("gravity_at", beta * np.nan, out=(n,))
+    assert status == 3 and np.isnan(tau).all()
+
+
+MICROCONTROLLER = ("-mcpu=cortex-m7", "-mfpu=fpv5-d16", "-mthumb", "-mfloat-abi=hard")
+
+
+@pytest.mark.parametrize("flags", [("gcc",), ("arm-none-eabi-gcc", *MICROCONTROLLER)])
+def test_functions_at_a_state_need_no_more_than_8_kb_of_stack(flags, tmp_path):
+    """All of evra's, with the deepest of what they call added."""
+    if shutil.which(flags[0]) is None:
+        pytest.skip(f"NOT CHECKED: {flags[0]} is not installed")
+    emitted = module("evra").emitted
+    write_emitted(emitted, tmp_path)
+    command = [*flags, "-std=c99", "-O2", "-fno-inline", "-fstack-usage", "-c"]
+    subprocess.run([*command, *(p.name for p in tmp_path.glob("*.c"))], cwd=tmp_path, check=True)
+    sizes = {}
+    for path in Path(tmp_path).glob("*.su"):
+        for line in path.read_text().splitlines():
+            place, size = line.split("\t")[:2]
+            sizes[place.split(":")[-1]] = int(size)
+    assert {"evra_state", "evra_gravity_at", "evra_base_regressor_at"} <= sizes.keys()
+    at = max(size for name, size in sizes.items() if name.endswith(("_at", "_state")))
+    made = max(v for k, v in sizes.items() if k.startswith(("made_", "base_rows", "evra_moved")))
+    tree = max(v for k, v in sizes.items() if k.startswith("evra_tree_"))
+    runtime = sum(v for k, v in sizes.items() if k in ("walk", "stepped", "modeler_close_next"))
+    assert at + made + runtime + tree <= 8192
