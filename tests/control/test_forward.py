@@ -98,9 +98,6 @@ def test_operational_space(name, damping):
     data = other.createData()
     jacobian = model.evaluate("jacobian", q=q)
     roles = ("operational_inertia", "operational_inverse")
-        ("operational_inertia", "operational_inverse"),
-        model.evaluate("jacobian", q=q),
-    )
     given = {"q": q, "beta": beta, "damping": [damping]}
     statuses = [model.statuses(role, **given) for role in roles]
     results = [model._called(role, given)[0] for role in roles]
