@@ -283,3 +283,36 @@ def test_strict_compilers_and_sanitizers(tmp_path, precision, cc, flags):
         library = [compiler(cc), *STRICT, *flags, "-o", "run", "main.o", *sources, "-lm"]
         subprocess.run(library, cwd=tmp_path, check=True)
         assert subprocess.run([tmp_path / "run"], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("name", ["puma560", pytest.param("tree-2", marks=pytest.mark.slow)])
+def test_forward_dynamics_in_mujoco(name):
+    mujoco = pytest.importorskip("mujoco")
+    model, chi, beta, q, qd, tau = drawn(name, samples=10, seed=14)
+    qdd = model.evaluate("forward_dynamics", q=q, qd=qd, tau=tau, beta=beta)
+    other, rows = in_pinocchio(robot_of(name), chi)
+    assert rows == list(range(len(rows)))
+    spec = mujoco.MjSpec()
+    spec.option.gravity = other.gravity.linear
+    spec.option.disableflags = mujoco.mjtDisableBit.mjDSBL_CONTACT
+    bodies = [spec.worldbody]
+    for index in range(1, other.njoints):
+        placement, inertia = other.jointPlacements[index], other.inertias[index]
+        quaternion = np.zeros(4)
+        mujoco.mju_mat2Quat(quaternion, placement.rotation.ravel())
+        body = bodies[other.parents[index]].add_body(pos=placement.translation, quat=quaternion)
+        body.mass, body.ipos, I = inertia.mass, inertia.lever, inertia.inertia
+        body.fullinertia = [I[0, 0], I[1, 1], I[2, 2], I[0, 1], I[0, 2], I[1, 2]]
+        body.explicitinertial = True
+        kind = "HINGE" if model.spec.joints[index - 1].kind == "revolute" else "SLIDE"
+        body.add_joint(
+            type=getattr(mujoco.mjtJoint, f"mjJNT_{kind}"), axis=[0, 0, 1],
+            armature=other.armature[index - 1],
+        )  # fmt: skip
+        bodies.append(body)
+    made = spec.compile()
+    data = mujoco.MjData(made)
+    for k, effort in enumerate(tau - frictions(model.spec, chi, qd)):
+        data.qpos[:], data.qvel[:], data.qfrc_applied[:] = q[k], qd[k], effort
+        mujoco.mj_forward(made, data)
+        assert np.abs(qdd[k] - data.qacc).max() <= 1e-8 * np.abs(qdd[k]).max()
