@@ -209,6 +209,25 @@ def test_friction_that_reads_accelerations():
             assert np.median(apart) < 1e-6 and (apart > 1e-4).sum() <= 2  # where |load| turns
 
 
+def test_an_own_effect_of_the_acceleration():
+    own = """drag = ["2"]
+
+[own_effects.drag]
+title = "drag of a fluid that is carried along"
+columns = { Da = "a*abs(a)" }
+unit = "1"
+
+[reference]"""
+    text = LOADED[: LOADED.index("load_friction")] + own + LOADED.split("[reference]")[1]
+    model = loaded(generate(derive(robot_from_text(text, "drag")), control=Control()))
+    random = np.random.default_rng(10)
+    chi = physical(model.spec, random) | {"Da2": 0.3}
+    beta = model.base_parameters([chi[p.name] for p in model.spec.standard])
+    q, qd, tau = random.normal(size=(3, 50, 3))
+    qdd = model.evaluate("forward_dynamics", q=q, qd=qd, tau=10 * tau, beta=beta)
+    assert np.abs(model.inverse_dynamics(q, qd, qdd, beta) - 10 * tau).max() <= 1e-9
+
+
 @pytest.mark.parametrize("name", few_first(["puma560", "panda", "tree-2"]))
 def test_single_precision_and_fitted_values(name):
     model, _, beta, q, qd, tau = drawn(name, samples=5, seed=13)
