@@ -179,8 +179,10 @@ def _dynamics(
 def _derivatives(model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments) -> CFunction:
     return CFunction(
         UNIT, "derivatives",
-        "Derivatives of the torques by positions and by speeds; those by qdd are M. A leap "
-        "of friction counts as level.",
+        layout.comment_text(
+            "Derivatives of the torques by positions and by speeds; those by qdd are M. A leap "
+            "of friction counts as level."
+        ),
         "D = [d tau/d q, d tau/d qd]", (*given.motion, given.beta),
         ArgumentSpec("D", (2, *given.q.shape, *given.q.shape), "torque per unit of q, of qd",
                      "derivatives"),
