@@ -21,7 +21,6 @@ from modeler.codegen.control import (
     chosen,
     control_functions,
     fitted_control_functions,
-    plain_effects,
 )
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
@@ -503,7 +502,7 @@ def _module(
         ),
         "loops": loops,
         "names": constants,
-        "plain": plain_effects(model),
+        "plain": not layout.reads_more(model),
         "signature": "",
         "blocks": blocks,
         "places": places,
