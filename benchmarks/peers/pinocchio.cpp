@@ -31,7 +31,7 @@ struct Peer {
     Eigen::VectorXd q, v, a;
     pinocchio::FrameIndex tool;
     Eigen::Matrix<double, 6, Eigen::Dynamic> J;
-    Eigen::MatrixXd dq, dv, da;
+    Eigen::MatrixXd dq, dv, da, solved;
 };
 
 /* Writes a matrix row after row; where `out` is null, only the value that keeps the work alive. */
@@ -194,9 +194,9 @@ __attribute__((visibility("default"))) double peer_call(void *handle, int which,
         computeFrameJacobian(model, data, peer.q, peer.tool, LOCAL_WORLD_ALIGNED, peer.J);
         crba(model, data, peer.q);
         cholesky::decompose(model, data);
-        peer.dq = peer.J.transpose();
-        cholesky::solve(model, data, peer.dq);
-        const Eigen::Matrix<double, 6, 6> L = (peer.J * peer.dq).eval();
+        peer.solved = peer.J.transpose();
+        cholesky::solve(model, data, peer.solved);
+        const Eigen::Matrix<double, 6, 6> L = (peer.J * peer.solved).eval();
         return written(L.llt().solve(Eigen::Matrix<double, 6, 6>::Identity()).eval(), out);
     }
     default:

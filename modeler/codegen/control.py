@@ -11,6 +11,7 @@ from fractions import Fraction
 
 from modeler import derivation
 from modeler.codegen import functions as layout
+from modeler.codegen.closed_control import closed_control_functions, fitted_closed
 from modeler.codegen.forward import forward_functions, without_beta
 from modeler.codegen.functions import Arguments, CFunction, Closed, entries_of
 from modeler.codegen.parameter_set import smooth_functions
@@ -41,8 +42,8 @@ class Control:
 OBSERVATION = "observation"
 """Of many samples; it stands in the library for these and calls the base regressor."""
 
-_OF_LOOPS = ("factor", "solve", "coupling", "turned", "spread")
-_ROWS = ("base_regressor", "base_regressor_nonzeros", "tree_base_regressor", "tree_drift")
+_OF_LOOPS = ("closure", "residual", "factor", "solve", "coupling", "turned", "spread")
+_ROWS = ("base_regressor", "base_regressor_nonzeros", "tree_base_regressor", "tree_rows")
 
 
 def chosen(functions: Sequence[CFunction], only: Sequence[str], robot: str) -> frozenset[str]:
@@ -68,6 +69,7 @@ def chosen(functions: Sequence[CFunction], only: Sequence[str], robot: str) -> f
     called = {f.role: f.closed or f.composed for f in functions}
     waiting = [role for role in public if role in only or role.removeprefix("fitted_") in only]
     waiting += _ROWS if OBSERVATION in only else ()
+    waiting += ["tree_drift", *(f"tree_{part}" for part in _OF_LOOPS)]  # the state's
     kept: set[str] = set()
     while waiting:
         role = waiting.pop()
@@ -95,33 +97,48 @@ def control_functions(
     Raises:
         EmitError: a frame is unknown, or two have one name in C.
     """
-    if model.closure is not None:
-        return ()
     model = _apart(model)
     given = layout.arguments_of(model.robot.free, model, base)
     beta = layout.beta_symbols(model, base)
-    return (
+    found = (
         *_dynamics(model, beta, given),
         *_regressors(model, base, given),
         *_frames(model, control, given),
+    )
+    if model.closure is not None:
+        return closed_control_functions(model, base, found)
+    return (
+        *found,
+        _derivatives(model, beta, given),
         *forward_functions(model, beta, given),
         *smooth_functions(model, beta, given),
     )
 
 
 def fitted_control_functions(
-    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec
+    model: SymbolicModel, base: BaseParameters, fitted: FittedSpec, plain: Sequence[CFunction]
 ) -> tuple[CFunction, ...]:
-    """Twins of those that read beta, without it: the values are written into them."""
+    """Twins of those that read beta, without it: the values are written into them.
+
+    Args:
+        model: as derived.
+        base: the base parameters of the same model.
+        fitted: their values.
+        plain: the functions that read beta.
+    """
     if model.closure is not None:
-        return ()
+        return fitted_closed(plain)
     model = _apart(model)
     given = layout.arguments_of(model.robot.free, model, base)
     values = {
         parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
         for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
     }
-    found = (*_dynamics(model, values, given), *forward_functions(model, values, given))
+    found = (
+        *_dynamics(model, values, given),
+        _derivatives(model, values, given),
+        *forward_functions(model, values, given),
+    )
     return tuple(map(without_beta, found))
 
 
@@ -157,14 +174,18 @@ def _dynamics(
             "p = M(q) qd", state, ArgumentSpec("p", (n,), momenta, "generalised momentum"),
             entries_of(derivation.momentum(model, beta)),
         ),
-        CFunction(
-            UNIT, "derivatives",
-            "Derivatives of the torques by positions and by speeds; those by qdd are M. A leap "
-            "of friction counts as level.",
-            "D = [d tau/d q, d tau/d qd]", (*given.motion, given.beta),
-            ArgumentSpec("D", (2, n, n), "torque per unit of q, of qd", "derivatives"),
-            entries_of(_slopes(model, beta)),
-        ),
+    )  # fmt: skip
+
+
+def _derivatives(model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments) -> CFunction:
+    return CFunction(
+        UNIT, "derivatives",
+        "Derivatives of the torques by positions and by speeds; those by qdd are M. A leap "
+        "of friction counts as level.",
+        "D = [d tau/d q, d tau/d qd]", (*given.motion, given.beta),
+        ArgumentSpec("D", (2, *given.q.shape, *given.q.shape), "torque per unit of q, of qd",
+                     "derivatives"),
+        entries_of(_slopes(model, beta)),
     )  # fmt: skip
 
 

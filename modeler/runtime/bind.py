@@ -222,6 +222,8 @@ def check_names(spec: ModuleSpec) -> None:
     more = int(bool(spec.signals))
     for role, count in wanted.items():
         got = inputs.get(f"{spec.prefix}_{role}")
+        if got is None and spec.units is not None:
+            continue
         count += more if role in READ_SIGNALS else 0
         if role == "friction" and got == 4 + more:  # effects that read positions or loads
             continue
@@ -234,15 +236,17 @@ def check_names(spec: ModuleSpec) -> None:
 
 def _declarations(spec: ModuleSpec) -> str:
     loops = spec.closure is not None
-    signals = "const double *, " if spec.signals else ""
     lines = [
         _INPUT,
         *(_BATCH.format(count, "") for count in range(1, 6)),
         *(_BATCH.format(f"status_{count}", ", int *") for count in range(1, 6)),
         f"const char *{spec.prefix}_signature(void);",
-        f"void {spec.prefix}_observation(size_t, const double *, const double *, const double *, "
-        f"{signals}double *{', int *' if loops else ''});",
     ]
+    if spec.has("_batch"):
+        states = ", ".join(["const double *"] * (4 if spec.signals else 3))
+        lines.append(
+            f"void {spec.prefix}_observation(size_t, {states}, double *{', int *' if loops else ''});"
+        )
     for function in spec.every_function:
         inputs = ", ".join("const double *" for _ in function.inputs)
         returns = "int" if function.status else "void"

@@ -409,6 +409,7 @@ class Batches:
     def _entries(self, samples: int) -> Functions:
         name = f"{self.spec.prefix}_base_regressor_nonzeros"
         tiles = self._tiles if samples >= TILED_FROM else None  # compiled where there are many
+        self._functions[name.removeprefix(f"{self.spec.prefix}_")]
         address = self._library.address(name)
         return Functions(address, len(self.spec.signals), 0 if tiles is None else tiles.tile)
 

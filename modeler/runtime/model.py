@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from modeler.core.checks import as_samples, as_vector
-from modeler.core.errors import LoopError, ManifestError, ShapeError
+from modeler.core.errors import LoopError, ManifestError, ShapeError, SolutionError
 from modeler.core.files import read_file
 from modeler.core.manifest import MANIFEST, Emitted, FunctionSpec, ModuleSpec, module_from_json
 from modeler.core.result import Presented
@@ -22,6 +22,30 @@ _STATUS = {
     4: "the loops were not closed within the evaluations allowed",
 }
 """What a status of the C code says."""
+
+_REFUSED = {
+    2: "the inertia matrix is singular or not positive, or the Jacobian has not full rank",
+    3: "a value is not finite",
+    4: "the accelerations that friction depends on did not converge",
+}
+"""The same without loops."""
+
+
+class _Functions(dict[str, FunctionSpec]):
+    """Functions of a module by name without the robot's; what is not there is told."""
+
+    def __init__(self, spec: ModuleSpec) -> None:
+        start = f"{spec.prefix}_"
+        super().__init__({f.name.removeprefix(start): f for f in spec.every_function})
+        self._spec = spec
+
+    def __missing__(self, role: str) -> FunctionSpec:
+        some = "; it was generated with --only: generate it without" * (
+            self._spec.units is not None
+        )
+        raise ManifestError(
+            f"{self._spec.robot} has no function {role}; expected {', '.join(sorted(self))}{some}"
+        )
 
 
 class CompiledModel(Batches, Presented):
@@ -47,10 +71,7 @@ class CompiledModel(Batches, Presented):
         self._tile_files = tile_files or {}
         self.log: Mapping[str, object] = log or {}
         self._library = library
-        self._functions = {
-            function.name.removeprefix(f"{spec.prefix}_"): function
-            for function in spec.every_function
-        }
+        self._functions = _Functions(spec)
         self._joints = len(spec.joints)
 
     def __reduce__(self) -> tuple[Callable[..., "CompiledModel"], tuple[Any, ...]]:
@@ -81,6 +102,8 @@ class CompiledModel(Batches, Presented):
                 into fresh memory pages.
             s: signals of effects, where there are any.
         """
+        if not self.spec.has("_batch"):
+            self._functions["observation"]
         inputs = self._motion(q, qd, qdd, s)
         shape = (len(inputs[0]) * self._joints, len(self.spec.base))
         W = np.empty(shape) if out is None else checked_out(out, shape)
@@ -205,9 +228,10 @@ class CompiledModel(Batches, Presented):
             ManifestError: the module has no such function.
             ShapeError: an input is missing, or of another shape.
             LoopError: the function returns a status that is not 0; names the sample.
+            SolutionError: the same of a robot without loops.
         """
         out, status, inputs = self._called(role, arrays)
-        self._check(status, inputs[0])
+        self._check(status, inputs[0], "" if self._loops else role)
         return out
 
     def statuses(self, role: str, **arrays: Any) -> np.ndarray:
@@ -219,10 +243,7 @@ class CompiledModel(Batches, Presented):
         self, role: str, arrays: Mapping[str, Any]
     ) -> tuple[np.ndarray, np.ndarray | None, list[np.ndarray]]:
         """Output, statuses, inputs."""
-        function = self._functions.get(role)
-        if function is None:
-            known = ", ".join(sorted(self._functions))
-            raise ManifestError(f"{self.spec.robot} has no function {role}; expected {known}")
+        function = self._functions[role]
         wanted = {argument.name: argument.size for argument in function.inputs}
         if wanted.keys() != arrays.keys():
             raise ShapeError(
@@ -246,8 +267,6 @@ class CompiledModel(Batches, Presented):
     def _evaluate(
         self, role: str, states: Mapping[str, Any], beta: Any = None, s: Any = None
     ) -> np.ndarray:
-        if role not in self._functions:
-            raise ManifestError(f"{self.spec.robot} has no {role}: it has no platform in a loop")
         function: FunctionSpec = self._functions[role]
         given = self._states(states)
         samples = len(next(iter(given.values())))
@@ -273,16 +292,22 @@ class CompiledModel(Batches, Presented):
     def _no_status(self, samples: int) -> np.ndarray | None:
         return np.zeros(samples, dtype=np.intc) if self._loops else None
 
-    def _check(self, status: np.ndarray | None, given: np.ndarray) -> None:
-        """Raises LoopError for the first sample that does not close."""
+    def _check(self, status: np.ndarray | None, given: np.ndarray, role: str = "") -> None:
+        """Raises LoopError for the first sample that does not close, or that the role refuses."""
         if status is None or not np.any(status):
             return
         first = int(np.flatnonzero(status)[0])
         where = ", ".join(f"{value:.6g}" for value in given[first])
         more = int(np.count_nonzero(status)) - 1
         also = f" (and {more} more)" if more else ""
+        at, code = f"{self.spec.robot}: sample {first + 1}{also}", int(status[first])
+        if role:
+            raise SolutionError(
+                f"{at}: {role} has no result: {_REFUSED[code]}; got q ({where}); check the "
+                "parameters and the posture"
+            )
         raise LoopError(
-            f"{self.spec.robot}: sample {first + 1}{also}: {_STATUS[int(status[first])]}; got "
+            f"{at}: {_STATUS[code]}; got "
             f"({where}); expected positions that the robot reaches from [home], in SI units"
         )
 

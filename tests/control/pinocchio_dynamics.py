@@ -71,7 +71,7 @@ class Oracle:
         return out
 
     def projected(self, A):
-        return self.F.T @ A[np.ix_(self.rows, self.rows)] @ self.F
+        return self.F.T @ np.atleast_2d(A)[np.ix_(self.rows, self.rows)] @ self.F
 
     def effects(self, prefix):
         """{row: value} of an effect's parameter."""
@@ -87,17 +87,17 @@ class Oracle:
         """Everything at one state, by role."""
         model, data = self.model, self.data
         x, speeds, rates = self.tree(q), self.tree(qd), self.tree(qdd)
+        still = np.zeros(model.nv)
         x[self.rows] += self.shift
         rotors = self.F.T @ np.diag(self.effects("Ia")) @ self.F
-        M = pin.crba(model, data, x)
+        M = np.atleast_2d(pin.crba(model, data, x))
         M = self.projected(np.triu(M) + np.triu(M, 1).T) + rotors
-        gravity = self.F.T @ pin.computeGeneralizedGravity(model, data, x)[self.rows]
-        still = np.zeros(model.nv)
+        gravity = self.F.T @ np.atleast_1d(pin.rnea(model, data, x, still, still))[self.rows]
+        tau = self.F.T @ np.atleast_1d(pin.rnea(model, data, x, speeds, rates))[self.rows]
         kinetic = pin.computeRNEADerivatives(model, data, x, speeds, still)[1]
         C = self.projected(kinetic) / 2  # d c/d qd = 2 C defines Christoffel's
         by_q, by_qd, _ = pin.computeRNEADerivatives(model, data, x, speeds, rates)
         slopes = self.friction(qd)[1]
-        energy = pin.computeKineticEnergy(model, data, x, speeds) + qd @ rotors @ qd / 2
         found = {
             "inertia_matrix": M,
             "coriolis_matrix": C,
@@ -106,19 +106,18 @@ class Oracle:
             "derivatives": np.array([self.projected(by_q), self.projected(by_qd) + slopes]),
             "slotine_li": M @ a + C @ v + gravity + self.friction(v)[0],
             "momentum_rest": gravity + self.friction(qd)[0] - C.T @ qd,
-            "energy": energy + pin.computePotentialEnergy(model, data, x),
-            "power": self.friction(qd)[0] @ qd,
+            "power": (tau + rotors @ qdd + self.friction(qd)[0]) @ qd,
         }
         pin.computeJointJacobiansTimeVariation(model, data, x, speeds)
         pin.forwardKinematics(model, data, x, speeds, still)
         pin.updateFramePlacements(model, data)
         world = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
         for name, frame in self.frames.items():
-            J = pin.getFrameJacobian(model, data, frame, world)[:, self.rows] @ self.F
+            J = pin.getFrameJacobian(model, data, frame, world).reshape(6, -1)[:, self.rows]
             a = pin.getFrameClassicalAcceleration(model, data, frame, world).vector
             found |= {
                 f"pose {name}": data.oMf[frame].homogeneous[:3],
-                f"jacobian {name}": J,
+                f"jacobian {name}": J @ self.F,
                 f"jacobian_dot_qd {name}": a,
                 f"twist {name}": pin.getFrameVelocity(model, data, frame).vector,
             }

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.robot.robot import Robot
+from modeler.robot.robot import Joint, Robot
 from tests.elementary_motions import placed
 
 pin = pytest.importorskip("pinocchio", reason="Pinocchio (PyPI: pin) is not installed")
@@ -15,8 +15,8 @@ def pinocchio_model(robot: Robot):
     model = pin.Model()
     model.gravity.linear = np.array([e.number(values) for e in robot.gravity])
     places = {"0": (0, pin.SE3.Identity())}
-    ids = []
-    for joint in robot.joints:
+    ids = {}
+    for joint in depth_first(robot):
         parent, before = places[joint.antecedent]
         rotation, origin, sign = placed(joint, values)
         placement = before * pin.SE3(rotation, origin)
@@ -30,8 +30,20 @@ def pinocchio_model(robot: Robot):
         index = model.addJoint(parent, kind(axis), placement, f"joint {joint.name}")
         model.appendBodyToJoint(index, pin.Inertia.Zero(), pin.SE3.Identity())
         places[joint.name] = (index, pin.SE3.Identity())
-        ids.append(index)
-    return model, ids
+        ids[joint.name] = index
+    return model, [ids[joint.name] for joint in robot.moving]
+
+
+def depth_first(robot: Robot) -> list[Joint]:
+    """Rows, branch after branch: Pinocchio wants what a joint carries to follow it at once."""
+    carried: dict[str, list[Joint]] = {}
+    for joint in robot.joints:
+        carried.setdefault(joint.antecedent, []).append(joint)
+    found, waiting = [], carried["0"][::-1]
+    while waiting:
+        found.append(waiting.pop())
+        waiting += carried.get(found[-1].name, [])[::-1]
+    return found
 
 
 # Pinocchio: [m, mcx, mcy, mcz, Ixx, Ixy, Iyy, Ixz, Iyz, Izz] per body, about the joint origin.
