@@ -68,7 +68,7 @@ static void started(robot_state *now)
 static fmi3Status derived(robot_instance *robot)
 {
     double *x = robot->now.value;
-    if (robot->now.current != 0) {
+    if (robot->now.current != false) {
         return fmi3OK;
     }
     int status = fmu_accelerations(x + Q, x + QD, x + TAU, x + BETA, x + WIDTH, x + QDD);
