@@ -44,10 +44,11 @@ static inline int modeler_pivots(const modeler_real *pivot, const modeler_real *
     int status = MODELER_DONE;
 
     for (int i = n - 1; i >= 0 && status == MODELER_DONE; i--) {
-        if (!modeler_numbers(pivot + i, 1))
+        if (!modeler_numbers(pivot + i, 1)) {
             status = MODELER_NOT_FINITE;
-        else if (!(pivot[i] > MODELER_REAL(0.0)) || !(pivot[i] > MODELER_PIVOT * diagonal[i]))
+        } else if (!(pivot[i] > MODELER_REAL(0.0)) || !(pivot[i] > MODELER_PIVOT * diagonal[i])) {
             status = MODELER_SINGULAR;
+        }
     }
     return status;
 }
