@@ -99,7 +99,7 @@ def forward_functions(
         entries_of([*correction, *pivots, *diagonal]), internal=True,
     )  # fmt: skip
     slopes = CFunction(
-        UNIT, "effort_slopes", "Derivatives of the torques by accelerations: M, and what effects add.",
+        UNIT, "effort_slopes", "Derivatives of the torques by accelerations.",
         "d tau/d qdd", (*given.motion, given.beta),
         ArgumentSpec("A", (n, n), "SI", "derivatives"),
         entries_of([x for row in found.matrix for x in row]), internal=True,
