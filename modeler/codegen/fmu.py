@@ -12,7 +12,7 @@ from xml.sax.saxutils import escape
 from modeler.codegen.forward import efforts
 from modeler.codegen.functions import beta_symbols
 from modeler.codegen.package import render
-from modeler.codegen.parameter_set import turning_joints
+from modeler.codegen.parameter_set import SMOOTH, turning_joints
 from modeler.core.errors import EmitError
 from modeler.core.files import resource_dir
 from modeler.core.manifest import Emitted, ModuleSpec, text_digest
@@ -53,49 +53,63 @@ class _Variable:
     start: float | None = None
 
 
+def fmu_roles(model: SymbolicModel, base: BaseParameters) -> tuple[str, ...]:
+    """The functions of the C that an FMU calls.
+
+    Raises:
+        EmitError: dry friction in loops; effects that read accelerations.
+    """
+    rubbing, name = turning_joints(model, base), model.robot.name
+    if model.closure is not None and rubbing:
+        raise EmitError(
+            f"{name} has loops, and dry friction of joints {', '.join(rubbing)}, which leaps in C, "
+            "as an FMU must not; leave coulomb out of [effects]"
+        )
+    if efforts(model, beta_symbols(model, base)).turns:
+        raise EmitError(
+            f"{name}: its effects read accelerations, as load friction does, which the FMU does "
+            "not solve for; leave them out of [effects]"
+        )
+    if model.closure is not None:
+        return ("forward_dynamics",)
+    return "inertia_matrix", f"{SMOOTH if rubbing else ''}inverse_dynamics"
+
+
 def fmu_files(
     emitted: Emitted, model: SymbolicModel, base: BaseParameters, beta: Sequence[float]
 ) -> dict[str, str]:
     """{place in the unit: text} of all but the binary.
 
     Args:
-        emitted: the module, with the controller's unit.
+        emitted: the functions of `fmu_roles`.
         model: as derived.
         base: the base parameters of the same model.
         beta: their values at the start.
 
     Raises:
-        EmitError: loops; effects that read signals, which nothing gives here, or accelerations.
+        EmitError: effects that read signals, which nothing gives here.
     """
     spec = emitted.spec
-    if model.closure is not None:
-        raise EmitError(
-            f"{spec.robot} has loops, and the FMU is that of trees; cut the loops in the robot file"
-        )
     if spec.signals:
         raise EmitError(
             f"{spec.robot}: its effects read {spec.signals[0].kind}, which an FMU is not given; "
             "leave them out of [effects]"
         )
-    if efforts(model, beta_symbols(model, base)).turns:
-        raise EmitError(
-            f"{spec.robot}: its effects read accelerations, as load friction does, which the FMU "
-            "does not solve for; leave them out of [effects]"
-        )
-    roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.every_function}
-    smooth = roles.get("smooth_inverse_dynamics", roles["inverse_dynamics"])
-    reads = [argument.name for argument in smooth.inputs]
-    home = (0.0,) * len(spec.joints)
+    roles = fmu_roles(model, base)
+    inputs = {f.name.removeprefix(f"{spec.prefix}_"): f.inputs for f in spec.every_function}
+    closure = model.closure
+    home = [closure.home[k] for k in closure.given] if closure else [0.0] * len(spec.joints)
     widths = turning_joints(model, base)
     variables = list(_variables(spec, widths, home, beta))
-    code = {name: emitted.code[name] for name in spec.sources}
+    code = {name: emitted.files[name] for name in spec.controller_sources}
     token = text_digest("".join(code.values()) + repr(variables))
     n = len(spec.joints)
     values = {
         "name": escape(spec.robot), "title": escape(spec.title or spec.robot, {'"': "&quot;"}),
         "prefix": spec.prefix, "token": f"{{{token}}}", "step": STEP, "width": WIDTH, "joints": n,
         "widths": len(widths), "beta": beta, "home": _lines(home), "beta_lines": _lines(beta),
-        "torques": smooth.name, "reads": reads,
+        "roles": roles, "reads": [argument.name for argument in inputs[roles[-1]]],
+        "control": f"{spec.prefix}_control.h" in code,
     }  # fmt: skip
     code["fmu_model.h"] = render("fmu_model.h", **values)
     code["modeler_fmu.c"] = (resource_dir("csrc") / "fmu" / "modeler_fmu.c").read_text("utf-8")
