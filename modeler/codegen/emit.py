@@ -21,6 +21,7 @@ from modeler.codegen.control import (
     chosen,
     control_functions,
     fitted_control_functions,
+    plain_effects,
 )
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
@@ -345,8 +346,10 @@ def emit(
         every = [function for part in parts for function in part]
         units, kept = None, frozenset(f.role for f in every)
         if control is not None and control.only:
-            if cuda:
-                raise EmitError("--cuda: not with --only; generate two folders")
+            if cuda or a2l:
+                raise EmitError(
+                    f"--{'cuda' if cuda else 'a2l'}: not with --only; generate two folders"
+                )
             kept = chosen(every, control.only, model.robot.name)
             units = {f.unit for f in every if f.role in kept} | {UNIT}
             units |= {"_batch"} if OBSERVATION in control.only else set()
@@ -500,6 +503,7 @@ def _module(
         ),
         "loops": loops,
         "names": constants,
+        "plain": plain_effects(model),
         "signature": "",
         "blocks": blocks,
         "places": places,
@@ -595,9 +599,8 @@ def _control_unit(
     }
     files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
     known = [*values["blocks"], *values.get("fitted_blocks", ())]
-    control = manifest.ControlSpec(
-        function_specs(prefix, blocks, known), manifest.code_digest(files)
-    )
+    specs = function_specs(prefix, blocks, known)
+    control = manifest.ControlSpec(specs, manifest.code_digest(files))
     return dataclasses.replace(spec, control=control), files
 
 

@@ -15,7 +15,11 @@ from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
 from modeler.core.manifest import (
+    BATCH_RUNTIME,
+    CLOSURE_RUNTIME,
+    CONTROL_RUNTIME,
     MANIFEST,
+    TILE_RUNTIME,
     Emitted,
     FunctionSpec,
     ModuleSpec,
@@ -133,14 +137,13 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
 
 
 def _unwanted(emitted: Emitted) -> set[str]:
-    """Files that hold a model's values, or need them, or CUDA, and are not emitted now.
-
-    And programs that stand among the library's files, as earlier versions wrote them.
-    """
+    """Files of an earlier run with other options, or of an earlier version, not emitted now."""
     prefix = emitted.spec.prefix
-    names = {f"{prefix}_{unit}.{kind}" for unit in ("fitted", "control") for kind in "hc"}
-    names |= {f"{prefix}.{kind}" for kind in ("cu", "st", "a2l")}
-    names |= {f"{FOLDER}/{name}.c" for name in EXAMPLES} | {f"{name}.c" for name in PROGRAMS}
+    units = ("fitted", "control", "joints", "batch", "tile", "regressor", "base_regressor")
+    names = {f"{prefix}_{unit}.{kind}" for unit in units for kind in "hc"}
+    names |= {f"{prefix}.{kind}" for kind in ("cu", "st", "a2l", "hpp")} | {f"{prefix}_generator.h"}
+    names |= {*BATCH_RUNTIME, *TILE_RUNTIME, *CONTROL_RUNTIME, "vectors.csv", "cost.json"}
+    names |= {f"{head}{name}.c" for name in PROGRAMS for head in ("", f"{FOLDER}/")}
     return names - emitted.files.keys()
 
 
@@ -270,6 +273,10 @@ def package_files(
         "every": every,
         "roles": {f.name.removeprefix(f"{prefix}_") for f in every},
         "batched": spec.has("_batch"),
+        "closure_files": CLOSURE_RUNTIME if spec.closure is not None else (),
+        "control_files": [
+            name for name in CONTROL_RUNTIME if spec.closure is None or name not in CLOSURE_RUNTIME
+        ],
         "head": f"{prefix}{next((u for u in ('_control', '_fitted') if spec.has(u)), '')}",
         "fitted": spec.fitted,
         "passive": ", ".join(joint.name for joint in spec.joints if not joint.actuated),
@@ -370,8 +377,11 @@ _CALLED = {
 def examples_of(spec: ModuleSpec) -> tuple[str, ...]:
     """Those whose functions a module has; none where a joint of q has no motor to obey."""
     roles = {f.name.removeprefix(f"{spec.prefix}_") for f in spec.every_function}
-    every = all(joint.actuated for joint in spec.joints)
-    return tuple(name for name in EXAMPLES if every and roles.issuperset(_CALLED[name]))
+    if not all(joint.actuated for joint in spec.joints):
+        return ()
+    found = tuple(name for name in EXAMPLES if roles.issuperset(_CALLED[name]))
+    # A path in space is followed without what friction remembers.
+    return tuple(name for name in found if name != "example_cartesian" or not spec.signals)
 
 
 def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
@@ -387,6 +397,9 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     return {
         "states": 16,
         "largest": max(f.outputs[0].size for f in functions),
+        "widths_read": max(
+            (a.size for f in functions for a in f.inputs if a.name == "widths"), default=0
+        ),
         "counted": [
             {
                 "name": f.name,

@@ -219,7 +219,7 @@ def _tables(
             signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")})
             for role, f in roles.items():
                 c = f.closed or _DIRECT
-                if f.internal or role in left or c.q != name or (closure and f.composed):
+                if f.internal or role in left or c.q != name:
                     continue
                 if f.composed:
                     own = {**constants, **signals, **_named(tau=inputs["tau"][k]), **moving.inputs}
