@@ -37,15 +37,17 @@ static inline int modeler_outcome(int status, modeler_real *x, int n)
     return status;
 }
 
-/* Status of n pivots, each left of an entry of the diagonal. */
+/* Status of n pivots that were found from the last to the first, each left of an entry of the
+ * diagonal. */
 static inline int modeler_pivots(const modeler_real *pivot, const modeler_real *diagonal, int n)
 {
-    int status = modeler_numbers(pivot, n) ? MODELER_DONE : MODELER_NOT_FINITE;
+    int status = MODELER_DONE;
 
-    for (int i = 0; status == MODELER_DONE && i < n; i++) {
-        if (!(pivot[i] > MODELER_REAL(0.0)) || !(pivot[i] > MODELER_PIVOT * diagonal[i])) {
+    for (int i = n - 1; i >= 0 && status == MODELER_DONE; i--) {
+        if (!modeler_numbers(pivot + i, 1))
+            status = MODELER_NOT_FINITE;
+        else if (!(pivot[i] > MODELER_REAL(0.0)) || !(pivot[i] > MODELER_PIVOT * diagonal[i]))
             status = MODELER_SINGULAR;
-        }
     }
     return status;
 }

@@ -11,11 +11,12 @@ import casadi
 
 from modeler.codegen import functions as layout
 from modeler.codegen.control import Control, control_functions
+from modeler.codegen.fitted import widths
 from modeler.codegen.forward import efforts
 from modeler.codegen.functions import CFunction
-from modeler.codegen.parameter_set import SMOOTH, smooth_functions, turning
+from modeler.codegen.parameter_set import SMOOTH, smooth_functions, turning_joint, turning_joints
 from modeler.core.manifest import ArgumentSpec
-from modeler.derivation import Arithmetic, BaseParameters, Closure, Expr, Plan, SymbolicModel
+from modeler.derivation import Arithmetic, BaseParameters, Closure, Expr, Graph, Plan, SymbolicModel
 
 _OPERATIONS = {
     name: getattr(casadi, name) for name in ("sin", "cos", "tan", "sqrt", "exp", "sign", "tanh")
@@ -61,38 +62,47 @@ def casadi_functions(
 
     `forward_dynamics` and `smooth_forward_dynamics` give qdd of M qdd = tau - c - g - f.
     """
-    listed = [*layout.tree_functions(model, base), *control_functions(model, base, Control())]
-    beta, given = (layout.beta_symbols(model, base),
-                   layout.arguments_of(model.robot.free, model, base))  # fmt: skip
+    beta = layout.beta_symbols(model, base)
+    given = layout.arguments_of(model.robot.free, model, base)
+    listed = [*layout.tree_functions(model, base)]
     if model.closure is not None:
         listed += smooth_functions(model, beta, given)
-    places = turning(model, base)
-    found = {f.role: _function(model, f, places) for f in listed
-             if not f.internal and f.composed is None}  # fmt: skip
+    else:
+        listed += control_functions(model, base, Control())
+    turning = turning_joints(model, base)
+    found = {
+        f.role: _function(model, f, turning)
+        for f in listed
+        if not f.internal and f.composed is None
+    }
     missing: tuple[str, ...] = ()
     if model.closure is not None:
         found = _closed(model, model.closure, found)
         missing = ("functions of the platform's coordinates, and those for controllers",)
+    composed = [f.role for f in listed if f.composed and f.role != "forward_dynamics"]
+    if composed:
+        missing = (f"{', '.join(composed)}: take CasADi's jacobian of the others",)
     if efforts(model, beta).turns:
         missing += ("forward_dynamics: friction reads accelerations here; solve inverse_dynamics",)
     else:
-        for head in ("", SMOOTH)[: 1 + bool(places)]:
+        for head in ("", SMOOTH)[: 1 + bool(turning)]:
             found[f"{head}forward_dynamics"] = _forward(head, found)
     return list(found.values()), missing
 
 
-def _function(model: SymbolicModel, f: CFunction, places: Mapping[int, int]) -> casadi.Function:
-    """One of the C; `places` says which entry of an input `widths` each speed turns over."""
+def _function(model: SymbolicModel, f: CFunction, turning: Sequence[str] = ()) -> casadi.Function:
+    """One of the C; `turning` says whose speed each entry of an input `widths` is of."""
     inputs = {a.name: casadi.SX.sym(a.name, a.size) for a in f.inputs}
     values = {f"{n}[{k}]": x[k] for n, x in inputs.items() for k in range(x.numel())}
     values |= {name: casadi.SX(x) for name, x in model.geometry.values.items()}
+    graph = f.entries[0][1].graph if f.entries else model.graph
     arithmetic = _SYMBOLIC
     if "widths" in inputs:
-        arithmetic = _turning(model, values, places, inputs["widths"])
+        over = {speed: inputs["widths"][turning.index(turning_joint(width))]
+                for speed, width in widths("", model, [f]).items()}  # fmt: skip
+        arithmetic = _turning(graph, values, over)
     numbers = [casadi.SX(0)] * f.output.size
-    entries = [value for _, value in f.entries]
-    graph = entries[0].graph if entries else model.graph
-    outputs = Plan(graph, entries, arithmetic)(values)
+    outputs = Plan(graph, [value for _, value in f.entries], arithmetic)(values)
     for (place, _), x in zip(f.entries, outputs, strict=True):
         numbers[place] = x
     parts = _parts(f.output, numbers)
@@ -114,7 +124,7 @@ def _closed(
         output = ArgumentSpec(name, (len(closure.equations), len(values) // len(closure.equations)),
                               "", "")  # fmt: skip
         function = CFunction("", name, "", "", inputs, output, layout.entries_of(values))
-        return _function(model, function, {})
+        return _function(model, function)
 
     residual = of_tree("residual", closure.equations, "q")
     J = of_tree("jacobian", [x for row in closure.jacobian for x in row], "q")
@@ -164,17 +174,15 @@ def _closed(
 
 
 def _turning(
-    model: SymbolicModel, values: Mapping[str, casadi.SX], places: Mapping[int, int],
-    over: casadi.SX,
-) -> Arithmetic:  # fmt: skip
-    """Arithmetic in which the signs of these speeds turn."""
-    exprs = [Expr(model.graph, speed) for speed in places]
-    speeds = Plan(model.graph, exprs, _SYMBOLIC)(values)
+    graph: Graph, values: Mapping[str, casadi.SX], over: Mapping[int, casadi.SX]
+) -> Arithmetic:
+    """Arithmetic in which the signs of these speeds turn, each over its width."""
+    speeds = Plan(graph, [Expr(graph, speed) for speed in over], _SYMBOLIC)(values)
 
     def sign(x: casadi.SX) -> casadi.SX:
-        for speed, place in zip(speeds, places.values(), strict=True):
+        for speed, width in zip(speeds, over.values(), strict=True):
             if casadi.is_equal(x, speed, _DEEP):
-                return casadi.tanh(x / over[place])
+                return casadi.tanh(x / width)
         return casadi.sign(x)
 
     return Arithmetic(_SYMBOLIC.number, _SYMBOLIC.pi, {**_SYMBOLIC.functions, "sign": sign})

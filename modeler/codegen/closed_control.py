@@ -28,9 +28,16 @@ _FORMS = {
 """How those of the tree carry over; what is not here belongs to a frame, or has no such form."""
 
 _FRAMES = {
-    "jacobian_dot_qd": "jacobian_dot_qd", "jacobian": "jacobian", "pose": "direct", "twist": "direct",
+    "jacobian_dot_qd": "jacobian_dot_qd", "jacobian": "jacobian",
+    "pose": "direct", "twist": "direct",
 }  # fmt: skip
 """Those of a frame, by the start of their names: the longer ones first."""
+
+_BESIDE = {
+    "coriolis_matrix": "tree_inertia_matrix", "coriolis_transpose": "tree_momentum",
+    "momentum_rest": "tree_momentum_regressor",
+}  # fmt: skip
+"""What a form calls besides the tree's function of the same name."""
 
 _READS = {"q": "now->u", "qd": "now->ud", "v": "vu", "a": "au"}
 
@@ -76,8 +83,9 @@ def closed_control_functions(
             "jacobian_dot_qd": (6,),
         }.get(form, (g, *f.output.shape[1:]))  # fmt: skip
         role = f"tree_{f.role}"
+        beside = _BESIDE.get(form, role.replace("jacobian_dot_qd", "jacobian"))
         made = AtState(
-            "at_state", {"made": role}, form=form,
+            "at_state", {"made": role, "beside": beside}, form=form,
             reads=", ".join(_READS.get(a.name, a.name) for a in f.inputs),
             width=f.output.shape[1] if len(f.output.shape) > 1 else 1,
         )  # fmt: skip

@@ -183,7 +183,8 @@ def _derivatives(model: SymbolicModel, beta: Mapping[int, Expr], given: Argument
         "Derivatives of the torques by positions and by speeds; those by qdd are M. A leap "
         "of friction counts as level.",
         "D = [d tau/d q, d tau/d qd]", (*given.motion, given.beta),
-        ArgumentSpec("D", (2, *given.q.shape, *given.q.shape), "torque per unit of q, of qd", "derivatives"),
+        ArgumentSpec("D", (2, *given.q.shape, *given.q.shape), "torque per unit of q, of qd",
+                     "derivatives"),
         entries_of(_slopes(model, beta)),
     )  # fmt: skip
 

@@ -21,6 +21,7 @@ from modeler.codegen.control import (
     chosen,
     control_functions,
     fitted_control_functions,
+    plain_effects,
 )
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
@@ -502,6 +503,7 @@ def _module(
         ),
         "loops": loops,
         "names": constants,
+        "plain": plain_effects(model),
         "signature": "",
         "blocks": blocks,
         "places": places,
@@ -597,9 +599,8 @@ def _control_unit(
     }
     files |= {name: _runtime(name, spec.precision) for name in manifest.CONTROL_RUNTIME}
     known = [*values["blocks"], *values.get("fitted_blocks", ())]
-    control = manifest.ControlSpec(
-        function_specs(prefix, blocks, known), manifest.code_digest(files)
-    )
+    specs = function_specs(prefix, blocks, known)
+    control = manifest.ControlSpec(specs, manifest.code_digest(files))
     return dataclasses.replace(spec, control=control), files
 
 
@@ -662,6 +663,7 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
     returns = "int" if function.status else "void"
     if function.internal and function.unit in (UNIT, CONTROL_UNIT):
         returns = "static void"
+    made, declared, defined = _at_state(prefix, function, number)
     return _Written(
         **vars(function),
         name=name,
@@ -670,17 +672,19 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         definition=layout.prototype(
             name, layout.arguments(function, number, prefix, defined=True), returns
         ),
-        **_at_state(prefix, function, number),
+        made=made,
+        at_declaration=declared,
+        at_definition=defined,
         lines=[] if function.status else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
     )
 
 
-def _at_state(prefix: str, function: CFunction, number: str) -> dict[str, str]:
-    """Prototypes of what a function is made with where the loops are closed."""
+def _at_state(prefix: str, function: CFunction, number: str) -> tuple[str, str, str]:
+    """Prototypes where loops are closed: made of a posture; of a state, declared and defined."""
     closed = function.closed
     if closed is None and not isinstance(function.composed, AtState):
-        return dict.fromkeys(("made", "at_declaration", "at_definition"), "")
+        return "", "", ""
     motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
     kept = dataclasses.replace(
         function, inputs=tuple(a for a in function.inputs if a.name not in motion)
@@ -689,11 +693,11 @@ def _at_state(prefix: str, function: CFunction, number: str) -> dict[str, str]:
     plain, state = layout.arguments(kept, number, prefix), f"struct {prefix}_state *state"
     posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
     own = layout.arguments(kept, number, prefix, defined=True)
-    return {
-        "made": layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
-        "at_declaration": layout.prototype(name, [state, *plain], "int"),
-        "at_definition": layout.prototype(name, [state, *own], "int"),
-    }
+    return (
+        layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
+        layout.prototype(name, [state, *plain], "int"),
+        layout.prototype(name, [state, *own], "int"),
+    )
 
 
 def _letters(functions: Sequence[_Written]) -> list[str]:

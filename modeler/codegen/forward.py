@@ -50,7 +50,7 @@ def efforts(model: SymbolicModel, beta: Mapping[int, Expr]) -> Efforts:
     if symbols.keys().isdisjoint(graph.reachable(rest)):
         return Efforts(matrix, rest, turns=False)
     one, more = graph.constant(1), model.torque(losses, links=False)
-    slopes = [derivatives(more, {f"qdd[{j}]": one}) for j in range(n)]
+    slopes = [derivatives(more, {f"qdd[{j}]": one}, kinks=True) for j in range(n)]
     matrix = [[entry + slopes[j][i] for j, entry in enumerate(row)] for i, row in enumerate(matrix)]
     return Efforts(matrix, model.torque(beta), turns=True)
 
@@ -99,7 +99,7 @@ def forward_functions(
         entries_of([*correction, *pivots, *diagonal]), internal=True,
     )  # fmt: skip
     slopes = CFunction(
-        UNIT, "effort_slopes", "Derivatives of the torques by accelerations: M, and what effects add.",
+        UNIT, "effort_slopes", "Derivatives of the torques by accelerations.",
         "d tau/d qdd", (*given.motion, given.beta),
         ArgumentSpec("A", (n, n), "SI", "derivatives"),
         entries_of([x for row in found.matrix for x in row]), internal=True,

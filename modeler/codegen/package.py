@@ -375,8 +375,11 @@ _CALLED = {
 def examples_of(spec: ModuleSpec) -> tuple[str, ...]:
     """Those whose functions a module has; none where a joint of q has no motor to obey."""
     roles = {f.name.removeprefix(f"{spec.prefix}_") for f in spec.every_function}
-    every = all(joint.actuated for joint in spec.joints)
-    return tuple(name for name in EXAMPLES if every and roles.issuperset(_CALLED[name]))
+    if not all(joint.actuated for joint in spec.joints):
+        return ()
+    found = tuple(name for name in EXAMPLES if roles.issuperset(_CALLED[name]))
+    # A path in space is followed without what friction remembers.
+    return tuple(name for name in found if name != "example_cartesian" or not spec.signals)
 
 
 def count_values(spec: ModuleSpec) -> dict[str, Any] | None:

@@ -40,20 +40,14 @@ def smooth_functions(
     )  # fmt: skip
 
 
-def turning(model: SymbolicModel, base: BaseParameters) -> dict[int, int]:
-    """{speed: which of `widths` its sign turns over}, of the smooth functions."""
-    found = _widths_of(model, base)
-    places = {width: k for k, width in enumerate(dict.fromkeys(found.values()))}
-    return {speed: places[width] for speed, width in found.items()}
-
-
 def turning_joints(model: SymbolicModel, base: BaseParameters) -> list[str]:
     """Names of the joints, or motors, that `widths` are of, in its order."""
-    every = dict.fromkeys(_widths_of(model, base).values())
-    return [width.macro.removeprefix("_COULOMB_WIDTH_") for width in every]
-
-
-def _widths_of(model: SymbolicModel, base: BaseParameters) -> Mapping[int, Width]:
     beta = layout.beta_symbols(model, base)
     given = layout.arguments_of(model.robot.free, model, base)
-    return widths("", model, smooth_functions(model, beta, given))
+    found = widths("", model, smooth_functions(model, beta, given))
+    return [turning_joint(width) for width in dict.fromkeys(found.values())]
+
+
+def turning_joint(width: Width) -> str:
+    """Name of the joint, or motor, that a width is of."""
+    return width.macro.partition("_COULOMB_WIDTH_")[2]

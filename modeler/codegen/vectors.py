@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler.codegen.closed_control import AtState
 from modeler.codegen.functions import CFunction, Closed, name_lines
 from modeler.codegen.targets import Target
 from modeler.core.errors import EmitError
@@ -218,11 +219,14 @@ def _tables(
             signals = _named(**{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")})
             for role, f in roles.items():
                 c = f.closed or _DIRECT
-                if f.internal or role in left or c.q != name or (closure and f.composed):
+                if f.internal or role in left or c.q != name:
                     continue
                 if f.composed:
                     own = {**constants, **signals, **_named(tau=inputs["tau"][k]), **moving.inputs}
-                    made = _solved(f, own, _named(damping=inputs["damping"][k]), outputs)
+                    if isinstance(f.composed, AtState):
+                        made = _carried(f.composed, own, _Carrying(enclosures, u, qd), outputs)
+                    else:
+                        made = _solved(f, own, _named(damping=inputs["damping"][k]), outputs)
                     expected.setdefault(role, []).extend([made] if made else [])
                     continue
                 state = standing if c.qdd == "standing" else moving
@@ -268,6 +272,76 @@ def _solved(
     slopes = outputs(f"{head}derivatives", moving)
     parts = [matrix(n, n, [-x for x in slopes[k : k + n * n]]) for k in (0, n * n)]
     return [x for part in parts for x in (inverse * part).entries()] + list(inverse.entries())
+
+
+class _Carrying:
+    """What a state of the opened tree is made of: G, its rate, and gamma, udd at qdd = 0."""
+
+    def __init__(self, enclosures: Enclosures, u: np.ndarray, qd: np.ndarray) -> None:
+        matrix, n, g = flint().arb_mat, len(u), len(qd)
+        states = [enclosures.state(u, speed, 0.0 * qd) for speed in _polar(qd)]
+        self.G = matrix(states[0].coupling)
+        # gamma is a square of the speeds, dG/dt v a product of two of them.
+        own, *others = [[state.inputs[f"qdd[{k}]"] for k in range(n)] for state in states]
+        self.gamma = matrix(n, 1, own)
+        ahead, behind = others[:g], others[g:]
+        rate = [(ahead[j][k] - behind[j][k]) / 4 for k in range(n) for j in range(g)]
+        self.rate = matrix(n, g, rate)
+
+
+def _polar(qd: np.ndarray) -> Iterable[np.ndarray]:
+    return (qd, *(qd + unit for unit in np.eye(len(qd))), *(qd - unit for unit in np.eye(len(qd))))
+
+
+def _carried(
+    made: AtState,
+    given: Mapping[str, Ball],
+    by: _Carrying,
+    outputs: Callable[[str, Mapping[str, Ball]], list[Ball]],
+) -> list[Ball]:
+    """Output of a controller's function of closed loops; [] where that has no number here."""
+    n, g, matrix = by.G.nrows(), by.G.ncols(), flint().arb_mat
+
+    def tree(role: str, rows: int, values: Mapping[str, Ball] = given) -> Ball:
+        out = outputs(role, values)
+        return matrix(rows, len(out) // rows, out)
+
+    def column(name: str, rows: int = g) -> Ball:
+        return matrix(rows, 1, [given[f"{name}[{k}]"] for k in range(rows)])
+
+    back, form, role = by.G.transpose(), made.form, made.roles.get("made", "")
+    beside = made.roles.get("beside", "")
+    if form == "fitted":
+        return []
+    if form == "rate":
+        return list(by.rate.entries())
+    if form == "direct":
+        return outputs(role, given)
+    if form.startswith("jacobian"):
+        J = tree(beside, 6)
+        found = J * by.G if form == "jacobian" else tree(role, 6) + J * by.gamma
+    elif form == "forward_dynamics":
+        head = "fitted_" * made.roles["matrix"].startswith("fitted_")
+        M = back * tree(f"{head}tree_inertia_matrix", n) * by.G
+        pivots = np.linalg.eigvalsh(np.reshape(_numbers(M.entries()), (g, g)))
+        if pivots[0] < 1e-6 * pivots[-1]:
+            return []
+        still = {f"qdd[{k}]": x for k, x in enumerate(by.gamma.entries())}
+        bias = back * tree(f"{head}tree_inverse_dynamics", n, {**given, **still})
+        found = M.inv() * (column("tau") - bias)
+    elif form == "slotine_li":
+        v, a = by.G * column("v"), by.G * column("a") + by.rate * column("v")
+        own = {f"{x}[{k}]": y for x, ys in (("v", v), ("a", a)) for k, y in enumerate(ys.entries())}
+        found = back * tree(role, n, {**given, **own})
+    elif form == "coriolis_matrix":
+        found = back * (tree(role, n) * by.G + tree(beside, n) * by.rate)
+    else:
+        found = back * tree(role, n)
+        if form == "coriolis_transpose":
+            found += by.rate.transpose() * tree(beside, n)
+        elif form == "momentum_rest":
+            found -= by.rate.transpose() * tree(beside, n)
+    return list(found.entries())
 
 
 def _made(kind: str, state: EnclosedState, out: list[Ball]) -> list[Ball]:

@@ -43,6 +43,10 @@ class LoopError(ModelerError):
     """A kinematic loop leaves too much or too little free, is singular, or cannot close."""
 
 
+class SolutionError(ModelerError):
+    """Equations have no solution: an inertia that is not positive, a singular posture."""
+
+
 def installing(part: str) -> str:
     """What installs an optional part; what is imported as modeler is installed by another name."""
     return f'pip install "modeler-robotics[{part}]"'

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from modeler.core.checks import as_samples, as_vector
-from modeler.core.errors import LoopError, ManifestError, ShapeError
+from modeler.core.errors import LoopError, ManifestError, ShapeError, SolutionError
 from modeler.core.files import read_file
 from modeler.core.manifest import MANIFEST, Emitted, FunctionSpec, ModuleSpec, module_from_json
 from modeler.core.result import Presented
@@ -22,6 +22,13 @@ _STATUS = {
     4: "the loops were not closed within the evaluations allowed",
 }
 """What a status of the C code says."""
+
+_REFUSED = {
+    2: "the inertia matrix is singular or not positive, or the Jacobian has not full rank",
+    3: "a value is not finite",
+    4: "the accelerations that friction depends on did not converge",
+}
+"""The same without loops."""
 
 
 class _Functions(dict[str, FunctionSpec]):
@@ -221,9 +228,10 @@ class CompiledModel(Batches, Presented):
             ManifestError: the module has no such function.
             ShapeError: an input is missing, or of another shape.
             LoopError: the function returns a status that is not 0; names the sample.
+            SolutionError: the same of a robot without loops.
         """
         out, status, inputs = self._called(role, arrays)
-        self._check(status, inputs[0])
+        self._check(status, inputs[0], "" if self._loops else role)
         return out
 
     def statuses(self, role: str, **arrays: Any) -> np.ndarray:
@@ -284,16 +292,22 @@ class CompiledModel(Batches, Presented):
     def _no_status(self, samples: int) -> np.ndarray | None:
         return np.zeros(samples, dtype=np.intc) if self._loops else None
 
-    def _check(self, status: np.ndarray | None, given: np.ndarray) -> None:
-        """Raises LoopError for the first sample that does not close."""
+    def _check(self, status: np.ndarray | None, given: np.ndarray, role: str = "") -> None:
+        """Raises LoopError for the first sample that does not close, or that the role refuses."""
         if status is None or not np.any(status):
             return
         first = int(np.flatnonzero(status)[0])
         where = ", ".join(f"{value:.6g}" for value in given[first])
         more = int(np.count_nonzero(status)) - 1
         also = f" (and {more} more)" if more else ""
+        at, code = f"{self.spec.robot}: sample {first + 1}{also}", int(status[first])
+        if role:
+            raise SolutionError(
+                f"{at}: {role} has no result: {_REFUSED[code]}; got q ({where}); check the "
+                "parameters and the posture"
+            )
         raise LoopError(
-            f"{self.spec.robot}: sample {first + 1}{also}: {_STATUS[int(status[first])]}; got "
+            f"{at}: {_STATUS[code]}; got "
             f"({where}); expected positions that the robot reaches from [home], in SI units"
         )
 

@@ -8,9 +8,6 @@ from modeler.codegen import Control, derive, generate, load
 from modeler.core.manifest import Emitted
 from modeler.robot import Robot, robot_from_text
 
-ARMS = ("puma560", "panda", "ur10e", "scara", "wrist", "emps", "rx90")
-BRANCHED = ("sr400-tree",)
-
 
 def drawn(seed: int, tree: bool = False) -> Robot:
     """Three to six joints, some of which slide, count backwards or follow others."""
@@ -23,7 +20,8 @@ def drawn(seed: int, tree: bool = False) -> Robot:
         variable, number = f"{sign}q{j} + {rng.normal():.3f}", f"{rng.normal():.3f}"
         turn, along = ("pi/2", f"{rng.uniform(-3, 3):.3f}", 0), rng.normal(0, 0.3, 2).round(3)
         alpha, gamma = rng.choice(np.array(turn, dtype=object), 2)
-        cells = [str(j), before, int(j < n or not tied), int(slides), gamma, along[0], alpha, along[1],
+        cells = [str(j), before, int(j < n or not tied), int(slides), gamma, along[0],
+                 alpha, along[1],
                  number if slides else variable, variable if slides else number]  # fmt: skip
         rows.append("[" + ", ".join(f'"{cell}"' if isinstance(cell, str) else str(cell)
                                     for cell in cells) + "]")  # fmt: skip

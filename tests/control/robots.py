@@ -94,5 +94,8 @@ def in_pinocchio(robot, chi):
 
 def frictions(spec, chi, qd):
     """Of viscous and dry friction and offsets, (n, joints)."""
-    of = {p: np.array([chi.get(f"{p}{j.name}", 0.0) for j in spec.joints]) for p in ("Fv", "Fs", "Off")}
+    of = {
+        p: np.array([chi.get(f"{p}{j.name}", 0.0) for j in spec.joints])
+        for p in ("Fv", "Fs", "Off")
+    }
     return of["Fv"] * qd + of["Fs"] * np.sign(qd) + of["Off"]

@@ -73,8 +73,7 @@ def test_functions_are_those_of_pinocchio(robot, tree):
 
 
 @pytest.mark.parametrize(
-    ("robot", "tree"),
-    [(1, True), pytest.param("panda", False, marks=pytest.mark.slow)],
+    ("robot", "tree"), [(1, True), pytest.param("panda", False, marks=pytest.mark.slow)]
 )
 def test_single_precision_is_as_near_as_floats_can_be(robot, tree):
     found, made = emitted(robot, tree, True)

@@ -8,6 +8,7 @@ import pytest
 
 from modeler.codegen import derive, generate
 from modeler.codegen.control import Control
+from modeler.robot import INERTIAL
 from tests.control.robots import controlled, in_pinocchio, physical, robot_of
 from tests.modules import STRICT, compiler
 
@@ -128,9 +129,8 @@ def test_widths_at_run_time():
     chi = physical(model.spec, random)
     beta, n = model.base_parameters([*chi.values()]), len(model.spec.joints)
     q, qd, qdd = random.normal(size=(3, 20, n))
-    count = next(
-        f.inputs[-1].size for f in model.spec.control.functions if f.name.endswith("smooth_friction")
-    )
+    specs = {f.name.removeprefix(f"{model.spec.prefix}_"): f for f in model.spec.control.functions}
+    count = specs["smooth_friction"].inputs[-1].size
     assert count == n
     width = random.uniform(0.01, 1, n)
     sharp = model.inverse_dynamics(q, qd, qdd, beta)
@@ -142,9 +142,7 @@ def test_widths_at_run_time():
     Fs = np.array([chi[f"Fs{j.name}"] for j in model.spec.joints])
     expected = model.friction(qd, beta) + Fs * (np.tanh(qd / width) - np.sign(qd))
     np.testing.assert_allclose(smooth, expected, atol=1e-12)
-    whole = model.evaluate(
-        "smooth_inverse_dynamics", q=q, qd=qd, qdd=qdd, beta=beta, widths=width
-    )
+    whole = model.evaluate("smooth_inverse_dynamics", q=q, qd=qd, qdd=qdd, beta=beta, widths=width)
     np.testing.assert_allclose(whole - sharp, smooth - model.friction(qd, beta), atol=1e-9)
 
 
@@ -154,8 +152,8 @@ def test_a_payload_is_added_to_the_parameters():
     model, random = controlled("puma560"), np.random.default_rng(5)
     chi, load = (physical(model.spec, random) for _ in range(2))
     last = model.spec.joints[-1].name
-    inertial = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-    load = {name: v if name in {f"{p}{last}" for p in inertial} else 0.0 for name, v in load.items()}
+    inertial = {f"{prefix}{last}" for prefix in INERTIAL}
+    load = {name: v if name in inertial else 0.0 for name, v in load.items()}
     beta = model.base_parameters([*chi.values()]) + model.base_parameters([*load.values()])
     q, qd, qdd = random.normal(size=(3, 10, len(model.spec.joints)))
     tau = model.inverse_dynamics(q, qd, qdd, beta) - model.friction(qd, beta)

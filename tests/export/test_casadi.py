@@ -54,7 +54,9 @@ def far(name: str, tmp_path, rng, reach: float = 1.5) -> dict[str, float]:
             if spec.closure is not None:
                 home = np.array(spec.closure.home)[list(spec.closure.given)]
                 state["q"] = home + reach * state["q"]
-            given = {argument.name: state[argument.name] for argument in emitted.inputs}
+            sizes = {argument.name: argument.size for argument in emitted.inputs}
+            state["widths"] = rng.uniform(0.1, 1.0, sizes.get("widths", 0))
+            given = {name: state[name] for name in sizes}
             theirs = compiled.evaluate(role, **given)[0].reshape(-1)
             ours = called(functions[role], state).reshape(-1)
             error = np.abs(ours - theirs).max() / max(np.abs(theirs).max(), 1e-9)
@@ -100,6 +102,9 @@ def test_derivatives_and_forward_dynamics(name: str, tmp_path) -> None:
     state["tau"] = called(tau, state).reshape(-1)
     qdd = called(functions["forward_dynamics"], state).reshape(-1)
     assert np.allclose(qdd, state["qdd"], rtol=1e-9, atol=1e-9)
+    given = {n: state[n] for n in functions["forward_dynamics"].name_in()}
+    theirs = compiled.evaluate("forward_dynamics", **given)[0]
+    assert np.allclose(qdd, theirs, rtol=1e-9, atol=1e-9)
 
 
 def test_smooth_friction_turns_over_its_width(tmp_path) -> None:
@@ -131,7 +136,7 @@ def test_a_model_has_its_values_in_place_of_beta(tmp_path) -> None:
 
 def test_what_is_not_there_is_said() -> None:
     text = load("two-link").text
-    effect = '[effects]\nload_friction = [{joint = "2", w = 0}]'
+    effect = '[effects]\nload_friction = [{joint = "2", w = 0.5}]'
     text = text.replace("[effects]", effect) + "\n[reference]\nM2 = 1.5\nMX2 = 0.2\n"
     loaded = robot_from_text(text, "loaded")
     found = export(loaded, to="casadi")

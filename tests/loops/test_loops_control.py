@@ -29,7 +29,7 @@ def controlled(name, precision="double"):
 
 
 class Motion:
-    """Random states around home and what is called there; `at(t)` is the same motion at a time t."""
+    """Random states around home, and what is called there; `at(t)`: moved for a time t."""
 
     def __init__(self, name, samples=4, seed=31, precision="double"):
         self.robot = controlled(name, precision)
@@ -131,7 +131,7 @@ def test_what_cannot_be_done_is_told():
     x = Motion("five-bar", samples=1)
     now = {"q": x.q, "qd": x.qd, "beta": x.beta}
     for wrong, expected in (
-        ({"q": x.q + [[4.0, -4.0]]}, (1, 2, 4)),
+        ({"q": x.q + np.array([[4.0, -4.0]])}, (1, 2, 4)),
         ({"q": x.q * np.nan}, (3,)),
         ({"beta": x.beta * np.inf}, (3,)),
     ):

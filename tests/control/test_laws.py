@@ -1,0 +1,160 @@
+"""Functions for controllers by laws of physics on simulated logs; fitted twins; refusals."""
+
+import numpy as np
+import pytest
+
+from modeler.api import generate as generate_robot, simulate
+from modeler.cli import main
+from modeler.codegen import Control, derive, generate, load
+from modeler.core.errors import DerivationError, EmitError
+from modeler.robot import robot_from_text, with_effects
+from tests.codegen.fitted_library import fitted_of
+from tests.control.draw import emitted
+from tests.elementary_motions import frames, shift, turn
+from tests.modules import loaded
+
+SMOOTH = ("viscous", "rotor_inertia", "offset")
+
+
+def test_regressors_without_accelerations_balance_a_simulated_log():
+    """Momentum and energy change by what torques and work bring in; dry friction would stick."""
+    text = with_effects(load("wrist").text, dict.fromkeys(SMOOTH, "all"))
+    robot = robot_from_text(text, "smooth")
+    log = simulate(robot, duration=1.0, rate=2000.0, seed=5, torque_noise=0.0)
+    made = generate(derive(robot), control=Control())
+    model, truth = loaded(made), log.truth
+    beta = model.base_parameters([truth.parameters[p.name] for p in made.spec.standard])
+    state = {"q": truth.q, "qd": truth.qd}
+
+    def ours(role):
+        return model.evaluate(f"{role}_regressor", **state) @ beta
+
+    def integral(values):  # trapezes
+        steps = np.diff(log.time)[:, None] * (values[1:] + values[:-1]) / 2
+        return np.concatenate([[0 * values[0]], np.cumsum(steps, axis=0)])
+
+    impulse = np.diff(log.time)[:, None] * truth.tau[:-1]  # constant between samples
+    impulse = np.concatenate([[0 * impulse[0]], np.cumsum(impulse, axis=0)])
+    p, rest = ours("momentum"), ours("momentum_rest")
+    error = np.abs(p - p[0] + integral(rest) - impulse).max()
+    assert error <= 1e-5 * np.abs(p - p[0]).max()
+    work = np.sum(truth.tau[:-1] * np.diff(truth.q, axis=0), axis=1)
+    work = np.concatenate([[0.0], np.cumsum(work)])
+    h, d = ours("energy").ravel(), ours("power")
+    error = np.abs(h - h[0] + integral(d).ravel() - work).max()
+    assert error <= 1e-5 * np.abs(h - h[0]).max()
+
+
+def test_derivatives_go_through_friction_that_reads_loads_and_powers():
+    effects = {
+        "viscous": "all", "load_friction": [{"joint": "1", "w": 0.0}],
+        "nonlinear_viscous": [{"joint": "2", "p": 0.5}],
+        "spring": [{"joint": "2", "q0": 0.5, "h": 0.1}],
+        "stribeck": [{"joint": "1", "vs": 0.6, "d": 1.5}], "rotor_inertia": "all",
+    }  # fmt: skip
+    text = load("two-link").text + "\n[reference]\n"
+    text += "".join(f"{p} = {x}\n" for p, x in (("M1", 3), ("M2", 2), ("MX2", 0.4), ("ZZ2", 0.2)))
+    robot = robot_from_text(with_effects(text, effects), "lossy")
+    made = generate(derive(robot), control=Control())
+    model, rng = loaded(made), np.random.default_rng(41)
+    roles = {f.name.removeprefix("two_link_") for f in made.spec.control.functions}
+    assert "derivatives" in roles and "slotine_li_regressor" not in roles
+    beta, h = rng.uniform(0.5, 1.0, len(made.spec.base)), 1e-6
+    q, qd, qdd = rng.uniform(0.3, 1.5, (3, 6, 2)) * rng.choice([-1, 1], (3, 6, 2))
+    D = model.evaluate("derivatives", q=q, qd=qd, qdd=qdd, beta=beta)
+    for j, e in enumerate(h * np.eye(2)):
+        by_q = (
+            model.inverse_dynamics(q + e, qd, qdd, beta),
+            model.inverse_dynamics(q - e, qd, qdd, beta),
+        )
+        by_qd = (
+            model.inverse_dynamics(q, qd + e, qdd, beta),
+            model.inverse_dynamics(q, qd - e, qdd, beta),
+        )
+        for k, (ahead, behind) in enumerate((by_q, by_qd)):
+            slope = (ahead - behind) / (2 * h)
+            assert np.abs(D[:, k, :, j] - slope).max() <= 1e-6 * np.abs(slope).max(), (k, j)
+
+
+def test_fitted_twins_have_the_values():
+    found = emitted(1, True)[1]
+    robot = emitted(1, True)[0]
+    fitted = fitted_of(found.spec)
+    model = loaded(generate(derive(robot), control=Control(), fitted=fitted))
+    beta, rng = [p.value for p in fitted.parameters], np.random.default_rng(3)
+    x = dict(zip(("q", "qd", "qdd"), rng.normal(size=(3, 4, len(found.spec.joints))), strict=True))
+    for role in ("coriolis_matrix", "coriolis_transpose", "momentum", "derivatives"):
+        given = x if role == "derivatives" else {k: x[k] for k in ("q", "qd")}
+        ours = model.evaluate(f"fitted_{role}", **given)
+        theirs = model.evaluate(role, **given, beta=np.array(beta))
+        assert np.abs(ours - theirs).max() <= 1e-12 * np.abs(theirs).max(), role
+
+
+FRAMES = """
+[frames]
+columns = ["link", "row", "x", "z", "roll", "pitch", "yaw"]
+rows = [["hand-1", "2", 0.1, "0.2", 0.3, -0.4, 0.5], ["hand_1", "1", 0, 0, 0, 0, 0],
+        ["base", "0", 0, 0, 0, 0, 0]]
+"""
+
+
+def test_links_of_frames_have_their_jacobians():
+    robot = robot_from_text(load("two-link").text + FRAMES, "hands")
+    model = loaded(generate_robot(derive(robot), frames=["hand-1", "1"]))
+    q = np.array([0.4, -1.1])
+    on = shift(0, 0.1) @ shift(2, 0.2) @ turn(2, 0.5) @ turn(1, -0.4) @ turn(0, 0.3)
+
+    def pose(q):
+        return frames(robot, dict(zip("12", q, strict=True)))["2"] @ on
+
+    T = model.evaluate("pose_hand_1", q=q)[0]
+    np.testing.assert_allclose(T, pose(q)[:3], rtol=0, atol=1e-14)
+    J, h = model.evaluate("jacobian_hand_1", q=q)[0], 1e-6
+    slopes = [(pose(q + e)[:3, 3] - pose(q - e)[:3, 3]) / (2 * h) for e in h * np.eye(2)]
+    np.testing.assert_allclose(J[:3].T, slopes, rtol=0, atol=1e-9)
+    assert model.evaluate("jacobian_1", q=q).shape == (1, 6, 2)
+
+
+@pytest.mark.parametrize(
+    ("names", "told"),
+    [
+        (["hand"], 'frame "hand": two-link has none of that name; expected hand-1, hand_1, 1, 2'),
+        (["base"], 'frame "base": two-link has none of that name; expected hand-1'),
+        (["hand-1", "hand_1"], 'frame "hand_1": functions of another frame or role end in _hand_1'),
+    ],
+)
+def test_frames_that_cannot_be_are_told(names, told):
+    found = derive(robot_from_text(load("two-link").text + FRAMES, "hands"))
+    with pytest.raises((DerivationError, EmitError)) as error:
+        generate_robot(found, frames=names)
+    assert told in str(error.value) and "\n" not in str(error.value)
+
+
+def test_the_command_line_names_the_frames_that_there_are(tmp_path, capsys):
+    assert main(["generate", "scara", "--out", str(tmp_path / "c"), "--frame", "hand"]) == 1
+    said = capsys.readouterr().err.strip()
+    assert said.endswith('frame "hand": scara has none of that name; expected 1, 2, 3, 4')
+    assert main(["generate", "scara", "--out", str(tmp_path / "c"), "--frame", "2"]) == 0
+    assert "scara_jacobian_dot_qd_2(" in (tmp_path / "c" / "scara_control.h").read_text()
+
+
+MOST = {  # additions and multiplications of the functions for controllers, as they are
+    "puma560": {"coriolis_matrix": 1110, "coriolis_transpose": 275, "momentum": 274,
+                "derivatives": 3546, "slotine_li_regressor": 782, "momentum_regressor": 388,
+                "momentum_rest_regressor": 474, "jacobian": 74, "jacobian_dot_qd": 155},
+    "panda": {"coriolis_matrix": 1471, "coriolis_transpose": 350, "momentum": 331,
+              "derivatives": 6403, "slotine_li_regressor": 1301, "momentum_regressor": 691,
+              "momentum_rest_regressor": 885, "jacobian": 144, "jacobian_dot_qd": 243},
+}  # fmt: skip
+
+
+def test_functions_need_no_more_operations_than_were_reached():
+    """Half to a quarter of differentiating the torques; each shares only what it computes."""
+    for name, most in MOST.items():
+        spec = generate(derive(load(name)), control=Control()).spec
+        counts = {
+            f.name.removeprefix(f"{spec.prefix}_"): f.additions + f.multiplications
+            for f in spec.control.functions
+        }
+        over = {role: (counts[role], bound) for role, bound in most.items() if counts[role] > bound}
+        assert not over
