@@ -1,5 +1,6 @@
 """What is emitted: every function of every built-in robot against the model and against laws."""
 
+import dataclasses
 import platform
 import re
 import subprocess
