@@ -271,6 +271,9 @@ def package_files(
         "every": every,
         "roles": {f.name.removeprefix(f"{prefix}_") for f in every},
         "batched": spec.has("_batch"),
+        "at_state": set(
+            re.findall(r"\b\w+_at(?=\()", "".join(code[h] for h in code if h.endswith(".h")))
+        ),
         "closure_files": CLOSURE_RUNTIME if spec.closure is not None else (),
         "control_files": [
             name for name in CONTROL_RUNTIME if spec.closure is None or name not in CLOSURE_RUNTIME
