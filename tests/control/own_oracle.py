@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from modeler.robot.robot import INERTIAL, JointKind, LinkFrame, Robot
+from modeler.robot.robot import INERTIAL, LinkFrame, Robot
 
 STEP = 1e-30  # of complex steps
 NEWTON = 40  # rounds of closing

@@ -100,7 +100,7 @@ def test_operational_space(name, damping):
     carried = frames(robot, np.zeros(len(rows)))  # the last row may be fixed on the last joint
     on = np.linalg.inv(carried[robot.moving[-1].name]) @ carried[robot.joints[-1].name]
     end = other.addFrame(pin.Frame("end", rows[-1] + 1, 0, pin.SE3(on), pin.OP_FRAME))
-    data, n = other.createData(), len(model.spec.joints)
+    data = other.createData()
     roles = ("operational_inertia", "operational_inverse")
     given = {"q": q, "beta": beta, "damping": [damping]}
     statuses = [model.statuses(role, **given) for role in roles]
