@@ -1,8 +1,8 @@
 /* Small systems of equations A x = b with a status.
  *
- * A is n x n, row-major, and symmetric and positive definite, as inertia matrices are, or nearly so:
- * Gauss's elimination in the order of the rows, which is L D L' then (Cholesky without roots), without
- * exchanging rows. Inline, so that a compiler unrolls loops of known length. C99, no allocation, no
+ * A is n x n, row-major, symmetric and positive definite, as inertia matrices are, or nearly so:
+ * Gauss's elimination in the order of the rows, none exchanged, which is L D L' then (Cholesky
+ * without roots). Inline, so that a compiler unrolls loops of known length. C99, no allocation, no
  * global state, re-entrant.
  */
 #ifndef MODELER_SOLVE_H

@@ -13,7 +13,7 @@ from modeler.codegen import functions as layout
 from modeler.codegen.a2l import a2l_files
 from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import Solving, closed_functions, closure_tables, solving_of
-from modeler.codegen.closed_control import AtState
+from modeler.codegen.closed_control import at_prototypes
 from modeler.codegen.control import (
     OBSERVATION,
     UNIT as CONTROL_UNIT,
@@ -21,7 +21,6 @@ from modeler.codegen.control import (
     chosen,
     control_functions,
     fitted_control_functions,
-    plain_effects,
 )
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
@@ -386,7 +385,7 @@ def _module(
         ),
         "loops": loops,
         "names": constants,
-        "plain": plain_effects(model),
+        "plain": not layout.reads_more(model),
         "signature": "",
         "blocks": blocks,
         "places": places,
@@ -546,7 +545,7 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
     returns = "int" if function.status else "void"
     if function.internal and function.unit in (UNIT, CONTROL_UNIT):
         returns = "static void"
-    made, declared, defined = _at_state(prefix, function, number)
+    made, declared, defined = at_prototypes(prefix, function, number)
     return _Written(
         **vars(function),
         name=name,
@@ -560,26 +559,6 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         at_definition=defined,
         lines=[] if function.status else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
-    )
-
-
-def _at_state(prefix: str, function: CFunction, number: str) -> tuple[str, str, str]:
-    """Prototypes where loops are closed: made of a posture; of a state, declared and defined."""
-    closed = function.closed
-    if closed is None and not isinstance(function.composed, AtState):
-        return "", "", ""
-    motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
-    kept = dataclasses.replace(
-        function, inputs=tuple(a for a in function.inputs if a.name not in motion)
-    )
-    name = f"{prefix}_{function.role}_at"
-    plain, state = layout.arguments(kept, number, prefix), f"struct {prefix}_state *state"
-    posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
-    own = layout.arguments(kept, number, prefix, defined=True)
-    return (
-        layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
-        layout.prototype(name, [state, *plain], "int"),
-        layout.prototype(name, [state, *own], "int"),
     )
 
 
