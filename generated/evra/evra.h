@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "7dcf7bdd0758cc89"
-#define EVRA_SIGNATURE_1 0x7dcf7bddu
-#define EVRA_SIGNATURE_2 0x0758cc89u
+#define EVRA_SIGNATURE "05624c6391124d8c"
+#define EVRA_SIGNATURE_1 0x05624c63u
+#define EVRA_SIGNATURE_2 0x91124d8cu
 
 /* Of the calls: raised when one takes other arguments; evra_generator.h says which version of
  * modeler wrote the folder. */

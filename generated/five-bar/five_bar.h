@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "44aaf0006b15a4bb"
-#define FIVE_BAR_SIGNATURE_1 0x44aaf000u
-#define FIVE_BAR_SIGNATURE_2 0x6b15a4bbu
+#define FIVE_BAR_SIGNATURE "d4201d7ca7052a96"
+#define FIVE_BAR_SIGNATURE_1 0xd4201d7cu
+#define FIVE_BAR_SIGNATURE_2 0xa7052a96u
 
 /* Of the calls: raised when one takes other arguments; five_bar_generator.h says which version of
  * modeler wrote the folder. */

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "8e2f85468ad1afa2"
-#define ORTHOGLIDE_2003_SIGNATURE_1 0x8e2f8546u
-#define ORTHOGLIDE_2003_SIGNATURE_2 0x8ad1afa2u
+#define ORTHOGLIDE_2003_SIGNATURE "8ac3e02a56ee1581"
+#define ORTHOGLIDE_2003_SIGNATURE_1 0x8ac3e02au
+#define ORTHOGLIDE_2003_SIGNATURE_2 0x56ee1581u
 
 /* Of the calls: raised when one takes other arguments; orthoglide_2003_generator.h says which version of
  * modeler wrote the folder. */

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "cacb012d97ac5a7f"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0xcacb012du
-#define ORTHOGLIDE_2012_SIGNATURE_2 0x97ac5a7fu
+#define ORTHOGLIDE_2012_SIGNATURE "fc832c81a605c9cf"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0xfc832c81u
+#define ORTHOGLIDE_2012_SIGNATURE_2 0xa605c9cfu
 
 /* Of the calls: raised when one takes other arguments; orthoglide_2012_generator.h says which version of
  * modeler wrote the folder. */

@@ -84,7 +84,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "45dcce527730b4f3";
+    return "72e57b4ba40e8d2c";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

@@ -81,7 +81,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "01b9c99748f6ccb7";
+    return "f49d7ddcaf81a1f5";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

@@ -48,7 +48,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "7e0fdbedba7c5633";
+    return "9557c2f4e61663a1";
 }
 
 #else /* for one instruction set */

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from modeler.robot.robot import INERTIAL, JointKind, LinkFrame, Robot
+from modeler.robot.robot import INERTIAL, LinkFrame, Robot
 
 STEP = 1e-30  # of complex steps
 NEWTON = 40  # rounds of closing
@@ -42,6 +42,8 @@ class Oracle:
         self.gravity = np.array([e.number(self.symbols) for e in robot.gravity])
         lengths = [abs(x) for A, *_ in self.rows.values() for x in A[:3, 3]]
         self.size = max(lengths, default=1.0) or 1.0
+        self.width = 0.0  # of friction that turns around gradually, rad/s or m/s
+        self.constant: dict[str, float] = {}  # weights by row that count as offsets, not as gravity
 
     def value(self, name: str) -> float:
         """Of a standard parameter, 0 if the robot has none of that name."""
@@ -300,16 +302,21 @@ class Oracle:
             R, p, *_ = frames[row.name]
             _, s, m = self._body(row.name)
             total = total - (m * p + R @ s) @ self.gravity
-        return total
+        return total - np.atleast_2d(u) @ self._constant()
+
+    def _constant(self) -> np.ndarray:
+        """(f,): torques of the free variables."""
+        rows = self.constant.items()
+        return sum((x * self.follow[row][1] for row, x in rows), np.zeros(len(self.robot.free)))
 
     def friction(self, u: np.ndarray, v: np.ndarray) -> np.ndarray:
         """(m, n): torques of friction and offsets at speeds v of q."""
         G = self.G(u)
         ud = _apply(G, v)
-        total = 0.0 * ud
+        total = 0.0 * ud + self._constant()
         for slopes, own in self._motors():
             y = (ud @ slopes)[:, None]
-            sign = np.sign(y.real)
+            sign = np.tanh(y / self.width) if self.width else np.sign(y.real)
             f = own["Fv"] * y + own["Fs"] * sign + own.get("Off", 0.0)
             f = f + own.get("Fva", 0.0) * y * sign
             if own.get("shape"):
@@ -324,7 +331,7 @@ class Oracle:
         G, udd = self.G(u), self.accelerations(u, qd, qdd)
         ud = _apply(G, qd)
         frames, motion = self.frames(u), self.motion(u, ud, udd)
-        total = 0.0 * (ud + udd)
+        total = 0.0 * (ud + udd) - self._constant()
         for row in self.robot.moving:
             R, _, Jv, Jw = frames[row.name]
             w, _, dw, a = motion[row.name]
@@ -410,7 +417,7 @@ class Oracle:
     def _placed(self, frame: LinkFrame | None, row: str | None) -> tuple[str, np.ndarray]:
         """(row, pose on it)."""
         if frame is None:
-            return row or self.robot.moving[-1].name, np.eye(4)
+            return row or self.robot.joints[-1].name, np.eye(4)
         x = [e.number(self.symbols) for e in frame.position]
         roll, pitch, yaw = (e.number(self.symbols) for e in frame.angles)
         T = _moved(_rotation(2, yaw) @ _rotation(1, pitch) @ _rotation(0, roll), x)

@@ -1,0 +1,196 @@
+"""Every function of a folder against an oracle that knows the table alone."""
+
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from modeler.codegen import derive
+from modeler.robot.read import robot_from_text
+from tests.control import draw
+from tests.control.emitted_folder import Folder, derived
+from tests.control.own_oracle import Oracle
+from tests.control.robots import SERIAL
+from tests.further_robots import FOLDER
+from tests.loops import drawn_robots
+
+LOOPS = ("five-bar", "3rrr", "delta", "stewart", "sr400", "orthoglide-2003",
+         "orthoglide-2012", "evra", "orthoglide-leg", "dvrk-psm", "wrist-coupled")  # fmt: skip
+TREES = ("sr400-tree", "orthoglide-leg-tree", *(f"tree {k}" for k in range(8)))
+CHAINS = (*SERIAL, *(f"chain {k}" for k in range(4)))
+
+SOLVED = 1e-9  # of what equations are solved for, or loops are
+EXACT = 1e-11
+SINGLE = 1e-4
+WIDTH = 0.3  # rad/s
+DAMPING = 0.1
+OF_THE_TREE = ("regressor", "base_regressor", "base_regressor_nonzeros")
+
+
+class State(NamedTuple):
+    """Posture u (free variables), motion, references; as the folder's numbers hold them."""
+
+    u: np.ndarray
+    q: np.ndarray
+    qd: np.ndarray
+    qdd: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+
+
+def derivation(name: str):
+    """Of a built-in robot, one beside the tests, or one drawn: "chain 1", "tree 2"."""
+    kind, _, seed = name.partition(" ")
+    if kind in drawn_robots.DRAWN:
+        return derive(robot_from_text(drawn_robots.drawn(kind, int(seed)), "drawn.toml"))
+    if seed:
+        return derive(draw.drawn(int(seed), tree=kind == "tree"))
+    return derived(str(FOLDER / f"{name}.toml") if (FOLDER / f"{name}.toml").exists() else name)
+
+
+def states(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> Iterator[State]:
+    """Random states; those of loops closed on a way from home."""
+    o, random, number = folder.oracle, np.random.default_rng(seed), folder.number
+    home = home_of(folder)
+    reach = wide * (0.25 if folder.robot.loops else 2.0)
+    units = np.array([1.0 if j.angular else 0.3 * o.size for j in folder.robot.coordinates])
+    found = 0
+    for _ in range(20 * samples):
+        q = home[o.given] + random.uniform(-reach, reach, o.n) * units
+        q = q.astype(number).astype(float)
+        motion = random.normal(0, 1, (4, o.n)).astype(number).astype(float)
+        u = home
+        for share in np.linspace(0, 1, 9 if o.solved else 2)[1:]:
+            u = o.closed(home[o.given] * (1 - share) + q * share, u)
+        if not np.isfinite(u).all() or o.regular(u) < 0.03:
+            continue
+        yield State(u, q, *motion)
+        found += 1
+        if found == samples:
+            return
+    raise AssertionError("no closed postures near home")
+
+
+def home_of(folder: Folder) -> np.ndarray:
+    """The free variables at home, closed."""
+    o, closure = folder.oracle, folder.spec.closure
+    given = folder.robot.home
+    home = np.array([given.get(j.name, 0.0) for j in folder.robot.free])
+    if closure is not None:
+        assert len(closure.home) == len(home)
+        home = np.array(closure.home)
+    for _ in range(30 if o.solved else 0):
+        open_, slopes = o.errors(home)
+        home = home - np.linalg.lstsq(slopes[0], open_[0], rcond=None)[0]
+    return home
+
+
+def expected(o: Oracle, folder: Folder, s: State) -> dict[str, tuple]:
+    """{role: (what it gives, bound in double precision[, what to make of the output])}."""
+    beta, chi = folder.beta, np.array(list(folder.chi.values()))
+    exact = SOLVED if o.solved else EXACT
+    u, qd = s.u, s.qd
+    tau = o.torques(u, qd, s.qdd)[0]
+
+    def of_beta(out):
+        return out.astype(float) @ beta
+
+    found = {
+        "inverse_dynamics": (tau, exact),
+        "regressor": (tau, exact, lambda out: out.astype(float) @ chi),
+        "base_regressor": (tau, exact, of_beta),
+        "inertia_matrix": (o.inertia(u), exact),
+        "gravity": (o.gravity_torques(u), exact),
+        "coriolis": (o.coriolis_matrix(u, qd) @ qd, exact),
+        "friction": (o.friction(u, qd)[0], exact),
+        "forward_kinematics": (o.forward_kinematics(u), exact),
+        "coriolis_matrix": (o.coriolis_matrix(u, qd), exact),
+        "coriolis_transpose": (o.coriolis_transpose(u, qd), exact),
+        "momentum": (o.momentum(u, qd), exact),
+        "slotine_li_regressor": (o.slotine_li(u, qd, s.v, s.a), exact, of_beta),
+        "momentum_regressor": (o.momentum(u, qd), exact, of_beta),
+        "momentum_rest_regressor": (o.momentum_rest(u, qd), exact, of_beta),
+        "power_regressor": (o.lost_power(u, qd), exact, of_beta),
+        "pose": (o.pose(u), exact),
+        "jacobian": (o.jacobian(u), exact),
+        "jacobian_dot_qd": (o.jacobian_dot_qd(u, qd), exact),
+        "twist": (o.twist(u, qd), exact),
+        "derivatives": (o.inverse_derivatives(u, qd, s.qdd), exact),
+        "forward_dynamics": (o.forward_dynamics(u, qd, tau), SOLVED),
+        "forward_derivatives": (o.forward_derivatives(u, qd, tau), SOLVED),
+        "operational_inertia": (o.operational_inertia(u, DAMPING), SOLVED),
+        "operational_inverse": (o.operational_inverse(u, DAMPING), SOLVED),
+        "coupling": (o.G(u)[0], SOLVED),
+        "coupling_rate": (
+            np.einsum("kfn,k->fn", o.slopes(o.G, u), qd) if o.solved else None, SOLVED,
+        ),
+        "close": (u, SOLVED),
+        "close_from": (u, SOLVED),
+    }  # fmt: skip
+    for end, name in named(folder).items():
+        found[f"pose_{end}"] = (o.pose(u, name), exact)
+        found[f"jacobian_{end}"] = (o.jacobian(u, name), exact)
+        found[f"jacobian_dot_qd_{end}"] = (o.jacobian_dot_qd(u, qd, name), exact)
+        found[f"twist_{end}"] = (o.twist(u, qd, name), exact)
+    o.width = WIDTH
+    found["smooth_friction"] = (o.friction(u, qd)[0], exact)
+    found["smooth_inverse_dynamics"] = (o.torques(u, qd, s.qdd)[0], exact)
+    o.width = 0.0
+    return found
+
+
+def named(folder: Folder) -> dict[str, str]:
+    """{end of the function's name: row or link} that was asked for besides the tool."""
+    ends = [role[len("pose_") :] for role in folder.roles if role.startswith("pose_")]
+    names = [*folder.robot.frames, *(joint.name for joint in folder.robot.joints)]
+    found = {re.sub(r"\W", "_", name).lower(): name for name in reversed(names)}
+    return {end: found[end] for end in ends}
+
+
+LEFT = ("base_regressor_nonzeros", "base_parameters", "energy_regressor", "advance")
+"""Checked on their own, or none of a posture."""
+
+
+def checked(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> dict[str, float]:
+    """{role: error over its bound}, the worst of all states; every role of the folder."""
+    worst: dict[str, float] = {}
+    o, beta = folder.oracle, folder.beta
+    before = None
+
+    def compare(role: str, out, status: int, wanted: tuple) -> None:
+        value, bound, *make = wanted
+        assert status == 0, f"{role}: status {status}"
+        got = make[0](out) if make else out
+        bound = max(bound, SINGLE) if folder.single else bound
+        scale = max(np.abs(value).max(), 0.1)
+        error = np.abs(got - value).max() / scale / bound
+        worst[role] = max(worst.get(role, 0.0), error) if error == error else np.inf
+
+    for s in states(folder, samples, seed, wide):
+        wanted = expected(o, folder, s)
+        tau = o.torques(s.u, s.qd, s.qdd)[0]
+        given = {**s._asdict(), "beta": beta, "tau": tau, "damping": [DAMPING],
+                 "start": home_of(folder), "widths": np.full(o.n, WIDTH)}  # fmt: skip
+        state = None
+        if folder.has("state"):
+            status, state = folder.state(s.q, s.qd)
+            assert status == 0
+        for role in folder.roles:
+            plain = role.removeprefix("fitted_")
+            if plain in LEFT or "platform" in plain:
+                continue
+            compare(role, *reversed(folder.call(role, **given)), wanted[plain])
+            if state is not None and folder.has(f"{role}_at"):
+                compare(f"{role}_at", *reversed(folder.call(role, state, **given)), wanted[plain])
+        h = folder.call("energy_regressor", **given)[1].astype(float) @ beta
+        total = o.energy(s.u, s.qd)
+        if before is not None:
+            compare("energy_regressor", h - before[0], 0, (total - before[1], SOLVED))
+        before = h, total
+    return worst
+
+
+def refuse(worst: dict[str, float]) -> None:
+    bad = {role: error for role, error in worst.items() if not error <= 1.0}
+    assert not bad, bad
