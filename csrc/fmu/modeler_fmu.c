@@ -68,7 +68,7 @@ static void started(robot_state *now)
 static fmi3Status derived(robot_instance *robot)
 {
     double *x = robot->now.value;
-    if (robot->now.current) {
+    if (robot->now.current != false) {
         return fmi3OK;
     }
     int status = fmu_accelerations(x + Q, x + QD, x + TAU, x + BETA, x + WIDTH, x + QDD);
@@ -531,7 +531,9 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
 {
     robot_instance *robot = instance;
     double *time = robot->now.value + TIME, size = communicationStepSize;
-    *eventHandlingNeeded = *terminateSimulation = *earlyReturn = fmi3False;
+    *eventHandlingNeeded = fmi3False;
+    *terminateSimulation = fmi3False;
+    *earlyReturn = fmi3False;
     *lastSuccessfulTime = currentCommunicationPoint;
     if (!(size >= 0.0) || !isfinite(size)) {
         return told(robot, fmi3Error, "a communication step is a number of seconds from 0 on");
@@ -544,7 +546,8 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommunicationPoi
         if (status != fmi3OK) {
             return status;
         }
-        *time = *lastSuccessfulTime = currentCommunicationPoint + (k < count ? k*h : size);
+        *time = currentCommunicationPoint + (k < count ? k*h : size);
+        *lastSuccessfulTime = *time;
     }
     return fmi3OK;
 }

@@ -76,7 +76,8 @@ TARGET static void OWN(reflections)(size_t rows, size_t stride, size_t p, double
         double d[4], *row = R + (size_t)i * p;
         OWN(products)(rows, stride, x, i, d);
         const double alpha = row[i], square = alpha * alpha + d[i];
-        made->z[i] = made->b[i] = 0.0;
+        made->z[i] = 0.0;
+        made->b[i] = 0.0;
         for (int j = 0; j < i; j++) {
             made->g[j][i] = d[j];
         }

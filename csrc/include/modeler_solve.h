@@ -1,8 +1,8 @@
 /* Small systems of equations A x = b with a status.
  *
- * A is n x n, row-major, and symmetric and positive definite, as inertia matrices are, or nearly so:
- * Gauss's elimination in the order of the rows, which is L D L' then (Cholesky without roots), without
- * exchanging rows. Inline, so that a compiler unrolls loops of known length. C99, no allocation, no
+ * A is n x n, row-major, symmetric and positive definite, as inertia matrices are, or nearly so:
+ * Gauss's elimination in the order of the rows, none exchanged, which is L D L' then (Cholesky
+ * without roots). Inline, so that a compiler unrolls loops of known length. C99, no allocation, no
  * global state, re-entrant.
  */
 #ifndef MODELER_SOLVE_H
@@ -44,10 +44,11 @@ static inline int modeler_pivots(const modeler_real *pivot, const modeler_real *
     int status = MODELER_DONE;
 
     for (int i = n - 1; i >= 0 && status == MODELER_DONE; i--) {
-        if (!modeler_numbers(pivot + i, 1))
+        if (!modeler_numbers(pivot + i, 1)) {
             status = MODELER_NOT_FINITE;
-        else if (!(pivot[i] > MODELER_REAL(0.0)) || !(pivot[i] > MODELER_PIVOT * diagonal[i]))
+        } else if (!(pivot[i] > MODELER_REAL(0.0)) || !(pivot[i] > MODELER_PIVOT * diagonal[i])) {
             status = MODELER_SINGULAR;
+        }
     }
     return status;
 }

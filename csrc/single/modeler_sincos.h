@@ -19,7 +19,8 @@ static inline void modeler_sincos(float x, float *sine, float *cosine)
     static const float QUARTER[4] = {1.0f, 0.0f, -1.0f, 0.0f};
 
     if (!(fabsf(x) < 1e5f)) { /* nor a number, then */
-        *sine = *cosine = NAN;
+        *sine = NAN;
+        *cosine = NAN;
         return;
     }
     const int n = (int)(x*TWO_OVER_PI + (x < 0.0f ? -0.5f : 0.5f));

@@ -19,7 +19,8 @@ static inline void modeler_sincos(double x, double *sine, double *cosine)
 
     if (!(fabs(x) < 1e5)) { /* too many turns for that reduction, or not a number */
 #ifdef MODELER_BOUNDED_ANGLES
-        *sine = *cosine = NAN;
+        *sine = NAN;
+        *cosine = NAN;
 #else
         *sine = sin(x);
         *cosine = cos(x);

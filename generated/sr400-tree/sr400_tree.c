@@ -84,7 +84,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "45dcce527730b4f3";
+    return "013f1eb6dfb8eff5";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

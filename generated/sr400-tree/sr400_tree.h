@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What sr400_tree_signature() of the library that belongs to this header returns. */
-#define SR400_TREE_SIGNATURE "45dcce527730b4f3"
-#define SR400_TREE_SIGNATURE_1 0x45dcce52u
-#define SR400_TREE_SIGNATURE_2 0x7730b4f3u
+#define SR400_TREE_SIGNATURE "013f1eb6dfb8eff5"
+#define SR400_TREE_SIGNATURE_1 0x013f1eb6u
+#define SR400_TREE_SIGNATURE_2 0xdfb8eff5u
 
 /* Of the calls: raised when one takes other arguments; sr400_tree_generator.h says which version of
  * modeler wrote the folder. */

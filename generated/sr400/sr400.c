@@ -81,7 +81,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "01b9c99748f6ccb7";
+    return "039fa5b7de3b845b";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

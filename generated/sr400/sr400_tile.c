@@ -67,7 +67,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "01b9c99748f6ccb7";
+    return "039fa5b7de3b845b";
 }
 
 #else /* for one instruction set */

@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What wrist_signature() of the library that belongs to this header returns. */
-#define WRIST_SIGNATURE "7e0fdbedba7c5633"
-#define WRIST_SIGNATURE_1 0x7e0fdbedu
-#define WRIST_SIGNATURE_2 0xba7c5633u
+#define WRIST_SIGNATURE "20db183e61b2262f"
+#define WRIST_SIGNATURE_1 0x20db183eu
+#define WRIST_SIGNATURE_2 0x61b2262fu
 
 /* Of the calls: raised when one takes other arguments; wrist_generator.h says which version of
  * modeler wrote the folder. */

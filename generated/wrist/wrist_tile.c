@@ -48,7 +48,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "7e0fdbedba7c5633";
+    return "20db183e61b2262f";
 }
 
 #else /* for one instruction set */

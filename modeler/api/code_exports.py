@@ -64,10 +64,11 @@ def _casadi(thing: Robot | IdentifiedModel) -> Exported:
 
 def _fmu(thing: Robot | IdentifiedModel) -> Exported:
     """FMI 3.0 with its sources, and a binary for this kind of machine."""
-    from modeler.codegen import Control, fmu_files  # jinja2
+    from modeler.codegen import Control, fmu_files, fmu_roles  # jinja2
 
     derivation = _derivation(thing)
-    emitted = generate(derivation, control=Control())
+    roles = fmu_roles(derivation.model, derivation.base)
+    emitted = generate(derivation, control=Control(only=roles))
     spec = emitted.spec
     values, told = _values(spec, thing if isinstance(thing, IdentifiedModel) else None)
     beta = [value.now for value in values]
@@ -89,9 +90,9 @@ def _fmu(thing: Robot | IdentifiedModel) -> Exported:
 
 def _ros2(thing: Robot | IdentifiedModel) -> Exported:
     """A package with a chainable controller."""
-    from modeler.codegen import ros2_files  # jinja2
+    from modeler.codegen import Control, ros2_files  # jinja2
 
-    emitted = generate(_derivation(thing))
+    emitted = generate(_derivation(thing), control=Control(only=("inverse_dynamics", "friction")))
     fitted = thing if isinstance(thing, IdentifiedModel) else None
     values, told = _values(emitted.spec, fitted)
     source = (

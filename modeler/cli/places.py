@@ -153,6 +153,11 @@ class OtherProgramsFile(Output):
 
     endings = (".urdf", ".xml", ".sdf", ".casadi", ".fmu")
 
+    @property
+    def file(self) -> Path:
+        """It; of a folder that is there, the file that says what package it is."""
+        return Path(self, "package.xml") if Path(self).is_dir() else Path(self)
+
 
 class OriginalFile(Input):
     """A robot file of another program that is written anew with other numbers."""

@@ -47,7 +47,8 @@ EXPORT = Command(
     "Writes the masses, mass centres, inertias, friction and rotor inertias of MODEL as a machine "
     "that could be built: into the bytes of an ORIGINAL, of which nothing else changes, or into a "
     "file of its own whose links are capsules. Says what every number was and is, and which "
-    "effects the format cannot hold.",
+    "effects the format cannot hold. CasADi, FMU and ROS 2 get the equations instead, with the "
+    "base parameters as they are.",
     "modeler export arm.model.json --like arm.urdf --out better.urdf",
     (
         value("source", "MODEL|ROBOT", places.RobotOrModel, ROBOT_OR_MODEL),
@@ -55,7 +56,8 @@ EXPORT = Command(
                "format; by --like, or by the ending of --out (.xml is MJCF)"),
         value("--like", "ORIGINAL", places.OriginalFile,
               "a file of the same robot: only its numbers are replaced"),
-        value("--out", "FILE", places.OtherProgramsFile, "file to write", **REQUIRED),
+        value("--out", "FILE", places.OtherProgramsFile, "file to write; of ros2 a folder",
+              **REQUIRED),
         flag("--force", "write over a file that is there"),
     ),
     "write the numbers for machines",

@@ -78,12 +78,12 @@ def casadi_functions(
     missing: tuple[str, ...] = ()
     if model.closure is not None:
         found = _closed(model, model.closure, found)
-        missing = ("functions of the platform's coordinates, and those for controllers",)
+        missing = ("not there: functions of the platform's coordinates, those for controllers",)
     composed = [f.role for f in listed if f.composed and f.role != "forward_dynamics"]
     if composed:
-        missing = (f"{', '.join(composed)}: take CasADi's jacobian of the others",)
+        missing = (f"not there: {', '.join(composed)}, which return a status in C",)
     if efforts(model, beta).turns:
-        missing += ("forward_dynamics: friction reads accelerations here; solve inverse_dynamics",)
+        missing += ("not there: forward_dynamics, for friction reads accelerations here",)
     else:
         for head in ("", SMOOTH)[: 1 + bool(turning)]:
             found[f"{head}forward_dynamics"] = _forward(head, found)

@@ -128,3 +128,23 @@ def fitted_closed(functions: Sequence[CFunction]) -> tuple[CFunction, ...]:
         inputs = tuple(a for a in f.inputs if a.name != "beta")
         found.append(dataclasses.replace(f, role=f"fitted_{f.role}", inputs=inputs, composed=made))
     return tuple(found)
+
+
+def at_prototypes(prefix: str, function: CFunction, number: str) -> tuple[str, str, str]:
+    """Prototypes where loops are closed: made of a posture; of a state, declared and defined."""
+    closed = function.closed
+    if closed is None and not isinstance(function.composed, AtState):
+        return "", "", ""
+    motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
+    kept = dataclasses.replace(
+        function, inputs=tuple(a for a in function.inputs if a.name not in motion)
+    )
+    name = f"{prefix}_{function.role}_at"
+    plain, state = layout.arguments(kept, number, prefix), f"struct {prefix}_state *state"
+    posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
+    own = layout.arguments(kept, number, prefix, defined=True)
+    return (
+        layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
+        layout.prototype(name, [state, *plain], "int"),
+        layout.prototype(name, [state, *own], "int"),
+    )

@@ -17,8 +17,7 @@ from modeler.codegen.functions import Arguments, CFunction, Closed, entries_of
 from modeler.codegen.parameter_set import smooth_functions
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, FittedSpec
-from modeler.derivation import BaseParameters, Entries, Expr, Graph, ShaftColumn, SymbolicModel
-from modeler.effects import Acts
+from modeler.derivation import BaseParameters, Entries, Expr, Graph, SymbolicModel
 
 UNIT = "_control"
 """C file of these functions, without the robot's name and `.c`."""
@@ -32,11 +31,15 @@ class Control:
         frames: names of further frames whose Jacobians are wanted: rows, links of [frames].
         only: roles of the functions that are wanted, and `observation`; empty: all.
         vectors: add the table of `vectors.vector_lines` and the program that reads it.
+        structured_text: add the function blocks of `codegen.structured_text`.
+        a2l: add the description of the parameter set, of `codegen.a2l`.
     """
 
     frames: tuple[str, ...] = ()
     only: tuple[str, ...] = ()
     vectors: bool = False
+    structured_text: bool = False
+    a2l: bool = False
 
 
 OBSERVATION = "observation"
@@ -180,8 +183,10 @@ def _dynamics(
 def _derivatives(model: SymbolicModel, beta: Mapping[int, Expr], given: Arguments) -> CFunction:
     return CFunction(
         UNIT, "derivatives",
-        "Derivatives of the torques by positions and by speeds; those by qdd are M. A leap "
-        "of friction counts as level.",
+        layout.comment_text(
+            "Derivatives of the torques by positions and by speeds; those by qdd are M. A leap "
+            "of friction counts as level."
+        ),
         "D = [d tau/d q, d tau/d qd]", (*given.motion, given.beta),
         ArgumentSpec("D", (2, *given.q.shape, *given.q.shape), "torque per unit of q, of qd",
                      "derivatives"),
@@ -205,20 +210,10 @@ def _slopes(model: SymbolicModel, beta: Mapping[int, Expr]) -> list[Expr]:
 # Regressors of a controller that adapts, or identifies without accelerations.
 
 
-def plain_effects(model: SymbolicModel) -> bool:
-    """True if effects but rotor inertias read only speeds, so that these regressors exist."""
-    return all(
-        part.kind == "rotor_inertia"
-        or (part.acts is not Acts.POSITION and part.equation.names <= {"v", *part.shapes})
-        for column in model.columns if isinstance(column, ShaftColumn)
-        for part in column.parts
-    )  # fmt: skip
-
-
 def _regressors(
     model: SymbolicModel, base: BaseParameters, given: Arguments
 ) -> tuple[CFunction, ...]:
-    if not plain_effects(model):
+    if layout.reads_more(model):
         return ()
     n, c = model.geometry.coordinates, base.rank
     place = {parameter.column: i for i, parameter in enumerate(base.parameters)}

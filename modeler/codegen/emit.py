@@ -11,9 +11,9 @@ import sympy
 
 from modeler.codegen import functions as layout
 from modeler.codegen.a2l import a2l_files
-from modeler.codegen.block import Block, float_text, make_block
+from modeler.codegen.block import Block, make_block
 from modeler.codegen.closed import Solving, closed_functions, closure_tables, solving_of
-from modeler.codegen.closed_control import AtState
+from modeler.codegen.closed_control import at_prototypes
 from modeler.codegen.control import (
     OBSERVATION,
     UNIT as CONTROL_UNIT,
@@ -21,7 +21,6 @@ from modeler.codegen.control import (
     chosen,
     control_functions,
     fitted_control_functions,
-    plain_effects,
 )
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
@@ -31,24 +30,22 @@ from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_files, render
 from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.structured_text import structured_texts
+from modeler.codegen.symbols import symbol_lines
 from modeler.codegen.targets import OF_PRECISION, Target
 from modeler.codegen.vectors import stored_states, vectors_text
 from modeler.core import manifest
 from modeler.core.errors import EmitError, Precision
-from modeler.core.expression import Expression
 from modeler.core.files import resource_dir
 from modeler.core.json import entries
 from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec, ModuleSpec
 from modeler.derivation import (
     BaseParameters,
-    Geometry,
     Label,
     SymbolicModel,
     coefficient_text,
-    geometric_symbol,
     precise_values,
 )
-from modeler.robot import Limits, Robot
+from modeler.robot import Limits
 
 # The manifest of an emitted module: everything the numeric stages will know of the robot.
 
@@ -171,121 +168,6 @@ def function_specs(
     return tuple(found)
 
 
-# Geometric symbols in C: which of them -D may replace, and why the others not.
-
-
-_SAME = 1e-12  # relative: a cell and its exact entry differ by rounding
-
-_SOME = "Their values decide which terms there are."
-_ALL = "The base parameters hold for these values only."
-
-
-@dataclass(frozen=True)
-class SymbolLines:
-    """Finished names and values of the geometric symbols.
-
-    Attributes:
-        free: (macro, value) of those that -D replaces.
-        fixed: macros of those that must stay.
-        why: why these must stay, one sentence.
-        initial: {symbol: what its constant is initialised with}: the macro, or the value.
-        texts: {symbol: its value}.
-    """
-
-    free: tuple[tuple[str, str], ...]
-    fixed: tuple[str, ...]
-    why: str
-    initial: Mapping[str, str]
-    texts: Mapping[str, str]
-
-    @property
-    def macros(self) -> tuple[str, ...]:
-        """All of them."""
-        return (*(name for name, _ in self.free), *self.fixed)
-
-
-def symbol_lines(
-    model: SymbolicModel, base: BaseParameters, macros: Mapping[str, str], target: Target
-) -> SymbolLines:
-    """What is written of every declared symbol.
-
-    Relations proved for the letters hold for any value of them. Where they are not, or where a
-    value decides the structure (worth 0, a right angle), the code would be wrong for another one.
-
-    Args:
-        model: as derived.
-        base: the base parameters of the same model.
-        macros: of all declared symbols.
-        target: the number type.
-    """
-    values = model.geometry.values
-    exact = base.proof.kind == "exact"
-    stay = deciding_symbols(model.geometry) if exact else frozenset(values)
-    texts = {name: float_text(value, target) for name, value in values.items()}
-    return SymbolLines(
-        free=tuple((macros[name], text) for name, text in texts.items() if name not in stay),
-        fixed=tuple(
-            macros[name] for name in model.robot.symbols if name in stay or name not in texts
-        ),
-        why=_SOME if exact else _ALL,
-        initial={name: text if name in stay else macros[name] for name, text in texts.items()},
-        texts=texts,
-    )
-
-
-def deciding_symbols(geometry: Geometry) -> frozenset[str]:
-    """Symbols left in the geometry that cannot change without changing its structure.
-
-    `d = "L1 + L2 - L3"` worth 0 is left out of the table, an angle `"a1 + a2"` worth pi/2 is that
-    right angle: with another L1 or a1 the entries would not be those of the table any more. So the
-    symbols are moved a little, and the entries compared with the cells as they were written.
-    """
-    robot = geometry.robot
-    moved = {
-        name: value * (1 + 1 / (97 + 12 * place))
-        for place, (name, value) in enumerate(geometry.values.items())
-    }
-    numbers: dict[str, float] = {}  # of all symbols and joint variables, some symbols moved
-    for name, expression in robot.symbols.items():
-        try:
-            numbers[name] = moved[name] if name in moved else expression.number(numbers)
-        except (ArithmeticError, ValueError):
-            numbers[name] = math.nan  # equal to nothing
-    numbers |= {joint.variable: 0.0 for joint in robot.joints}
-    columns = ("gamma", "b", "alpha", "d", "theta", "r")
-    cells: list[tuple[Expression, sympy.Expr]] = [
-        (getattr(row.joint, column), getattr(row, column))
-        for row in geometry.rows
-        for column in columns
-    ]
-    found: set[str] = set()
-    for cell, entry in (*cells, *zip(robot.gravity, geometry.gravity, strict=True)):
-        leaves = {name: moved[name] for name in _leaves(robot, cell) if name in moved}
-        found |= leaves.keys() - {symbol.name for symbol in entry.free_symbols}
-        if not leaves:
-            continue
-        symbols = {geometric_symbol(name): value for name, value in leaves.items()}
-        try:
-            written, exact = cell.number(numbers), complex(entry.evalf(subs=symbols))
-        except (ArithmeticError, ValueError, TypeError):
-            written, exact = math.nan, 0j
-        if not abs(written - exact) <= _SAME * max(abs(written), *map(abs, leaves.values())):
-            found |= leaves.keys()
-    return frozenset(found)
-
-
-def _leaves(robot: Robot, cell: Expression) -> set[str]:
-    """Declared symbols that the cell depends on, through those given by expressions too."""
-    found: set[str] = set()
-    waiting = [name for name in cell.names if name in robot.symbols]
-    while waiting:
-        name = waiting.pop()
-        if name not in found:
-            found.add(name)
-            waiting += robot.symbols[name].names
-    return found
-
-
 _RESTRICT = "MODELER_RESTRICT "
 
 
@@ -314,8 +196,6 @@ def emit(
     precision: Precision = "double",
     cuda: bool = False,
     control: Control | None = None,
-    structured_text: bool = False,
-    a2l: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -325,9 +205,7 @@ def emit(
         fitted: their values, of a model; the unit with them is added.
         precision: of the numbers: all `double`, or all `float`.
         cuda: add the kernels of `codegen.cuda`, of a robot without loops.
-        control: add the controller's unit.
-        structured_text: add the function blocks of `codegen.structured_text`.
-        a2l: add the description of the controller's parameter set, of `codegen.a2l`.
+        control: add the controller's unit, and what else it says.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -346,7 +224,7 @@ def emit(
         every = [function for part in parts for function in part]
         units, kept = None, frozenset(f.role for f in every)
         if control is not None and control.only:
-            if cuda or a2l:
+            if cuda or control.a2l:
                 raise EmitError(
                     f"--{'cuda' if cuda else 'a2l'}: not with --only; generate two folders"
                 )
@@ -368,9 +246,9 @@ def emit(
             spec, unit = _control_unit(model, spec, more, values)
             code |= unit
         values |= {"spec": spec}
-        if structured_text:
+        if control is not None and control.structured_text:
             kernels |= structured_texts(model, spec, values, twins)
-        if a2l:
+        if control is not None and control.a2l:
             kernels |= a2l_files(model, spec, values, [*main, *twins, *more])
 
     def others() -> dict[str, str]:
@@ -503,7 +381,7 @@ def _module(
         ),
         "loops": loops,
         "names": constants,
-        "plain": plain_effects(model),
+        "plain": not layout.reads_more(model),
         "signature": "",
         "blocks": blocks,
         "places": places,
@@ -663,7 +541,7 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
     returns = "int" if function.status else "void"
     if function.internal and function.unit in (UNIT, CONTROL_UNIT):
         returns = "static void"
-    made, declared, defined = _at_state(prefix, function, number)
+    made, declared, defined = at_prototypes(prefix, function, number)
     return _Written(
         **vars(function),
         name=name,
@@ -677,26 +555,6 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         at_definition=defined,
         lines=[] if function.status else layout.body_lines(function, block, target),
         **entries(block, "symbols additions multiplications letters"),
-    )
-
-
-def _at_state(prefix: str, function: CFunction, number: str) -> tuple[str, str, str]:
-    """Prototypes where loops are closed: made of a posture; of a state, declared and defined."""
-    closed = function.closed
-    if closed is None and not isinstance(function.composed, AtState):
-        return "", "", ""
-    motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
-    kept = dataclasses.replace(
-        function, inputs=tuple(a for a in function.inputs if a.name not in motion)
-    )
-    name = f"{prefix}_{function.role}_at"
-    plain, state = layout.arguments(kept, number, prefix), f"struct {prefix}_state *state"
-    posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
-    own = layout.arguments(kept, number, prefix, defined=True)
-    return (
-        layout.prototype(f"made_{function.role}", [*posture, *own], "static void"),
-        layout.prototype(name, [state, *plain], "int"),
-        layout.prototype(name, [state, *own], "int"),
     )
 
 

@@ -5,14 +5,13 @@ Equations: M(q) qdd = tau - c(q, qd) - g(q) - f(qd), sign(v) of dry friction as 
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from xml.sax.saxutils import escape
 
 from modeler.codegen.forward import efforts
-from modeler.codegen.functions import beta_symbols
+from modeler.codegen.functions import beta_symbols, relation
 from modeler.codegen.package import render
-from modeler.codegen.parameter_set import turning_joints
+from modeler.codegen.parameter_set import SMOOTH, turning_joints
 from modeler.core.errors import EmitError
 from modeler.core.files import resource_dir
 from modeler.core.manifest import Emitted, ModuleSpec, text_digest
@@ -34,23 +33,26 @@ _BASE = {
 """Units as products of those that FMI knows."""
 
 
-@dataclass(frozen=True)
-class _Variable:
-    """A line of the description.
+def fmu_roles(model: SymbolicModel, base: BaseParameters) -> tuple[str, ...]:
+    """The functions of the C that an FMU calls.
 
-    Attributes:
-        name: of a variable of the robot.
-        unit: as the manifest has it.
-        about: for people.
-        kind: "input", "state", "rate" (of a state), "parameter", "time".
-        start: what it is at first; None of what is computed.
+    Raises:
+        EmitError: dry friction in loops; effects that read accelerations.
     """
-
-    name: str
-    unit: str
-    about: str
-    kind: str
-    start: float | None = None
+    rubbing, name = turning_joints(model, base), model.robot.name
+    if model.closure is not None and rubbing:
+        raise EmitError(
+            f"{name} has loops, and dry friction of joints {', '.join(rubbing)}, which leaps in C, "
+            "as an FMU must not; leave coulomb out of [effects]"
+        )
+    if efforts(model, beta_symbols(model, base)).turns:
+        raise EmitError(
+            f"{name}: its effects read accelerations, as load friction does, which the FMU does "
+            "not solve for; leave them out of [effects]"
+        )
+    if model.closure is not None:
+        return ("forward_dynamics",)
+    return "inertia_matrix", f"{SMOOTH if rubbing else ''}inverse_dynamics"
 
 
 def fmu_files(
@@ -59,43 +61,35 @@ def fmu_files(
     """{place in the unit: text} of all but the binary.
 
     Args:
-        emitted: the module, with the controller's unit.
+        emitted: the functions of `fmu_roles`.
         model: as derived.
         base: the base parameters of the same model.
         beta: their values at the start.
 
     Raises:
-        EmitError: loops; effects that read signals, which nothing gives here, or accelerations.
+        EmitError: effects that read signals, which nothing gives here.
     """
     spec = emitted.spec
-    if model.closure is not None:
-        raise EmitError(
-            f"{spec.robot} has loops, and the FMU is that of trees; cut the loops in the robot file"
-        )
     if spec.signals:
         raise EmitError(
             f"{spec.robot}: its effects read {spec.signals[0].kind}, which an FMU is not given; "
             "leave them out of [effects]"
         )
-    if efforts(model, beta_symbols(model, base)).turns:
-        raise EmitError(
-            f"{spec.robot}: its effects read accelerations, as load friction does, which the FMU "
-            "does not solve for; leave them out of [effects]"
-        )
-    roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.every_function}
-    smooth = roles.get("smooth_inverse_dynamics", roles["inverse_dynamics"])
-    reads = [argument.name for argument in smooth.inputs]
-    home = (0.0,) * len(spec.joints)
+    roles = fmu_roles(model, base)
+    inputs = {f.name.removeprefix(f"{spec.prefix}_"): f.inputs for f in spec.every_function}
+    closure = model.closure
+    home = [closure.home[k] for k in closure.given] if closure else [0.0] * len(spec.joints)
     widths = turning_joints(model, base)
-    variables = list(_variables(spec, widths, home, beta))
-    code = {name: emitted.code[name] for name in spec.sources}
+    variables = _variables(spec, base, widths, home, beta)
+    code = {name: emitted.files[name] for name in spec.controller_sources}
     token = text_digest("".join(code.values()) + repr(variables))
     n = len(spec.joints)
     values = {
         "name": escape(spec.robot), "title": escape(spec.title or spec.robot, {'"': "&quot;"}),
         "prefix": spec.prefix, "token": f"{{{token}}}", "step": STEP, "width": WIDTH, "joints": n,
         "widths": len(widths), "beta": beta, "home": _lines(home), "beta_lines": _lines(beta),
-        "torques": smooth.name, "reads": reads,
+        "roles": roles, "reads": [argument.name for argument in inputs[roles[-1]]],
+        "control": f"{spec.prefix}_control.h" in code,
     }  # fmt: skip
     code["fmu_model.h"] = render("fmu_model.h", **values)
     code["modeler_fmu.c"] = (resource_dir("csrc") / "fmu" / "modeler_fmu.c").read_text("utf-8")
@@ -104,8 +98,8 @@ def fmu_files(
     values["sources"] = sorted(name for name in code if name.endswith(".c"))
     given = {
         **values,
-        "units": [(name, list(powers.items())) for name, powers in _units(variables).items()],
-        "variables": [_attributes(place, variables, n) for place in range(len(variables))],
+        "units": {each["unit"]: _powers(each["unit"]) for each in variables},
+        "variables": variables,
         "outputs": [*range(2, 2 + 2 * n), *range(2 + 3 * n, 2 + 4 * n)],
         "derivatives": range(2 + 2 * n, 2 + 4 * n),
         "unknown": range(2 + 2 * n, 2 + 4 * n),
@@ -123,54 +117,46 @@ def _lines(numbers: Sequence[float]) -> list[str]:
 
 
 def _variables(
-    spec: ModuleSpec, widths: Sequence[str], home: Sequence[float], beta: Sequence[float]
-) -> Iterator[_Variable]:
-    """All, in the order of the array of modeler_fmu.c."""
-    yield _Variable("time", "s", "time", "time")
-    yield _Variable("step", "s", "largest step of co-simulation", "parameter", STEP)
-    places = dict(zip((joint.name for joint in spec.joints), home, strict=True))
-    for name, about, kind, per in (
-        ("q", "position", "state", ""), ("qd", "speed", "state", "/s"),
-        ("dq", "derivative of the position", "rate", "/s"),
-        ("qdd", "acceleration", "rate", "/s2"), ("tau", "effort of the drive", "input", ""),
+    spec: ModuleSpec, base: BaseParameters, widths: Sequence[str], home: Sequence[float],
+    beta: Sequence[float],
+) -> list[dict[str, str]]:  # fmt: skip
+    """Attributes of all, in the order of the array of modeler_fmu.c."""
+    n, found = len(spec.joints), list[dict[str, str]]()
+
+    def add(name: str, unit: str, about: str, causality: str, **more: object) -> None:
+        changes = "tunable" if causality == "parameter" else "continuous"
+        given = {
+            "name": name, "valueReference": len(found), "unit": _name(unit), "variability": changes,
+            "description": about, "causality": causality, **more,
+        }  # fmt: skip
+        found.append({key: escape(str(value), {'"': "&quot;"}) for key, value in given.items()})
+
+    def parameter(name: str, unit: str, about: str, start: float) -> None:
+        add(name, unit, about, "parameter", initial="exact", start=start)
+
+    add("time", "s", "time", "independent")
+    parameter("step", "s", "largest step of co-simulation", STEP)
+    for name, about, kind, per, start in (
+        ("q", "position", "output", "", home), ("qd", "speed", "output", "/s", [0.0] * n),
+        ("dq", "derivative of the position", "local", "/s", None),
+        ("qdd", "acceleration", "output", "/s2", None),
+        ("tau", "effort of the drive", "input", "", [0.0] * n),
     ):  # fmt: skip
-        for joint in spec.joints:
-            start = None if kind == "rate" else places[joint.name] if name == "q" else 0.0
+        for k, joint in enumerate(spec.joints):
+            more: dict[str, object] = {} if start is None else {"start": float(start[k])}
+            if kind != "input":
+                more["initial"] = "calculated" if start is None else "exact"
+            if start is None:  # of the state of the same joint
+                more["derivative"] = len(found) - 2 * n
             unit = joint.effort_unit if name == "tau" else joint.unit + per
-            yield _Variable(
-                f"{name}{joint.name}", unit, f"{about} of joint {joint.name}", kind, start
-            )
-    for base, value in zip(spec.base, beta, strict=True):
-        about = " + ".join(f"{term.coefficient}*{term.parameter}" for term in base.terms)
-        yield _Variable(base.name, base.unit, about, "parameter", float(value))
+            add(f"{name}{joint.name}", unit, f"{about} of joint {joint.name}", kind, **more)
+    for known, each, value in zip(spec.base, base.parameters, beta, strict=True):
+        parameter(known.name, known.unit, relation(each), float(value))
     units = {joint.name: joint.unit for joint in spec.joints}
     for name in widths:
         about = f"width over which the Coulomb friction of joint {name} turns"
-        yield _Variable(f"width{name}", f"{units.get(name, 'rad')}/s", about, "parameter", WIDTH)
-
-
-def _attributes(place: int, variables: Sequence[_Variable], n: int) -> list[tuple[str, str]]:
-    """Of the element of a variable; q, qd, dq, qdd, tau follow on time and step, n of each."""
-    each = variables[place]
-    found = {
-        "name": each.name, "valueReference": str(place), "unit": _name(each.unit),
-        "description": escape(each.about, {'"': "&quot;"}),
-    }  # fmt: skip
-    if each.kind == "time":
-        found |= {"causality": "independent", "variability": "continuous"}
-    elif each.kind == "parameter":
-        found |= {"causality": "parameter", "variability": "tunable", "initial": "exact"}
-    elif each.kind == "input":
-        found |= {"causality": "input", "variability": "continuous"}
-    else:
-        exact = each.kind == "state"
-        found |= {
-            "causality": "local" if 2 + 2 * n <= place < 2 + 3 * n else "output",
-            "variability": "continuous", "initial": "exact" if exact else "calculated",
-        }  # fmt: skip
-        found |= {} if exact else {"derivative": str(place - 2 * n)}
-    found |= {} if each.start is None else {"start": repr(each.start)}
-    return list(found.items())
+        parameter(f"width{name}", f"{units.get(name, 'rad')}/s", about, WIDTH)
+    return found
 
 
 def _name(unit: str) -> str:
@@ -178,16 +164,12 @@ def _name(unit: str) -> str:
     return unit.replace(" ", ".")
 
 
-def _units(variables: Sequence[_Variable]) -> Mapping[str, Mapping[str, int]]:
-    """{name: powers of base units} of all that are used; empty where one is not known."""
-    return {_name(unit): _powers(unit) for unit in dict.fromkeys(each.unit for each in variables)}
-
-
 def _powers(unit: str) -> dict[str, int]:
+    """Of base units, of a unit as `_name` gives it; empty where one is not known."""
     powers: Counter[str] = Counter()
     over, *under = unit.split("/")
     for text, sign in [(over, 1), *((part, -1) for part in under)]:
-        for word in text.split():
+        for word in text.split("."):
             match = re.fullmatch(r"([A-Za-z]+|1)(\d*)", word)
             if match is None or match[1] not in _BASE:
                 return {}

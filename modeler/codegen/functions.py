@@ -296,9 +296,10 @@ def _held_by_friction(model: SymbolicModel) -> str:
 
 
 def reads_more(model: SymbolicModel) -> bool:
-    """True if an effect reads more than the speed and acceleration of its joint."""
+    """True if an effect reads more than the speed of its joint, and is no rotor inertia."""
     return any(
-        part.acts is Acts.POSITION or not part.equation.names <= {"v", "a", *part.shapes}
+        part.kind != "rotor_inertia"
+        and (part.acts is Acts.POSITION or not part.equation.names <= {"v", *part.shapes})
         for column in model.columns
         if isinstance(column, ShaftColumn)
         for part in column.parts

@@ -15,11 +15,9 @@ from modeler.codegen.vectors import PRODUCTS, TURNING
 from modeler.core.errors import ModelerError
 from modeler.core.files import resource_dir, write_atomically, write_together
 from modeler.core.manifest import (
-    BATCH_RUNTIME,
     CLOSURE_RUNTIME,
     CONTROL_RUNTIME,
     MANIFEST,
-    TILE_RUNTIME,
     Emitted,
     FunctionSpec,
     ModuleSpec,
@@ -142,7 +140,7 @@ def _unwanted(emitted: Emitted) -> set[str]:
     units = ("fitted", "control", "joints", "batch", "tile", "regressor", "base_regressor")
     names = {f"{prefix}_{unit}.{kind}" for unit in units for kind in "hc"}
     names |= {f"{prefix}.{kind}" for kind in ("cu", "st", "a2l", "hpp")} | {f"{prefix}_generator.h"}
-    names |= {*BATCH_RUNTIME, *TILE_RUNTIME, *CONTROL_RUNTIME, "vectors.csv", "cost.json"}
+    names |= {"vectors.csv", "cost.json"}  # the runtime may be that of another robot's files too
     names |= {f"{head}{name}.c" for name in PROGRAMS for head in ("", f"{FOLDER}/")}
     return names - emitted.files.keys()
 
@@ -234,10 +232,10 @@ def origin_of() -> OriginSpec:
 
 
 def package_version(signature: str) -> str:
-    """`1.4660.22136.43981`: the C interface, then 48 bits of the signature, 16 in each number.
+    """`2.4660.22136.43981`: the C interface, then 48 bits of the signature, 16 in each number.
 
-    Build systems compare numbers, not digests: so `find_package(arm 1.4660.22136.43981)` and
-    `pkg-config 'arm = 1.4660.22136.43981'` find this code and no other. There is no order among
+    Build systems compare numbers, not digests: so `find_package(arm 2.4660.22136.43981)` and
+    `pkg-config 'arm = 2.4660.22136.43981'` find this code and no other. There is no order among
     the last three.
 
     Args:
@@ -273,6 +271,9 @@ def package_files(
         "every": every,
         "roles": {f.name.removeprefix(f"{prefix}_") for f in every},
         "batched": spec.has("_batch"),
+        "at_state": set(
+            re.findall(r"\b\w+_at(?=\()", "".join(code[h] for h in code if h.endswith(".h")))
+        ),
         "closure_files": CLOSURE_RUNTIME if spec.closure is not None else (),
         "control_files": [
             name for name in CONTROL_RUNTIME if spec.closure is None or name not in CLOSURE_RUNTIME

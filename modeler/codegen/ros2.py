@@ -53,7 +53,7 @@ def ros2_files(emitted: Emitted, beta: Sequence[float], source: str) -> dict[str
         calls.append(f"{call};")
     names = [joint.name for joint in spec.joints]
     title = spec.title or spec.robot
-    code = {name: emitted.code[name] for name in spec.sources}
+    code = {name: emitted.files[name] for name in spec.controller_sources}
     values = {
         "title": comment_text(title), "xml_title": escape(title), "name": spec.robot,
         "prefix": spec.prefix, "macro": spec.prefix.upper(), "calls": calls, "status": status,

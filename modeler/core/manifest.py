@@ -235,7 +235,7 @@ class ModuleSpec(Brief):
     precision: Precision = "double"  # of all numbers of the C
     inertial_uncertainty: float | None = None  # of every body, over its scale
     control: ControlSpec | None = None  # where `modeler generate` wrote it
-    origin: OriginSpec | None = None  # in the file alone
+    origin: OriginSpec | None = field(default=None, compare=False)  # in the file alone
     units: tuple[str, ...] | None = None  # "_control", ...: of some functions; None: all there are
 
     @property

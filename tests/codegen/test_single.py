@@ -211,8 +211,11 @@ def test_robots_of_both_precisions_live_in_one_program(tmp_path):
     main_c = """
     #include <stdio.h>
     #include "wrist.h"
+    #include "wrist_batch.h"
     #include "two_link.h"
+    #include "two_link_batch.h"
     #include "emps.h"
+    #include "emps_batch.h"
     int main(void)
     {
         const double q[3] = {0.1, 0.2, 0.3}, qd[3] = {1.0, 1.0, 1.0}, qdd[3] = {2.0, 2.0, 2.0};
@@ -230,8 +233,9 @@ def test_robots_of_both_precisions_live_in_one_program(tmp_path):
     for made in (wrist, arm, emps):
         folder = tmp_path / made.spec.prefix
         write_emitted(made, folder)
-        subprocess.run(["make", "-s", "-C", folder, "CFLAGS=-O0"], check=True)
-        libraries += [folder / f"lib{made.spec.prefix}_model.a", f"-I{folder}"]
+        subprocess.run(["make", "-s", "-C", folder, "CFLAGS=-O0", "all", "batch"], check=True)
+        own = [folder / f"lib{made.spec.prefix}_{kind}.a" for kind in ("batch", "model")]
+        libraries += [*own, f"-I{folder}"]
     (tmp_path / "main.c").write_text(main_c)
     program = tmp_path / "main"
     subprocess.run(["gcc", "-o", program, tmp_path / "main.c", *libraries, "-lm"], check=True)
@@ -243,7 +247,7 @@ def test_the_command(capsys, tmp_path):
     out = tmp_path / "c"
     assert main(["generate", "two-link", "--precision", "single", "--out", str(out)]) == 0
     assert "10 base parameters, single precision, written to" in capsys.readouterr().out
-    assert "const float *q" in (out / "two_link.h").read_text()
+    assert "const float q[" in (out / "two_link.h").read_text()
     assert "every number is `float`" in (out / "README.md").read_text()
     model = load_folder(out)
     assert model.spec.precision == "single"

@@ -7,8 +7,9 @@ import subprocess
 import numpy as np
 import pytest
 
-from modeler.codegen.emit import deciding_symbols, emit
+from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
+from modeler.codegen.symbols import deciding_symbols
 from modeler.core.builtin import builtin_text
 from modeler.core.manifest import Emitted
 from modeler.derivation.base_parameters import base_parameters

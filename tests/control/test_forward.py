@@ -19,9 +19,12 @@ from tests.control.robots import (
     physical,
     robot_of,
 )
+from tests.elementary_motions import frames
 from tests.modules import STRICT, compiler, loaded
 
 FEW = ("puma560", "tree-1")
+OTHERWISE = ("tree-1", "tree-3")
+"""Rows in an order that Pinocchio's inertia matrix and derivatives do not allow."""
 
 
 def few_first(names):
@@ -77,7 +80,7 @@ def test_forward_derivatives(name):
         x, v, f = np.zeros((3, other.nv))
         x[rows], v[rows], f[rows] = q[k], qd[k], effort[k]
         found = pin.computeABADerivatives(other, data, x, v, f)
-        exact = name not in ("tree-1", "tree-3")
+        exact = name not in OTHERWISE
         by_q, by_qd, by_tau = (
             each[pick] for each in (found if exact else differences(other, x, v, f))
         )
@@ -92,8 +95,12 @@ def test_operational_space(name, damping):
     """L and Jbar by dense algebra on Pinocchio's matrices."""
     pin = pytest.importorskip("pinocchio")
     model, chi, beta, q, _, _ = drawn(name, samples=6, seed=12)
-    other, rows = in_pinocchio(robot_of(name), chi)
-    data, n = other.createData(), len(model.spec.joints)
+    robot = robot_of(name)
+    other, rows = in_pinocchio(robot, chi)
+    carried = frames(robot, np.zeros(len(rows)))  # the last row may be fixed on the last joint
+    on = np.linalg.inv(carried[robot.moving[-1].name]) @ carried[robot.joints[-1].name]
+    end = other.addFrame(pin.Frame("end", rows[-1] + 1, 0, pin.SE3(on), pin.OP_FRAME))
+    data = other.createData()
     roles = ("operational_inertia", "operational_inverse")
     given = {"q": q, "beta": beta, "damping": [damping]}
     statuses = [model.statuses(role, **given) for role in roles]
@@ -103,9 +110,7 @@ def test_operational_space(name, damping):
         x[rows] = q[k]
         M = pin.crba(other, data, x)
         M = (np.triu(M) + np.triu(M, 1).T)[np.ix_(rows, rows)]
-        pin.computeJointJacobians(other, data, x)
-        index = other.njoints - 1
-        J = pin.getJointJacobian(other, data, index, pin.LOCAL_WORLD_ALIGNED)[:, rows]
+        J = pin.computeFrameJacobian(other, data, x, end, pin.LOCAL_WORLD_ALIGNED)[:, rows]
         S = J @ np.linalg.solve(M, J.T) + damping**2 * np.eye(6)
         full = damping > 0 or np.linalg.matrix_rank(J) == 6
         assert [status[k] for status in statuses] == ([0, 0] if full else [2, 2])
@@ -119,7 +124,6 @@ def test_operational_space(name, damping):
         assert np.abs(results[1][k] - Jbar).max() <= slack * np.abs(Jbar).max()
         if damping == 0.0:
             assert np.abs(J @ results[1][k] - np.eye(6)).max() <= 1e-8
-    assert n
 
 
 def test_bad_input_is_a_status_never_a_number():
@@ -207,6 +211,25 @@ def test_friction_that_reads_accelerations():
             assert np.median(apart) < 1e-6 and (apart > 1e-4).sum() <= 2  # where |load| turns
 
 
+def test_an_own_effect_of_the_acceleration():
+    own = """drag = ["2"]
+
+[own_effects.drag]
+title = "drag of a fluid that is carried along"
+columns = { Da = "a*abs(a)" }
+unit = "1"
+
+[reference]"""
+    text = LOADED[: LOADED.index("load_friction")] + own + LOADED.split("[reference]")[1]
+    model = loaded(generate(derive(robot_from_text(text, "drag")), control=Control()))
+    random = np.random.default_rng(10)
+    chi = physical(model.spec, random) | {"Da2": 0.3}
+    beta = model.base_parameters([chi[p.name] for p in model.spec.standard])
+    q, qd, tau = random.normal(size=(3, 50, 3))
+    qdd = model.evaluate("forward_dynamics", q=q, qd=qd, tau=10 * tau, beta=beta)
+    assert np.abs(model.inverse_dynamics(q, qd, qdd, beta) - 10 * tau).max() <= 1e-9
+
+
 @pytest.mark.parametrize("name", few_first(["puma560", "panda", "tree-2"]))
 def test_single_precision_and_fitted_values(name):
     model, _, beta, q, qd, tau = drawn(name, samples=5, seed=13)
@@ -281,3 +304,36 @@ def test_strict_compilers_and_sanitizers(tmp_path, precision, cc, flags):
         library = [compiler(cc), *STRICT, *flags, "-o", "run", "main.o", *sources, "-lm"]
         subprocess.run(library, cwd=tmp_path, check=True)
         assert subprocess.run([tmp_path / "run"], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("name", ["puma560", pytest.param("tree-2", marks=pytest.mark.slow)])
+def test_forward_dynamics_in_mujoco(name):
+    mujoco = pytest.importorskip("mujoco")
+    model, chi, beta, q, qd, tau = drawn(name, samples=10, seed=14)
+    qdd = model.evaluate("forward_dynamics", q=q, qd=qd, tau=tau, beta=beta)
+    other, rows = in_pinocchio(robot_of(name), chi)
+    assert rows == list(range(len(rows)))
+    spec = mujoco.MjSpec()
+    spec.option.gravity = other.gravity.linear
+    spec.option.disableflags = mujoco.mjtDisableBit.mjDSBL_CONTACT
+    bodies = [spec.worldbody]
+    for index in range(1, other.njoints):
+        placement, inertia = other.jointPlacements[index], other.inertias[index]
+        quaternion = np.zeros(4)
+        mujoco.mju_mat2Quat(quaternion, placement.rotation.ravel())
+        body = bodies[other.parents[index]].add_body(pos=placement.translation, quat=quaternion)
+        body.mass, body.ipos, I = inertia.mass, inertia.lever, inertia.inertia
+        body.fullinertia = [I[0, 0], I[1, 1], I[2, 2], I[0, 1], I[0, 2], I[1, 2]]
+        body.explicitinertial = True
+        kind = "HINGE" if model.spec.joints[index - 1].kind == "revolute" else "SLIDE"
+        body.add_joint(
+            type=getattr(mujoco.mjtJoint, f"mjJNT_{kind}"), axis=[0, 0, 1],
+            armature=other.armature[index - 1],
+        )  # fmt: skip
+        bodies.append(body)
+    made = spec.compile()
+    data = mujoco.MjData(made)
+    for k, effort in enumerate(tau - frictions(model.spec, chi, qd)):
+        data.qpos[:], data.qvel[:], data.qfrc_applied[:] = q[k], qd[k], effort
+        mujoco.mj_forward(made, data)
+        assert np.abs(qdd[k] - data.qacc).max() <= 1e-8 * np.abs(qdd[k]).max()

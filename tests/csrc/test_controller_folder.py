@@ -213,7 +213,9 @@ def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
     """And a number that is wrong in the twelfth digit (of floats: the fifth) is told."""
     folder = written(tmp_path, name, precision=precision, vectors=True)
     lines = (folder / "vectors.csv").read_text().splitlines()
-    outputs = [k for k, line in enumerate(lines) if line.startswith(f"{emitted(name).spec.prefix}_")]
+    outputs = [
+        k for k, line in enumerate(lines) if line.startswith(f"{emitted(name).spec.prefix}_")
+    ]
     assert {int(line.split(",")[1]) for line in lines} == set(range(50))
     assert f"{len(outputs)} outputs, 0 fail" in made(folder, "vectors")
     digits = [len(re.sub(r"e.*|\D", "", x).lstrip("0")) for k in outputs[:40]
@@ -274,12 +276,31 @@ def test_the_header_for_cpp_returns_what_the_c_writes(cc, tmp_path):
     assert "no matching function" in run(*command, f"-DSPOIL={short}", where=tmp_path, fails=True)
 
 
-def test_every_robot_s_header_for_cpp_compiles(tmp_path):
-    for name in ("wrist", "emps"):
-        prefix = emitted(name).spec.prefix
-        written(tmp_path / prefix, name, precision="single" if name == "emps" else "double")
-        (tmp_path / "all.cpp").write_text(f'#include "{prefix}.hpp"\nint main() {{}}\n')
-        run(compiler("g++"), *CPP, "-I", prefix, "-c", "all.cpp", where=tmp_path)
+STATE = """#include "five_bar.hpp"
+
+int main()
+{
+    namespace robot = five_bar_model;
+    static struct five_bar_state now;
+    const std::array<float, 2> q{1.9f, 1.1f}, qd{1.0f, -1.0f}, qdd{0.5f, 0.2f};
+    std::array<float, FIVE_BAR_BASE_PARAMETERS> beta{};
+
+    beta.fill(1.0f);
+    if (robot::close_at(now, q, qd, false) != robot::status::done)
+        return 1;
+    const auto at = robot::inverse_dynamics_at(now, qdd, beta);
+    const auto whole = robot::inverse_dynamics(q, qd, qdd, beta);
+    return at && whole && at.value == whole.value ? 0 : 2;
+}
+"""
+
+
+def test_the_header_for_cpp_has_the_state_of_loops(tmp_path):
+    made(written(tmp_path, "five-bar", precision="single"))
+    (tmp_path / "state.cpp").write_text(STATE)
+    run(compiler("g++"), *CPP, "state.cpp", "libfive_bar_model.a", "-lm", "-o", "state",
+        where=tmp_path)  # fmt: skip
+    run(tmp_path / "state", where=tmp_path)
 
 
 # What calls cost.

@@ -1,6 +1,7 @@
 """The FMU in FMPy: valid, and it moves as our own integration of the same equations."""
 
 import hashlib
+import io
 import shutil
 import subprocess
 import zipfile
@@ -10,6 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from modeler.api import compile_model, derive, export, generate, load
+from modeler.core.errors import BuildError
 from modeler.core.files import resource_dir
 from tests.repository import ROOT
 
@@ -29,7 +31,10 @@ class Plant:
         self.n = len(self.spec.joints)
         nominal = {p.name: p.nominal for p in self.spec.standard}
         self.beta = np.array(
-            [sum(t.value * nominal[t.parameter] for t in base.terms) for base in self.spec.base]
+            [
+                sum(t.value * (nominal[t.parameter] or 0.0) for t in base.terms)
+                for base in self.spec.base
+            ]
         )
         self.coulomb = {
             j.name: k for j in self.spec.joints for k, b in enumerate(self.spec.base)
@@ -62,7 +67,7 @@ class Plant:
 
 
 @pytest.fixture(
-    scope="module", params=["demo-arm", pytest.param("puma560", marks=pytest.mark.slow)]
+    scope="module", params=["demo-arm", "five-bar", pytest.param("puma560", marks=pytest.mark.slow)]
 )
 def unit(request, tmp_path_factory):
     """A robot as FMU, its equations, a state and torques over time."""
@@ -72,6 +77,9 @@ def unit(request, tmp_path_factory):
     plant = Plant(robot)
     rng = np.random.default_rng()
     state = np.concatenate([rng.uniform(-1, 1, plant.n), rng.uniform(-0.5, 0.5, plant.n)])
+    if (closure := plant.spec.closure) is not None:
+        home = np.array(closure.home)[list(closure.given)]
+        state[: plant.n] = home + 0.1 * state[: plant.n]
     times = np.arange(round(LENGTH / STEP) + 1) * STEP
     still = plant.compiled.gravity(state[None, : plant.n], plant.beta)[0]
     waves = rng.uniform(-9, 9, (plant.n, 1)) * np.sin(
@@ -124,10 +132,18 @@ def test_model_exchange_follows_the_equations(unit) -> None:
     assert np.abs(found - ours.y.T).max() < 1e-6 * np.abs(ours.y).max()
 
 
-def test_simulink_is_the_same_unit(unit) -> None:
-    place, plant, *_ = unit
-    found = export(load(plant.spec.robot), to="simulink")
-    assert found.data == place.read_bytes() and "Simulink" in found.notes[0]
+def test_simulink_is_the_same_unit_and_sources_do_alone(monkeypatch) -> None:
+    def nothing(sources) -> bytes:
+        raise BuildError("C compiler: none of cc, gcc, clang is found")
+
+    monkeypatch.setattr("modeler.api.code_exports.portable_library", nothing)
+    unit, same = (export(load("two-link"), to=to) for to in ("fmu", "simulink"))
+    assert unit.data == same.data and "Simulink" in same.notes[0]
+    assert any("sources only" in note and "C compiler: none" in note for note in unit.notes)
+    with zipfile.ZipFile(io.BytesIO(unit.data)) as archive:
+        names = archive.namelist()
+    assert not any(name.startswith("binaries/") for name in names)
+    assert "sources/buildDescription.xml" in names
 
 
 def opened(place, folder, told: list[str]):
@@ -151,15 +167,17 @@ def opened(place, folder, told: list[str]):
 @pytest.mark.parametrize(
     ("name", "value", "words"),
     [
-        ("tau1", np.nan, "is not finite"),
-        ("width1", 0.0, "widths of the Coulomb friction must be positive"),
+        ("tau", np.nan, "is not finite"),
+        ("width", 0.0, "widths of the Coulomb friction must be positive"),
         ("step", -1e-3, "step must be positive"),
-        ("qdd1", 1.0, "time and derivatives cannot be set"),
+        ("qdd", 1.0, "time and derivatives cannot be set"),
     ],
 )
 def test_values_that_make_no_sense_are_refused(unit, tmp_path, name, value, words) -> None:
     told: list[str] = []
     slave, places = opened(unit[0], tmp_path, told)
+    joint = unit[1].spec.joints[0].name
+    name = name if name == "step" else f"{name}{joint}"
     if name not in places:
         pytest.skip("no Coulomb friction")
     with pytest.raises(fmpy.fmi1.FMICallException, match="status 3"):
@@ -171,24 +189,25 @@ def test_values_that_make_no_sense_are_refused(unit, tmp_path, name, value, word
 def test_a_step_without_accelerations_is_discarded(unit, tmp_path) -> None:
     told: list[str] = []
     slave, places = opened(unit[0], tmp_path, told)
+    first = f"q{unit[1].spec.joints[0].name}"
     slave.enterInitializationMode()
     slave.exitInitializationMode()
     slave.doStep(0.0, 0.01)
     with pytest.raises(fmpy.fmi1.FMICallException):
-        slave.setFloat64([places["q1"]], [1.0])
+        slave.setFloat64([places[first]], [1.0])
     assert "before the initialization ends" in told[-1]
     kept = slave.getFMUState()
-    before = slave.getFloat64([places["q1"]])
+    before = slave.getFloat64([places[first]])
     for base in unit[1].spec.base:
         slave.setFloat64([places[base.name]], [0.0])  # no masses
     with pytest.raises(fmpy.fmi1.FMICallException, match="status 2"):
         slave.doStep(0.01, 0.01)
     assert "no accelerations at time 0.01: status 2" in told[-1]
-    assert slave.getFloat64([places["q1"]]) == before
+    assert slave.getFloat64([places[first]]) == before
     slave.setFMUState(kept)
     slave.freeFMUState(kept)
     slave.doStep(0.01, 0.01)
-    assert slave.getFloat64([places["q1"]]) != before
+    assert slave.getFloat64([places[first]]) != before
     slave.freeInstance()
 
 

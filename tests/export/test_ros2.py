@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from modeler.api import export, load
+from modeler.cli import main
 from modeler.core.errors import ModelerError
 from modeler.robot import robot_from_text
 
@@ -21,7 +22,17 @@ static Vector accelerations(const Vector &q, const Vector &qd, const Vector &tau
     double M[joints * joints];
     Vector still{}, x{};
     PREFIX_inverse_dynamics(q.data(), qd.data(), still.data(), beta_at_export.data(), x.data());
-    PREFIX_inertia_matrix(q.data(), beta_at_export.data(), M);
+    Vector rest{};
+    PREFIX_inverse_dynamics(q.data(), still.data(), still.data(), beta_at_export.data(),
+                            rest.data());
+    for (std::size_t j = 0; j < joints; j++) {
+        Vector unit{}, column{};
+        unit[j] = 1.0;
+        PREFIX_inverse_dynamics(q.data(), still.data(), unit.data(), beta_at_export.data(),
+                                column.data());
+        for (std::size_t i = 0; i < joints; i++)
+            M[i * joints + j] = column[i] - rest[i];
+    }
     for (std::size_t i = 0; i < joints; i++)
         x[i] = tau[i] - x[i];
     for (std::size_t k = 0; k < joints; k++)
@@ -160,7 +171,7 @@ namespace trajectory_msgs::msg { struct JointTrajectoryPoint {
 """Headers of ROS 2 Jazzy, as far as the controller uses them."""
 
 HOT = '[effects]\ntemperature_friction = "all"'
-WARNED = ("-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror")
+WARNED = ("-Wall", "-Wextra", "-Wconversion", "-Werror")
 
 
 @pytest.fixture(scope="module", params=["demo-arm", "five-bar"])
@@ -216,6 +227,18 @@ def test_the_files_name_one_another(package) -> None:
     cmake = found.files["CMakeLists.txt"].decode()
     assert all(f"src/{p.name}\n" in cmake for p in (folder / "src").glob("*.c"))
     assert f"type: {name}/Controller" in found.files["config/controller.yaml"].decode()
+
+
+def test_a_package_is_written_again(tmp_path, capsys) -> None:
+    words = ["export", "two-link", "--to", "ros2", "--out", str(tmp_path / "p")]
+    assert main(words) == main(words) == 0
+    (tmp_path / "p" / "README.md").write_text("mine")
+    assert main(words) == 1
+    assert "README.md: there is such a file with another content" in capsys.readouterr().err
+    assert main([*words, "--force"]) == 0
+    assert (tmp_path / "p" / "README.md").read_text() != "mine"
+    assert main([*words[:2], "--to", "urdf", "--out", str(tmp_path / "p")]) == 1
+    assert "p: is a folder; expected the name of a file" in capsys.readouterr().err
 
 
 def test_what_is_refused(tmp_path) -> None:

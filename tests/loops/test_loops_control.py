@@ -8,14 +8,14 @@ import pytest
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.core.errors import LoopError
+from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.loops.test_loops_outside import physical
 from tests.modules import loaded, module
 from tests.turns import IN_TURN
 
-FAST = ("five-bar", "3rrr")
 ROBOTS = [
-    *FAST,
-    *(pytest.param(n, marks=IN_TURN) for n in ("delta", "orthoglide-2003", "stewart")),
+    "five-bar",
+    *(pytest.param(n, marks=IN_TURN) for n in ("3rrr", "delta", "orthoglide-2003", "stewart")),
     *(pytest.param(n, marks=pytest.mark.slow) for n in ("orthoglide-2012", "evra")),
 ]
 H = 1e-5  # s, of central differences
@@ -142,3 +142,15 @@ def test_what_cannot_be_done_is_told():
     assert x.robot.statuses("forward_dynamics", **given, beta=x.beta)[0] == 0
     assert x.robot.statuses("forward_dynamics", **given, beta=0 * x.beta)[0] == 2
     assert x.robot.statuses("forward_dynamics", **given, beta=-x.beta)[0] == 2
+
+
+def test_fitted_functions_have_the_values():
+    """Of a robot with loops: the same numbers as with the values as beta."""
+    made = robot_module("five-bar")
+    fitted = fitted_of(made.emitted.spec)
+    robot = loaded(emit(made.model, made.base, fitted, control=Control()))
+    x = Motion("five-bar", seed=34)
+    x.beta = np.array([parameter.value for parameter in fitted.parameters])
+    given = {"q": x.q, "qd": x.qd}
+    for role in ("coriolis_matrix", "coriolis_transpose", "momentum"):
+        close(robot.evaluate(f"fitted_{role}", **given), x.call(role), 1e-12)
