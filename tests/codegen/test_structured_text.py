@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
+from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.codegen.structured_text import identifier
 from modeler.core.errors import EmitError
@@ -19,7 +20,9 @@ ROLES = ("inverse_dynamics", "inertia_matrix", "gravity", "coriolis", "friction"
 def made_of(name: str, fitted: bool):
     made = robot_module(name)
     values = fitted_of(made.emitted.spec, seed=int(np.random.default_rng().integers(1000)))
-    return emit(made.model, made.base, values if fitted else None, structured_text=True)
+    return emit(
+        made.model, made.base, values if fitted else None, control=Control(structured_text=True)
+    )
 
 
 def called(program: Program, functions: Functions, role: str, given, **widths) -> np.ndarray:
@@ -109,9 +112,9 @@ def test_the_reader_refuses_what_is_not_of_the_standard() -> None:
 def test_loops_and_single_precision_have_none() -> None:
     loop, arm = module("five-bar"), module("wrist")
     with pytest.raises(EmitError, match=r"five-bar has loops.*leave --structured-text out"):
-        emit(loop.model, loop.base, structured_text=True)
+        emit(loop.model, loop.base, control=Control(structured_text=True))
     with pytest.raises(EmitError, match=r"LREAL.*leave out one of the two"):
-        emit(arm.model, arm.base, precision="single", structured_text=True)
+        emit(arm.model, arm.base, precision="single", control=Control(structured_text=True))
 
 
 def test_the_command_writes_it_and_takes_it_away(capsys, tmp_path) -> None:
