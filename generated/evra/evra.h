@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "05624c6391124d8c"
-#define EVRA_SIGNATURE_1 0x05624c63u
-#define EVRA_SIGNATURE_2 0x91124d8cu
+#define EVRA_SIGNATURE "de674030e0c9a669"
+#define EVRA_SIGNATURE_1 0xde674030u
+#define EVRA_SIGNATURE_2 0xe0c9a669u
 
 /* Of the calls: raised when one takes other arguments; evra_generator.h says which version of
  * modeler wrote the folder. */
@@ -633,8 +633,15 @@ struct evra_state {
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
  * the posture is the last closed one, from where the next call may go on.
  */
+#if defined(__cplusplus) && defined(__GNUC__) /* a structure and a function of one name */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
+#endif
 int evra_state(const double *q, const double *qd, const double *previous,
     struct evra_state *state);
+#if defined(__cplusplus) && defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
 int evra_base_regressor_at(struct evra_state *state, const double qdd[EVRA_JOINTS],
                            double phi[8 * 90]);
 int evra_inverse_dynamics_at(struct evra_state *state, const double qdd[EVRA_JOINTS],

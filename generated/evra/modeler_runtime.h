@@ -1,4 +1,4 @@
-/* What emitted robot functions are written with. C99, no allocation, no global state, re-entrant. */
+/* What emitted robot functions are written with. C99, no allocation, no global state. */
 #ifndef MODELER_RUNTIME_H
 #define MODELER_RUNTIME_H
 

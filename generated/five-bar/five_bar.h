@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "d4201d7ca7052a96"
-#define FIVE_BAR_SIGNATURE_1 0xd4201d7cu
-#define FIVE_BAR_SIGNATURE_2 0xa7052a96u
+#define FIVE_BAR_SIGNATURE "798e59e8a95323fa"
+#define FIVE_BAR_SIGNATURE_1 0x798e59e8u
+#define FIVE_BAR_SIGNATURE_2 0xa95323fau
 
 /* Of the calls: raised when one takes other arguments; five_bar_generator.h says which version of
  * modeler wrote the folder. */
@@ -284,8 +284,15 @@ struct five_bar_state {
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
  * the posture is the last closed one, from where the next call may go on.
  */
+#if defined(__cplusplus) && defined(__GNUC__) /* a structure and a function of one name */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
+#endif
 int five_bar_state(const double *q, const double *qd, const double *previous,
     struct five_bar_state *state);
+#if defined(__cplusplus) && defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
 int five_bar_base_regressor_at(struct five_bar_state *state, const double qdd[FIVE_BAR_JOINTS],
                                double phi[2 * 11]);
 int five_bar_inverse_dynamics_at(struct five_bar_state *state, const double qdd[FIVE_BAR_JOINTS],

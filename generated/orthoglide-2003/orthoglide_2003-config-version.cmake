@@ -1,6 +1,6 @@
 # find_package(orthoglide_2003) takes any, find_package(orthoglide_2003 2) any of this C interface,
-# find_package(orthoglide_2003 2.35523.57386.22254) only what has the signature 8ac3e02a56ee1581.
-set(PACKAGE_VERSION 2.35523.57386.22254)
+# find_package(orthoglide_2003 2.47535.62898.58132) only what has the signature b9aff5b2e314211a.
+set(PACKAGE_VERSION 2.47535.62898.58132)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "8ac3e02a56ee1581"
-#define ORTHOGLIDE_2003_SIGNATURE_1 0x8ac3e02au
-#define ORTHOGLIDE_2003_SIGNATURE_2 0x56ee1581u
+#define ORTHOGLIDE_2003_SIGNATURE "b9aff5b2e314211a"
+#define ORTHOGLIDE_2003_SIGNATURE_1 0xb9aff5b2u
+#define ORTHOGLIDE_2003_SIGNATURE_2 0xe314211au
 
 /* Of the calls: raised when one takes other arguments; orthoglide_2003_generator.h says which version of
  * modeler wrote the folder. */
@@ -565,8 +565,15 @@ struct orthoglide_2003_state {
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
  * the posture is the last closed one, from where the next call may go on.
  */
+#if defined(__cplusplus) && defined(__GNUC__) /* a structure and a function of one name */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
+#endif
 int orthoglide_2003_state(const double *q, const double *qd, const double *previous,
     struct orthoglide_2003_state *state);
+#if defined(__cplusplus) && defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
 int orthoglide_2003_base_regressor_at(struct orthoglide_2003_state *state,
                                       const double qdd[ORTHOGLIDE_2003_JOINTS], double phi[3 * 43]);
 int orthoglide_2003_inverse_dynamics_at(struct orthoglide_2003_state *state,

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "fc832c81a605c9cf"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0xfc832c81u
-#define ORTHOGLIDE_2012_SIGNATURE_2 0xa605c9cfu
+#define ORTHOGLIDE_2012_SIGNATURE "48cc71c9852bd869"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0x48cc71c9u
+#define ORTHOGLIDE_2012_SIGNATURE_2 0x852bd869u
 
 /* Of the calls: raised when one takes other arguments; orthoglide_2012_generator.h says which version of
  * modeler wrote the folder. */
@@ -626,8 +626,15 @@ struct orthoglide_2012_state {
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
  * the posture is the last closed one, from where the next call may go on.
  */
+#if defined(__cplusplus) && defined(__GNUC__) /* a structure and a function of one name */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
+#endif
 int orthoglide_2012_state(const double *q, const double *qd, const double *previous,
     struct orthoglide_2012_state *state);
+#if defined(__cplusplus) && defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
 int orthoglide_2012_base_regressor_at(struct orthoglide_2012_state *state,
                                       const double qdd[ORTHOGLIDE_2012_JOINTS], double phi[3 * 53]);
 int orthoglide_2012_inverse_dynamics_at(struct orthoglide_2012_state *state,

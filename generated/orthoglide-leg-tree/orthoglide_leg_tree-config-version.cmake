@@ -1,6 +1,6 @@
 # find_package(orthoglide_leg_tree) takes any, find_package(orthoglide_leg_tree 2) any of this C interface,
-# find_package(orthoglide_leg_tree 2.39084.24592.36143) only what has the signature 98ac60108d2fcb12.
-set(PACKAGE_VERSION 2.39084.24592.36143)
+# find_package(orthoglide_leg_tree 2.42765.60013.17822) only what has the signature a70dea6d459e919f.
+set(PACKAGE_VERSION 2.42765.60013.17822)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

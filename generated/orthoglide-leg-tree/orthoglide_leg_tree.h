@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_leg_tree_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE "98ac60108d2fcb12"
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x98ac6010u
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x8d2fcb12u
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE "a70dea6d459e919f"
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0xa70dea6du
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x459e919fu
 
 /* Of the calls: raised when one takes other arguments; orthoglide_leg_tree_generator.h says which version of
  * modeler wrote the folder. */

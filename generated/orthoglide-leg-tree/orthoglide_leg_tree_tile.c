@@ -54,7 +54,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "98ac60108d2fcb12";
+    return "a70dea6d459e919f";
 }
 
 #else /* for one instruction set */

@@ -84,7 +84,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "72e57b4ba40e8d2c";
+    return "013f1eb6dfb8eff5";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

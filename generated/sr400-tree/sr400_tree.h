@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What sr400_tree_signature() of the library that belongs to this header returns. */
-#define SR400_TREE_SIGNATURE "72e57b4ba40e8d2c"
-#define SR400_TREE_SIGNATURE_1 0x72e57b4bu
-#define SR400_TREE_SIGNATURE_2 0xa40e8d2cu
+#define SR400_TREE_SIGNATURE "013f1eb6dfb8eff5"
+#define SR400_TREE_SIGNATURE_1 0x013f1eb6u
+#define SR400_TREE_SIGNATURE_2 0xdfb8eff5u
 
 /* Of the calls: raised when one takes other arguments; sr400_tree_generator.h says which version of
  * modeler wrote the folder. */

@@ -70,7 +70,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "72e57b4ba40e8d2c";
+    return "013f1eb6dfb8eff5";
 }
 
 #else /* for one instruction set */

@@ -81,7 +81,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "f49d7ddcaf81a1f5";
+    return "039fa5b7de3b845b";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What sr400_signature() of the library that belongs to this header returns. */
-#define SR400_SIGNATURE "f49d7ddcaf81a1f5"
-#define SR400_SIGNATURE_1 0xf49d7ddcu
-#define SR400_SIGNATURE_2 0xaf81a1f5u
+#define SR400_SIGNATURE "039fa5b7de3b845b"
+#define SR400_SIGNATURE_1 0x039fa5b7u
+#define SR400_SIGNATURE_2 0xde3b845bu
 
 /* Of the calls: raised when one takes other arguments; sr400_generator.h says which version of
  * modeler wrote the folder. */

@@ -67,7 +67,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "f49d7ddcaf81a1f5";
+    return "039fa5b7de3b845b";
 }
 
 #else /* for one instruction set */

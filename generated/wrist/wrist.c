@@ -57,7 +57,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "9557c2f4e61663a1";
+    return "20db183e61b2262f";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

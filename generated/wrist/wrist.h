@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What wrist_signature() of the library that belongs to this header returns. */
-#define WRIST_SIGNATURE "9557c2f4e61663a1"
-#define WRIST_SIGNATURE_1 0x9557c2f4u
-#define WRIST_SIGNATURE_2 0xe61663a1u
+#define WRIST_SIGNATURE "20db183e61b2262f"
+#define WRIST_SIGNATURE_1 0x20db183eu
+#define WRIST_SIGNATURE_2 0x61b2262fu
 
 /* Of the calls: raised when one takes other arguments; wrist_generator.h says which version of
  * modeler wrote the folder. */

@@ -48,7 +48,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "9557c2f4e61663a1";
+    return "20db183e61b2262f";
 }
 
 #else /* for one instruction set */

@@ -17,7 +17,7 @@ from modeler.codegen import (
     load as load,
 )
 from modeler.core.builtin import builtin_names
-from modeler.core.errors import DataError, Machine, ManifestError, Precision
+from modeler.core.errors import ALSO, Also, DataError, Machine, ManifestError, Precision
 from modeler.core.estimators import ABOUT
 from modeler.core.files import write_atomically
 from modeler.core.manifest import Emitted, ModuleSpec
@@ -88,11 +88,9 @@ def generate(
     force: bool = False,
     precision: Precision = "double",
     cuda: bool = False,
-    structured_text: bool = False,
-    a2l: bool = False,
     frames: Sequence[str] = (),
     only: Sequence[str] = (),
-    vectors: bool = False,
+    also: Sequence[Also] = (),
     measure: Machine | None = None,
 ) -> Emitted:
     """The C module of a robot; of a model, with functions that have its fitted values.
@@ -106,12 +104,11 @@ def generate(
         force: write also over files that no earlier run wrote, or that were edited since.
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
-        structured_text: add function blocks in Structured Text, of a robot without loops.
-        a2l: add a description of the controller's parameter set for calibration tools.
         frames: rows, or links of [frames], whose pose, Jacobian and twist a controller reads
             besides those of the tool.
         only: names of the functions that are wanted, without the robot's; empty: all.
-        vectors: add `vectors.csv`, 50 states by which a port qualifies itself.
+        also: `vectors`, 50 states by which a port qualifies itself; `structured_text`, function
+            blocks of a robot without loops; `a2l`, the parameter set for calibration tools.
         measure: add what calls cost on this machine or a Cortex-M: `cost.json`.
 
     Raises:
@@ -125,14 +122,13 @@ def generate(
     else:
         derivation, fitted = emitted_anew(source)[0], model_file.fitted_spec(source)
     control = None
-    if frames or only or vectors or measure:
+    if frames or only or also or measure:
         from modeler.codegen import Control  # who fits need not wait for it
 
-        control = Control(tuple(frames), tuple(only), vectors)
+        control = Control(tuple(frames), tuple(only), **{name: name in also for name in ALSO})
     return generate_robot(
-        derivation, folder, force, fitted, precision, cuda, control,
-        structured_text=structured_text, a2l=a2l, measure=measure,
-    )  # fmt: skip
+        derivation, folder, force, fitted, precision, cuda, control, measure=measure
+    )
 
 
 def compile_model(emitted: Emitted) -> CompiledModel:

@@ -17,7 +17,7 @@ from modeler.cli.lists import robot_of, robot_with_effects
 from modeler.cli.old_words import OPEN_CUT
 from modeler.cli.options import FEW_JOINTS, Form
 from modeler.codegen import Derivation, derive, generate
-from modeler.core.errors import DataError, ModelerError, RobotError
+from modeler.core.errors import ALSO, Also, DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.core.formula import latex_text
 from modeler.core.manifest import FunctionSpec
@@ -332,8 +332,8 @@ def _facts(table: formulas.coefficients.CoefficientTable) -> list[str]:
 
 def run_generate(args: argparse.Namespace) -> Json:
     """Writes the folder and says what is in it."""
-    wanted = ("precision", "cuda", "structured_text", "a2l", "measure")
-    kinds = {name: vars(args)[name] for name in wanted}
+    kinds = {name: vars(args)[name] for name in ("precision", "cuda", "measure")}
+    also: dict[Also, bool] = {name: vars(args)[name] for name in ALSO}
     only = tuple(name.strip() for name in args.only.split(",")) if args.only else ()
     model = _model(args)
     if model is not None:
@@ -341,8 +341,8 @@ def run_generate(args: argparse.Namespace) -> Json:
 
         with working(f"deriving {model.spec.robot}"):
             emitted = generate_of_model(
-                model, args.out, args.force, frames=args.frame, only=only, vectors=args.vectors,
-                **kinds,
+                model, args.out, args.force, frames=args.frame, only=only,
+                also=[name for name in ALSO if also[name]], **kinds,
             )  # fmt: skip
         for line in model.warning:
             print_error(line)
@@ -351,7 +351,7 @@ def run_generate(args: argparse.Namespace) -> Json:
 
         robot = robot_of(args)
         with working(f"deriving {robot.name}"):
-            control = Control(tuple(args.frame), only, args.vectors)
+            control = Control(tuple(args.frame), only, **also)
             emitted = generate(derive(robot), args.out, args.force, control=control, **kinds)
     spec, fitted = emitted.spec, emitted.spec.fitted
     single = ", single precision" if spec.precision == "single" else ""

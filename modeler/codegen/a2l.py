@@ -12,7 +12,6 @@ from modeler.codegen.fitted import widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.package import render
 from modeler.codegen.parameter_set import SMOOTH
-from modeler.core.errors import EmitError
 from modeler.core.manifest import ModuleSpec
 from modeler.derivation import SymbolicModel
 
@@ -31,12 +30,7 @@ def a2l_files(
         spec: of the module, with the controller's unit.
         values: what all templates of the module are given.
         functions: of the module, those of the controller's unit too.
-
-    Raises:
-        EmitError: without the controller's unit there is no set.
     """
-    if spec.control is None:
-        raise EmitError(f"{spec.robot}: A2L is of the controller's unit; write a folder with it")
     size, start = _SIZE[spec.precision], 2 * _WORD
     prefix = spec.prefix
     signed = {each.name for each in spec.standard if not each.nonnegative}

@@ -31,11 +31,15 @@ class Control:
         frames: names of further frames whose Jacobians are wanted: rows, links of [frames].
         only: roles of the functions that are wanted, and `observation`; empty: all.
         vectors: add the table of `vectors.vector_lines` and the program that reads it.
+        structured_text: add the function blocks of `codegen.structured_text`.
+        a2l: add the description of the parameter set, of `codegen.a2l`.
     """
 
     frames: tuple[str, ...] = ()
     only: tuple[str, ...] = ()
     vectors: bool = False
+    structured_text: bool = False
+    a2l: bool = False
 
 
 OBSERVATION = "observation"

@@ -196,8 +196,6 @@ def emit(
     precision: Precision = "double",
     cuda: bool = False,
     control: Control | None = None,
-    structured_text: bool = False,
-    a2l: bool = False,
 ) -> Emitted:
     """The module of a robot: C source and header, runtime, build files, manifest, tables.
 
@@ -207,9 +205,7 @@ def emit(
         fitted: their values, of a model; the unit with them is added.
         precision: of the numbers: all `double`, or all `float`.
         cuda: add the kernels of `codegen.cuda`, of a robot without loops.
-        control: add the controller's unit.
-        structured_text: add the function blocks of `codegen.structured_text`.
-        a2l: add the description of the controller's parameter set, of `codegen.a2l`.
+        control: add the controller's unit, and what else it says.
 
     Raises:
         EmitError: something has no C99 form, or a value is missing or none, or too large for the
@@ -228,7 +224,7 @@ def emit(
         every = [function for part in parts for function in part]
         units, kept = None, frozenset(f.role for f in every)
         if control is not None and control.only:
-            if cuda or a2l:
+            if cuda or control.a2l:
                 raise EmitError(
                     f"--{'cuda' if cuda else 'a2l'}: not with --only; generate two folders"
                 )
@@ -250,9 +246,9 @@ def emit(
             spec, unit = _control_unit(model, spec, more, values)
             code |= unit
         values |= {"spec": spec}
-        if structured_text:
+        if control is not None and control.structured_text:
             kernels |= structured_texts(model, spec, values, twins)
-        if a2l:
+        if control is not None and control.a2l:
             kernels |= a2l_files(model, spec, values, [*main, *twins, *more])
 
     def others() -> dict[str, str]:

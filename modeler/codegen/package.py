@@ -232,10 +232,10 @@ def origin_of() -> OriginSpec:
 
 
 def package_version(signature: str) -> str:
-    """`1.4660.22136.43981`: the C interface, then 48 bits of the signature, 16 in each number.
+    """`2.4660.22136.43981`: the C interface, then 48 bits of the signature, 16 in each number.
 
-    Build systems compare numbers, not digests: so `find_package(arm 1.4660.22136.43981)` and
-    `pkg-config 'arm = 1.4660.22136.43981'` find this code and no other. There is no order among
+    Build systems compare numbers, not digests: so `find_package(arm 2.4660.22136.43981)` and
+    `pkg-config 'arm = 2.4660.22136.43981'` find this code and no other. There is no order among
     the last three.
 
     Args:

@@ -96,8 +96,6 @@ def generate(
     precision: Precision = "double",
     cuda: bool = False,
     control: "Control | None" = None,
-    structured_text: bool = False,
-    a2l: bool = False,
     measure: Machine | None = None,
 ) -> Emitted:
     """The C module; written to `folder` if one is given, with the controller's unit.
@@ -110,8 +108,6 @@ def generate(
         precision: `double`, or `single`: then all numbers of the C are `float`.
         cuda: add the base regressor in CUDA, of a robot without loops.
         control: what of the controller's unit is emitted; where a folder is given, all.
-        structured_text: add function blocks in Structured Text, of a robot without loops.
-        a2l: add a description of the controller's parameter set for calibration tools.
         measure: add what calls cost on this machine or a Cortex-M, with the controller's unit.
 
     Raises:
@@ -125,9 +121,7 @@ def generate(
 
     if control is None and folder is not None:
         control = Control()
-    emitted = emit(
-        derivation.model, derivation.base, fitted, precision, cuda, control, structured_text, a2l
-    )
+    emitted = emit(derivation.model, derivation.base, fitted, precision, cuda, control)
     if measure is not None:
         from modeler.codegen.cost import with_cost
 

@@ -1,7 +1,7 @@
 """The errors a user may see, one line each; the choices that commands name; windows of a log."""
 
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
 LONGEST = 1000
 """Characters of a line that somebody still reads."""
@@ -88,6 +88,11 @@ ModelKind = Literal["torque", "energy"]
 
 Precision = Literal["double", "single"]
 """Of the emitted C: its numbers are `double`, or `float`."""
+
+Also = Literal["vectors", "structured_text", "a2l"]
+"""What `generate` adds to a folder if it is asked to."""
+
+ALSO: tuple[Also, ...] = get_args(Also)
 
 Machine = Literal["cortex-m7", "cortex-m4", "host"]
 """What the cost of the emitted C is measured for; host: this machine."""

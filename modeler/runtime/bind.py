@@ -244,9 +244,8 @@ def _declarations(spec: ModuleSpec) -> str:
     ]
     if spec.has("_batch"):
         states = ", ".join(["const double *"] * (4 if spec.signals else 3))
-        lines.append(
-            f"void {spec.prefix}_observation(size_t, {states}, double *{', int *' if loops else ''});"
-        )
+        told = ", int *" if loops else ""
+        lines.append(f"void {spec.prefix}_observation(size_t, {states}, double *{told});")
     for function in spec.every_function:
         inputs = ", ".join("const double *" for _ in function.inputs)
         returns = "int" if function.status else "void"

@@ -8,7 +8,6 @@ import pytest
 from modeler.cli import main
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
-from modeler.core.errors import EmitError
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.modules import compiler
 
@@ -21,7 +20,7 @@ _BLOCK = re.compile(
 def described(name: str, precision="double", fitted: bool = False):
     made = robot_module(name)
     values = fitted_of(made.emitted.spec) if fitted else None
-    return emit(made.model, made.base, values, precision, control=Control(), a2l=True)
+    return emit(made.model, made.base, values, precision, control=Control(a2l=True))
 
 
 @pytest.mark.parametrize(
@@ -73,14 +72,6 @@ def test_a_reader_of_the_standard_finds_names_units_and_limits(tmp_path, capfd) 
     (tmp_path / "broken.a2l").write_text(broken)
     pya2l.import_a2l(str(tmp_path / "broken.a2l"), in_memory=True).close()
     assert "[error]" in "".join(capfd.readouterr())  # it does tell
-
-
-def test_without_the_controllers_unit_there_is_no_set() -> None:
-    made = robot_module("two-link")
-    with pytest.raises(
-        EmitError, match="two-link: A2L is of the controller's unit; write a folder"
-    ):
-        emit(made.model, made.base, a2l=True)
 
 
 def test_the_command_writes_it_and_takes_it_away(tmp_path) -> None:

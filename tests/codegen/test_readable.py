@@ -46,7 +46,9 @@ def test_names_in_a_function_are_unique_however_they_are_written() -> None:
                 assert len(found) == len(set(found)), file
 
 
-@pytest.mark.parametrize("robot", ["ur10e", "scara", "five-bar"])
+@pytest.mark.parametrize(
+    "robot", [pytest.param("ur10e", marks=pytest.mark.slow), "scara", "five-bar"]
+)
 def test_object_code_is_that_of_the_unnamed_text(robot, tmp_path, monkeypatch) -> None:
     """Names and comments are no part of it: gcc makes the same bytes of numbered temporaries."""
     made = module(robot)

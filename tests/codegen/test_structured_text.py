@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
+from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.codegen.structured_text import identifier
 from modeler.core.errors import EmitError
@@ -19,7 +20,9 @@ ROLES = ("inverse_dynamics", "inertia_matrix", "gravity", "coriolis", "friction"
 def made_of(name: str, fitted: bool):
     made = robot_module(name)
     values = fitted_of(made.emitted.spec, seed=int(np.random.default_rng().integers(1000)))
-    return emit(made.model, made.base, values if fitted else None, structured_text=True)
+    return emit(
+        made.model, made.base, values if fitted else None, control=Control(structured_text=True)
+    )
 
 
 def called(program: Program, functions: Functions, role: str, given, **widths) -> np.ndarray:
@@ -83,15 +86,16 @@ def test_nothing_is_kept_between_calls_and_each_function_is_declared_once() -> N
     assert max(map(len, text.splitlines())) <= 100 and text.isascii()
 
 
-def test_another_parser_of_the_standard_reads_it() -> None:
+@pytest.mark.parametrize(
+    ("name", "fitted"), [("two-link", True), pytest.param("slow-arm", True, marks=pytest.mark.slow)]
+)
+def test_another_parser_of_the_standard_reads_it(name: str, fitted: bool) -> None:
     blark = pytest.importorskip("blark.parse", reason="blark reads Structured Text: pip install it")
-    for name, fitted in (("slow-arm", True), ("scara", False)):
-        emitted = made_of(name, fitted)
-        read = blark.parse_source_code(emitted.files[f"{emitted.spec.prefix}.st"])
-        assert read.exception is None and read.tree is not None
-    with pytest.raises(Exception, match="No terminal"):
-        read = blark.parse_source_code("FUNCTION_BLOCK a VAR x : ; END_VAR END_FUNCTION_BLOCK")
-        raise read.exception
+    emitted = made_of(name, fitted)
+    read = blark.parse_source_code(emitted.files[f"{emitted.spec.prefix}.st"])
+    assert read.exception is None and read.tree is not None
+    wrong = blark.parse_source_code("FUNCTION_BLOCK a VAR x : ; END_VAR END_FUNCTION_BLOCK")
+    assert "No terminal" in str(wrong.exception)
 
 
 def test_the_reader_refuses_what_is_not_of_the_standard() -> None:
@@ -108,9 +112,9 @@ def test_the_reader_refuses_what_is_not_of_the_standard() -> None:
 def test_loops_and_single_precision_have_none() -> None:
     loop, arm = module("five-bar"), module("wrist")
     with pytest.raises(EmitError, match=r"five-bar has loops.*leave --structured-text out"):
-        emit(loop.model, loop.base, structured_text=True)
+        emit(loop.model, loop.base, control=Control(structured_text=True))
     with pytest.raises(EmitError, match=r"LREAL.*leave out one of the two"):
-        emit(arm.model, arm.base, precision="single", structured_text=True)
+        emit(arm.model, arm.base, precision="single", control=Control(structured_text=True))
 
 
 def test_the_command_writes_it_and_takes_it_away(capsys, tmp_path) -> None:

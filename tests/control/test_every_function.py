@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -42,6 +43,8 @@ class State(NamedTuple):
 def derivation(name: str):
     """Of a built-in robot, one beside the tests, or one drawn: "chain 1", "tree 2"."""
     kind, _, seed = name.partition(" ")
+    if name == "dry":
+        return derive(robot_from_text(COULOMB, "dry.toml"))
     if kind in drawn_robots.DRAWN:
         return derive(robot_from_text(drawn_robots.drawn(kind, int(seed)), "drawn.toml"))
     if seed:
@@ -148,6 +151,12 @@ def named(folder: Folder) -> dict[str, str]:
     return {end: found[end] for end in ends}
 
 
+def widths(folder: Folder) -> np.ndarray:
+    """As many as the folder's friction turns over."""
+    sizes = [a.size for f in folder.roles.values() for a in f.inputs if a.name == "widths"]
+    return np.full(max(sizes, default=0), WIDTH)
+
+
 LEFT = ("base_regressor_nonzeros", "base_parameters", "energy_regressor", "advance")
 """Checked on their own, or none of a posture."""
 
@@ -171,7 +180,7 @@ def checked(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> dict[
         wanted = expected(o, folder, s)
         tau = o.torques(s.u, s.qd, s.qdd)[0]
         given = {**s._asdict(), "beta": beta, "tau": tau, "damping": [DAMPING],
-                 "start": home_of(folder), "widths": np.full(o.n, WIDTH)}  # fmt: skip
+                 "start": home_of(folder), "widths": widths(folder)}  # fmt: skip
         state = None
         if folder.has("state"):
             status, state = folder.state(s.q, s.qd)
@@ -194,3 +203,97 @@ def checked(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> dict[
 def refuse(worst: dict[str, float]) -> None:
     bad = {role: error for role, error in worst.items() if not error <= 1.0}
     assert not bad, bad
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Folders by robot and precision, each compiled once."""
+
+    @cache
+    def made(name: str, single: bool = False) -> Folder:
+        found = derivation(name)
+        frames = (found.robot.joints[0].name, *list(found.robot.frames)[:1])
+        path = tmp_path_factory.mktemp("c")
+        return Folder(found, path, single, control=Control(frames)).compiled()
+
+    return made
+
+
+def slowly(names, fast: tuple[str, ...]):
+    return [n if n in fast else pytest.param(n, marks=pytest.mark.slow) for n in names]
+
+
+FAST = ("two-link", "chain 0", "tree 1", "five-bar")
+
+
+@pytest.mark.parametrize("name", slowly((*CHAINS, *TREES, *LOOPS), FAST))
+def test_every_function_is_that_of_the_table(folder, name):
+    """Twins with values and functions at a state too; nothing that the folder has is left out."""
+    refuse(checked(folder(name), samples=2, seed=31))
+
+
+@pytest.mark.parametrize("name", slowly(("tx40", "tree 3", "orthoglide-2003", *FAST), FAST[2:]))
+def test_every_function_in_single_precision(folder, name):
+    refuse(checked(folder(name, single=True), samples=2, seed=32))
+
+
+@pytest.mark.parametrize("name", ["chain 0", "five-bar"])
+def test_the_oracle_knows_mechanics_two_ways(folder, name):
+    """Lagrange and Newton-Euler, the skewness of M' - 2C, the power of the torques."""
+    o = folder(name).oracle
+    for s in states(folder(name), 2, 33):
+        tau = o.torques(s.u, s.qd, s.qdd)[0]
+        np.testing.assert_allclose(o.inverse_dynamics(s.u, s.qd, s.qdd), tau, atol=1e-11)
+        C, rate = o.coriolis_matrix(s.u, s.qd), np.einsum("kij,k->ij", o.slopes(o.M, s.u), s.qd)
+        np.testing.assert_allclose(C + C.T, rate, atol=1e-12)
+
+
+# Bad input: a status and NaN, never a number.
+
+
+COULOMB = """
+name = "dry"
+gravity = [0, 0, -9.81]
+[mdh]
+columns = ["j", "d", "alpha", "theta"]
+rows = [["1", 0, 0, "q1"], ["2", 0.3, "pi/2", "q2"]]
+[effects]
+coulomb = "all"
+"""
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("name", ["two-link", "dry", "five-bar"])
+def test_what_is_not_finite_is_told(folder, name, bad):
+    """Wherever it stands: a status and NaN; without a status, no finite number that it enters."""
+    made = folder(name)
+    s = next(states(made, 1, 34))
+    good = everything(made, s)
+    state = made.state(s.q, s.qd)[1] if made.has("state") else None
+    for role, function in made.roles.items():
+        if "platform" in role:
+            continue
+        for argument in function.inputs:
+            value = np.array(good[argument.name], float)
+            for place in {0, value.size - 1}:
+                wrong = value.copy()
+                wrong.flat[place] = bad
+                given = good | {argument.name: wrong}
+                where = f"{role}({argument.name}[{place}] = {bad})"
+                status, out = made.call(role, **given)
+                if not function.status:
+                    entered = out != made.call(role, **good)[1]
+                    assert not np.isfinite(out[entered]).any(), where
+                    continue
+                assert status != 0 and np.isnan(out).all(), where
+                if made.has(f"{role}_at") and argument.name not in ("q", "qd"):
+                    status, out = made.call(role, state, **given)
+                    assert status != 0 and np.isnan(out).all(), where
+
+
+def everything(made: Folder, s: State) -> dict[str, np.ndarray]:
+    """All inputs of all functions at a good state."""
+    o = made.oracle
+    return {**s._asdict(), "beta": made.beta, "tau": o.torques(s.u, s.qd, s.qdd)[0],
+            "damping": np.array([DAMPING]), "start": home_of(made), "widths": widths(made),
+            "chi": np.array(list(made.chi.values()))}  # fmt: skip

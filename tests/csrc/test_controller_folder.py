@@ -213,7 +213,9 @@ def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
     """And a number that is wrong in the twelfth digit (of floats: the fifth) is told."""
     folder = written(tmp_path, name, precision=precision, vectors=True)
     lines = (folder / "vectors.csv").read_text().splitlines()
-    outputs = [k for k, line in enumerate(lines) if line.startswith(f"{emitted(name).spec.prefix}_")]
+    outputs = [
+        k for k, line in enumerate(lines) if line.startswith(f"{emitted(name).spec.prefix}_")
+    ]
     assert {int(line.split(",")[1]) for line in lines} == set(range(50))
     assert f"{len(outputs)} outputs, 0 fail" in made(folder, "vectors")
     digits = [len(re.sub(r"e.*|\D", "", x).lstrip("0")) for k in outputs[:40]

@@ -252,4 +252,4 @@ def test_the_check_of_the_folder_notices_a_library_that_is_not_its_own(folder):
 
 
 def test_a_version_is_made_of_the_signature():
-    assert package_version("12345678abcd0000") == "1.4660.22136.43981"
+    assert package_version("12345678abcd0000") == "2.4660.22136.43981"

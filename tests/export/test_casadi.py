@@ -1,5 +1,8 @@
 """CasADi's functions are those of the C, and their derivatives those of the motion."""
 
+import io
+import zipfile
+
 import casadi
 import numpy as np
 import pytest
@@ -121,7 +124,8 @@ def test_smooth_friction_turns_over_its_width(tmp_path) -> None:
     assert np.allclose(qdd, state["qdd"], rtol=1e-9, atol=1e-9)
 
 
-def test_a_model_has_its_values_in_place_of_beta(tmp_path) -> None:
+def test_a_model_has_its_values_in_place_of_beta(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("modeler.api.code_exports.portable_library", lambda _: b"no need of it")
     robot = load("two-link")
     model = identify(robot, simulate(robot, duration=4.0, rate=200.0, seed=3))
     found = export(model, tmp_path / "two.casadi")
@@ -132,6 +136,13 @@ def test_a_model_has_its_values_in_place_of_beta(tmp_path) -> None:
         assert "beta" not in function.name_in()
         if "widths" not in function.name_in():
             assert np.allclose(called(function, state), called(free[role], state), rtol=1e-12)
+    # The other doors have them as start values.
+    with zipfile.ZipFile(io.BytesIO(export(model, to="fmu").data)) as archive:
+        text = archive.read("modelDescription.xml").decode()
+    core = export(model, to="ros2").files["src/computed_torque.hpp"].decode()
+    for parameter in model.fit.parameters:
+        assert f' name="{parameter.name}"' in text and f'start="{parameter.value!r}"' in text
+        assert f"{parameter.value!r},  /* {parameter.name}," in core
 
 
 def test_what_is_not_there_is_said() -> None:

@@ -1,6 +1,7 @@
 """The FMU in FMPy: valid, and it moves as our own integration of the same equations."""
 
 import hashlib
+import io
 import shutil
 import subprocess
 import zipfile
@@ -10,6 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from modeler.api import compile_model, derive, export, generate, load
+from modeler.core.errors import BuildError
 from modeler.core.files import resource_dir
 from tests.repository import ROOT
 
@@ -130,10 +132,18 @@ def test_model_exchange_follows_the_equations(unit) -> None:
     assert np.abs(found - ours.y.T).max() < 1e-6 * np.abs(ours.y).max()
 
 
-def test_simulink_is_the_same_unit(unit) -> None:
-    place, plant, *_ = unit
-    found = export(load(plant.spec.robot), to="simulink")
-    assert found.data == place.read_bytes() and "Simulink" in found.notes[0]
+def test_simulink_is_the_same_unit_and_sources_do_alone(monkeypatch) -> None:
+    def nothing(sources) -> bytes:
+        raise BuildError("C compiler: none of cc, gcc, clang is found")
+
+    monkeypatch.setattr("modeler.api.code_exports.portable_library", nothing)
+    unit, same = (export(load("two-link"), to=to) for to in ("fmu", "simulink"))
+    assert unit.data == same.data and "Simulink" in same.notes[0]
+    assert any("sources only" in note and "C compiler: none" in note for note in unit.notes)
+    with zipfile.ZipFile(io.BytesIO(unit.data)) as archive:
+        names = archive.namelist()
+    assert not any(name.startswith("binaries/") for name in names)
+    assert "sources/buildDescription.xml" in names
 
 
 def opened(place, folder, told: list[str]):

@@ -1,26 +1,27 @@
-/* Statuses and evaluations of the closure equations of an emitted robot, LOOPS; lines of numbers in,
- * lines out. It includes the unit that closes the loops, whose closure it puts its own counters in. */
+/* Statuses and evaluations of the closure equations of an emitted robot; lines of numbers in, lines
+ * out. TREE is its header of what closes the loops, TABLE the loops, HOME and POSTURE of it. */
 #include <stdio.h>
-#include LOOPS
+#include TREE
 
 static long evaluations;
 
 static void counted_closure(const double *u, double *values)
 {
     evaluations++;
-    loops.closure(u, values);
+    TABLE.closure(u, values);
 }
 
 static void counted_residual(const double *u, double *f)
 {
     evaluations++;
-    loops.residual(u, f);
+    TABLE.residual(u, f);
 }
 
 int main(void)
 {
-    modeler_closure own = loops;
-    double q[sizeof(given) / sizeof(*given)], u[sizeof(home) / sizeof(*home)], work[WORK];
+    static struct POSTURE p;
+    modeler_closure own = TABLE;
+    double q[sizeof(p.qd) / sizeof(*p.qd)];
     int i = 0;
 
     own.closure = counted_closure;
@@ -30,7 +31,7 @@ int main(void)
             continue;
         i = 0;
         evaluations = 0;
-        const int status = modeler_close(&own, q, home, u, work);
+        const int status = POSED(&own, q, HOME, &p);
         printf("%d %ld\n", status, evaluations);
     }
     printf("%d\n", MODELER_EVALUATIONS);

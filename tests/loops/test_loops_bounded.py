@@ -27,8 +27,10 @@ def counted(emitted: Emitted, folder: Path, rows: np.ndarray) -> tuple[np.ndarra
     """(rows, 2): status and evaluations of closing at each q; and how many are allowed."""
     write_emitted(emitted, folder)
     prefix = emitted.spec.prefix
-    units = [folder / n for n in emitted.spec.sources if n.endswith(".c") and "_loops" not in n]
-    command = [compiler("gcc"), "-std=c99", "-O0", f'-DLOOPS="{prefix}_loops.c"', "-I", folder]
+    units = [folder / n for n in emitted.spec.sources if n.endswith(".c")]
+    names = {"TABLE": "loops", "HOME": "home", "POSTURE": "posture", "POSED": "posed"}
+    command = [compiler("gcc"), "-std=c99", "-O0", f'-DTREE="{prefix}_tree.h"', "-I", folder]
+    command += [f"-D{macro}={prefix}_{name}" for macro, name in names.items()]
     command += [HERE / "counted.c", *units, "-lm", "-o", folder / "counted"]
     subprocess.run(command, check=True)
     text = "\n".join(" ".join(repr(float(x)) for x in row) for row in rows)
@@ -130,10 +132,11 @@ def test_torques_that_overflow_are_told_too():
 
 
 def test_statuses_mean_the_same_wherever_they_are_written():
-    header = (resource_dir("csrc") / "include" / "modeler_closure.h").read_text()
+    header = (resource_dir("csrc") / "include" / "modeler_status.h").read_text()
     codes = dict(re.findall(r"MODELER_([A-Z_]+) = (\d)", header))
     assert codes == {
-        "CLOSED": "0", "OPEN": "1", "SINGULAR": "2", "NOT_FINITE": "3", "UNFINISHED": "4"
+        "DONE": "0", "CLOSED": "0", "OPEN": "1", "SINGULAR": "2", "NOT_FINITE": "3",
+        "UNFINISHED": "4", "FOREIGN": "5",
     }  # fmt: skip
     files = module("five-bar").emitted.files
     told = " ".join(files["five_bar.h"].replace("\n *", " ").split())

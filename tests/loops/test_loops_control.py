@@ -13,10 +13,9 @@ from tests.loops.test_loops_outside import physical
 from tests.modules import loaded, module
 from tests.turns import IN_TURN
 
-FAST = ("five-bar", "3rrr")
 ROBOTS = [
-    *FAST,
-    *(pytest.param(n, marks=IN_TURN) for n in ("delta", "orthoglide-2003", "stewart")),
+    "five-bar",
+    *(pytest.param(n, marks=IN_TURN) for n in ("3rrr", "delta", "orthoglide-2003", "stewart")),
     *(pytest.param(n, marks=pytest.mark.slow) for n in ("orthoglide-2012", "evra")),
 ]
 H = 1e-5  # s, of central differences

@@ -13,8 +13,10 @@ import pytest
 from modeler.codegen.package import write_emitted
 from modeler.core.manifest import ModuleSpec
 from tests.modules import STRICT, compiler, module
+from tests.turns import IN_TURN
 
-ROBOTS = ("five-bar", "delta", "orthoglide-2003", "stewart", "evra")
+MORE = ("delta", "orthoglide-2003", "stewart", "evra")
+ROBOTS = ["five-bar", *(pytest.param(name, marks=IN_TURN) for name in MORE)]
 
 COUNTING = """
 #include <stddef.h>
@@ -73,7 +75,7 @@ def robots(tmp_path_factory) -> Any:
         write_emitted(emitted, folder)
         (folder / "counting.c").write_text(COUNTING.format(prefix=prefix))
         wrap = [f"-Wl,--wrap={prefix}_tree_{part}" for part in ("closure", "residual")]
-        command = [compiler("gcc"), *STRICT, "-O1", *wrap, "-shared", "-fPIC", "-o", "robot.so"]
+        command = [compiler("gcc"), *STRICT, "-O0", *wrap, "-shared", "-fPIC", "-o", "robot.so"]
         subprocess.run(
             [*command, *(path.name for path in folder.glob("*.c")), "-lm"], cwd=folder, check=True
         )
@@ -135,7 +137,7 @@ def test_one_cycle_of_a_controller_at_1_khz_evaluates_the_loops_at_most_4_times(
             np.testing.assert_allclose(got, plain[1], atol=1e-9 * (1 + np.abs(plain[1]).max()))
 
 
-@pytest.mark.parametrize("name", ["five-bar", "delta", "evra"])
+@pytest.mark.parametrize("name", ROBOTS)
 def test_the_rate_of_the_coupling_is_its_derivative(name, robots):
     """Central differences of G along the motion; and u has the second derivative G qdd + G' qd."""
     robot = robots(name)
@@ -181,6 +183,7 @@ def test_what_cannot_be_closed_is_told_and_the_last_posture_is_kept(robots):
 MICROCONTROLLER = ("-mcpu=cortex-m7", "-mfpu=fpv5-d16", "-mthumb", "-mfloat-abi=hard")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("flags", [("gcc",), ("arm-none-eabi-gcc", *MICROCONTROLLER)])
 def test_functions_at_a_state_need_no_more_than_8_kb_of_stack(flags, tmp_path):
     """All of evra's, with the deepest of what they call added."""
