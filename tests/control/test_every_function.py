@@ -6,8 +6,9 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+import pytest
 
-from modeler.codegen import derive
+from modeler.codegen import Control, derive
 from modeler.robot.read import robot_from_text
 from tests.control import draw
 from tests.control.emitted_folder import Folder, derived
