@@ -1,8 +1,9 @@
 """What a call costs where it is compiled for: bytes of stack and of flash, instructions.
 
 The stack is the deepest way through the call graph that gcc writes (`-fcallgraph-info=su`), in
-which a call by address may reach every function whose address is taken; flash is what a linker keeps for
-one function alone (`--gc-sections`). Functions of the C library are named beside, not counted.
+which a call by address may reach every function whose address is taken; flash is what a linker
+keeps for one function alone (`--gc-sections`). Functions of the C library are named beside, not
+counted.
 """
 
 import json
