@@ -1,6 +1,6 @@
 # find_package(five_bar) takes any, find_package(five_bar 2) any of this C interface,
-# find_package(five_bar 2.31118.23016.43347) only what has the signature 798e59e8a95323fa.
-set(PACKAGE_VERSION 2.31118.23016.43347)
+# find_package(five_bar 2.29867.63549.59735) only what has the signature 74abf83de957a6a8.
+set(PACKAGE_VERSION 2.29867.63549.59735)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -1,6 +1,6 @@
 # find_package(orthoglide_2012) takes any, find_package(orthoglide_2012 2) any of this C interface,
-# find_package(orthoglide_2012 2.18636.29129.34091) only what has the signature 48cc71c9852bd869.
-set(PACKAGE_VERSION 2.18636.29129.34091)
+# find_package(orthoglide_2012 2.41873.58958.28061) only what has the signature a391e64e6d9d1ec1.
+set(PACKAGE_VERSION 2.41873.58958.28061)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

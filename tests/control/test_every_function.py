@@ -6,8 +6,9 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+import pytest
 
-from modeler.codegen import derive
+from modeler.codegen import Control, derive
 from modeler.robot.read import robot_from_text
 from tests.control import draw
 from tests.control.emitted_folder import Folder, derived
@@ -297,3 +298,53 @@ def everything(made: Folder, s: State) -> dict[str, np.ndarray]:
     return {**s._asdict(), "beta": made.beta, "tau": o.torques(s.u, s.qd, s.qdd)[0],
             "damping": np.array([DAMPING]), "start": home_of(made), "widths": widths(made),
             "chi": np.array(list(made.chi.values()))}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["two-link", "five-bar"])
+def test_an_inertia_that_is_singular_is_told(folder, name):
+    """Links without mass: forward dynamics and what inverts M say so."""
+    made = folder(name)
+    s = next(states(made, 1, 35))
+    none = everything(made, s) | {"beta": np.zeros_like(made.beta)}
+    tried = 0
+    for role in ("forward_dynamics", "forward_derivatives", "operational_inertia",
+                 "operational_inverse"):  # fmt: skip
+        if role in made.roles:
+            status, out = made.call(role, **none)
+            assert status == 2 and np.isnan(out).all(), role
+            tried += 1
+    assert tried
+
+
+def test_rank_loss_is_told_unless_it_is_damped(folder):
+    """Two joints do not move a tool in six directions."""
+    made = folder("two-link")
+    good = everything(made, next(states(made, 1, 36)))
+    for role in ("operational_inertia", "operational_inverse"):
+        status, out = made.call(role, **(good | {"damping": [0.0]}))
+        assert status == 2 and np.isnan(out).all()
+        assert made.call(role, **good)[0] == 0
+
+
+def test_far_from_home_loops_are_closed_or_it_is_told(folder):
+    """Over the whole turn: what has status 0 is closed and right, all else is NaN."""
+    made, random = folder("five-bar"), np.random.default_rng(37)
+    o = made.oracle
+    good = everything(made, next(states(made, 1, 38)))
+    told = closed = 0
+    for q in random.uniform(-np.pi, np.pi, (120, o.n)):
+        given = good | {"q": q}
+        status, u = made.call("close", **given)
+        if status == 0:
+            closed += 1
+            assert np.abs(o.errors(u)[0]).max() < 1e-9
+            if o.regular(u) > 0.01:
+                M = made.call("inertia_matrix", **given)[1]
+                np.testing.assert_allclose(M, o.inertia(u), atol=1e-8 * np.abs(M).max())
+            continue
+        told += 1
+        for role, function in made.roles.items():
+            if function.status and role != "close_from":
+                answer, out = made.call(role, **given)
+                assert answer != 0 and np.isnan(out).all(), role
+    assert closed and told
