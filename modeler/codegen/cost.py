@@ -2,7 +2,8 @@
 
 The stack is the deepest way through the call graph that gcc writes (`-fcallgraph-info=su`), in
 which a call by address may reach every function whose address is taken; flash is what a linker
-keeps for one function alone (`--gc-sections`). Functions of the C library are named beside, not counted.
+keeps for one function alone (`--gc-sections`). Functions of the C library are named beside, not
+counted.
 """
 
 import json
