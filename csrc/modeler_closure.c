@@ -245,7 +245,8 @@ static modeler_real straight(const modeler_closure *loops, const modeler_workspa
         last += y * y;
         both += x * y;
     }
-    if (!(last > MODELER_REAL(0.0)) || own * last - both * both > STRAIGHT * STRAIGHT * own * last) {
+    if (!(last > MODELER_REAL(0.0)) ||
+        own * last - both * both > STRAIGHT * STRAIGHT * own * last) {
         return MODELER_REAL(0.0);
     }
     return both / last;
@@ -337,7 +338,8 @@ int modeler_close(const modeler_closure *loops, const modeler_real *q, const mod
     modeler_workspace w;
 
     *work->kept = nothing;
-    if (!modeler_finite(q, (size_t)loops->given) || !modeler_finite(start, (size_t)loops->unknowns)) {
+    if (!modeler_finite(q, (size_t)loops->given) ||
+        !modeler_finite(start, (size_t)loops->unknowns)) {
         return MODELER_NOT_FINITE;
     }
     w = modeler_parts(loops, work);

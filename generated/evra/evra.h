@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "de674030e0c9a669"
-#define EVRA_SIGNATURE_1 0xde674030u
-#define EVRA_SIGNATURE_2 0xe0c9a669u
+#define EVRA_SIGNATURE "b1bde723464d66ea"
+#define EVRA_SIGNATURE_1 0xb1bde723u
+#define EVRA_SIGNATURE_2 0x464d66eau
 
 /* Of the calls: raised when one takes other arguments; evra_generator.h says which version of
  * modeler wrote the folder. */
@@ -631,7 +631,8 @@ struct evra_state {
  * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
  * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
- * the posture is the last closed one, from where the next call may go on.
+ * the posture is the last closed one, from where the next call may go on. Before the first status 0
+ * there is none: give NULL, and call no function that ends in _at.
  */
 #if defined(__cplusplus) && defined(__GNUC__) /* a structure and a function of one name */
 #pragma GCC diagnostic push

@@ -156,7 +156,7 @@ static void base_rows(struct evra_posture *p, double *rows, const double *qd,
 
 const char *evra_signature(void)
 {
-    return "de674030e0c9a669";
+    return "b1bde723464d66ea";
 }
 
 int evra_tree_next(const double *q, const double *qd, const double *qdd, int next,

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "798e59e8a95323fa"
-#define FIVE_BAR_SIGNATURE_1 0x798e59e8u
-#define FIVE_BAR_SIGNATURE_2 0xa95323fau
+#define FIVE_BAR_SIGNATURE "d505d47745bfb43b"
+#define FIVE_BAR_SIGNATURE_1 0xd505d477u
+#define FIVE_BAR_SIGNATURE_2 0x45bfb43bu
 
 /* Of the calls: raised when one takes other arguments; five_bar_generator.h says which version of
  * modeler wrote the folder. */
@@ -282,7 +282,8 @@ struct five_bar_state {
  * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
  * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
- * the posture is the last closed one, from where the next call may go on.
+ * the posture is the last closed one, from where the next call may go on. Before the first status 0
+ * there is none: give NULL, and call no function that ends in _at.
  */
 #if defined(__cplusplus) && defined(__GNUC__) /* a structure and a function of one name */
 #pragma GCC diagnostic push

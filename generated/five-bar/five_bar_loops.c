@@ -106,7 +106,7 @@ static void base_rows(struct five_bar_posture *p, double *rows, const double *qd
 
 const char *five_bar_signature(void)
 {
-    return "798e59e8a95323fa";
+    return "d505d47745bfb43b";
 }
 
 int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int next,

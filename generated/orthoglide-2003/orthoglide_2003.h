@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "b9aff5b2e314211a"
-#define ORTHOGLIDE_2003_SIGNATURE_1 0xb9aff5b2u
-#define ORTHOGLIDE_2003_SIGNATURE_2 0xe314211au
+#define ORTHOGLIDE_2003_SIGNATURE "dbeb8cd22b4478d8"
+#define ORTHOGLIDE_2003_SIGNATURE_1 0xdbeb8cd2u
+#define ORTHOGLIDE_2003_SIGNATURE_2 0x2b4478d8u
 
 /* Of the calls: raised when one takes other arguments; orthoglide_2003_generator.h says which version of
  * modeler wrote the folder. */
@@ -563,7 +563,8 @@ struct orthoglide_2003_state {
  * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
  * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
- * the posture is the last closed one, from where the next call may go on.
+ * the posture is the last closed one, from where the next call may go on. Before the first status 0
+ * there is none: give NULL, and call no function that ends in _at.
  */
 #if defined(__cplusplus) && defined(__GNUC__) /* a structure and a function of one name */
 #pragma GCC diagnostic push

@@ -128,7 +128,7 @@ static void base_rows(struct orthoglide_2003_posture *p, double *rows, const dou
 
 const char *orthoglide_2003_signature(void)
 {
-    return "b9aff5b2e314211a";
+    return "dbeb8cd22b4478d8";
 }
 
 int orthoglide_2003_tree_next(const double *q, const double *qd, const double *qdd, int next,

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "48cc71c9852bd869"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0x48cc71c9u
-#define ORTHOGLIDE_2012_SIGNATURE_2 0x852bd869u
+#define ORTHOGLIDE_2012_SIGNATURE "3fc808deba79eddd"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0x3fc808deu
+#define ORTHOGLIDE_2012_SIGNATURE_2 0xba79edddu
 
 /* Of the calls: raised when one takes other arguments; orthoglide_2012_generator.h says which version of
  * modeler wrote the folder. */
@@ -624,7 +624,8 @@ struct orthoglide_2012_state {
  * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
  * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
- * the posture is the last closed one, from where the next call may go on.
+ * the posture is the last closed one, from where the next call may go on. Before the first status 0
+ * there is none: give NULL, and call no function that ends in _at.
  */
 #if defined(__cplusplus) && defined(__GNUC__) /* a structure and a function of one name */
 #pragma GCC diagnostic push

@@ -128,7 +128,7 @@ static void base_rows(struct orthoglide_2012_posture *p, double *rows, const dou
 
 const char *orthoglide_2012_signature(void)
 {
-    return "48cc71c9852bd869";
+    return "3fc808deba79eddd";
 }
 
 int orthoglide_2012_tree_next(const double *q, const double *qd, const double *qdd, int next,

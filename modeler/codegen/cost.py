@@ -1,8 +1,9 @@
 """What a call costs where it is compiled for: bytes of stack and of flash, instructions.
 
 The stack is the deepest way through the call graph that gcc writes (`-fcallgraph-info=su`), in
-which a call by address may reach every function whose address is taken; flash is what a linker keeps for
-one function alone (`--gc-sections`). Functions of the C library are named beside, not counted.
+which a call by address may reach every function whose address is taken; flash is what a linker
+keeps for one function alone (`--gc-sections`). Functions of the C library are named beside, not
+counted.
 """
 
 import json
@@ -35,7 +36,9 @@ _MACHINES: Mapping[Machine, tuple[str, tuple[str, ...]]] = {
 _SECTIONS = ("-std=c99", "-ffunction-sections", "-fdata-sections", "-fcallgraph-info=su")
 _NODE = re.compile(r'node: \{ title: "([^"]+)" label: "[^"]*\\n(\d+) bytes \((\w+)')
 _EDGE = re.compile(r'edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"')
-_RELOCATION = re.compile(r"^[0-9a-f]+ (R_\S+)\s+(?:\.text\.)?(\w+)", re.MULTILINE)
+_RELOCATION = re.compile(r"^[0-9a-f]+ (R_\S+)\s+(?:\.text\.)?(\w+)(?:-0x\S+)?$", re.MULTILINE)
+"""A reference to the start of a function; those into the middle are tables of a switch."""
+
 _CALLS = ("_PLT32", "_CALL", "_JUMP24", "_CALL26", "_JUMP26")
 _INDIRECT = "__indirect_call"
 _INSTRUCTIONS = re.compile(r"#define (\w+)_INSTRUCTIONS (\d+)")
@@ -140,8 +143,10 @@ def _call_graph(folder: Path, objdump: str, objects: Sequence[str]) -> _Calls:
             edges.setdefault(caller, set()).add(callee)
     relocations = _RELOCATION.findall(_run(folder, objdump, "-r", *objects))
     taken = {symbol for kind, symbol in relocations if not kind.endswith(_CALLS)}
-    # A function of one file is called `file.c:name` there.
-    edges[_INDIRECT] = {name for name in frames if name.rpartition(":")[2] in taken}
+    tables = {symbol for kind, symbol in relocations if kind.endswith(("_64", "_ABS32", "_ABS64"))}
+    # A function of one file is called `file.c:name` in the graph; a call of it is relative too.
+    own = {name for name in frames if ":" in name and name.rpartition(":")[2] in tables}
+    edges[_INDIRECT] = (taken & frames.keys()) | own
     frames[_INDIRECT] = 0
     return _Calls(frames, {caller: frozenset(found) for caller, found in edges.items()})
 

@@ -48,7 +48,7 @@ class Naming:
         self.letters = frozenset((e.quantity, _kind(e), e.step) for e in self._labels.values())
         self._names: dict[str, str] = {}
         self._announced: set[Letters] = set()
-        taken = {word.lower() for line in lines for word in re.findall(r"[A-Za-z_]\w*", line)}
+        taken = set(re.findall(r"[a-z_]\w*", "\n".join(lines).lower()))
         for short, label in self._labels.items():
             name = first = _name(label)
             while name.lower() in taken:
@@ -108,6 +108,8 @@ def _name(label: Label) -> str:
 
 def _wrapped(line: str, width: int = _WIDTH) -> str:
     """The statement in lines of readable length."""
+    if len(line) <= width:
+        return line
     return textwrap.fill(
         line, width, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
     )

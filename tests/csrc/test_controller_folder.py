@@ -113,7 +113,7 @@ def test_python_calls_what_there_is_and_says_what_there_is_not(tmp_path):
     )
     for call in (lambda: model.gravity(q, beta), lambda: model.observation(q, q, q),
                  lambda: model.base_parameters(np.ones(len(model.spec.standard)))):  # fmt: skip
-        with pytest.raises(ManifestError, match="has no function .*generated with --only"):
+        with pytest.raises(ManifestError, match=r"has no function .*generated with --only"):
             call()
 
 
@@ -359,7 +359,7 @@ def test_the_stack_of_a_call_is_a_bound_of_what_it_uses(tmp_path):
     (tmp_path / "painted.c").write_text(PAINTED)
     flags = ["-O3", "-fno-tree-slp-vectorize", "-fno-math-errno", "-fno-trapping-math",
              "-ffp-contract=fast"]  # fmt: skip
-    sources = sorted(p.name for p in tmp_path.glob("five_bar*.c")) + ["modeler_batch.c"]
+    sources = ["modeler_batch.c", *sorted(p.name for p in tmp_path.glob("five_bar*.c"))]
     sources += sorted(p.name for p in tmp_path.glob("modeler_clos*.c"))
     run("gcc", *flags, "painted.c", *sources, "-lm", "-lpthread", "-o", "painted", where=tmp_path)
     nothing, *both = map(int, run(tmp_path / "painted", where=tmp_path).split())

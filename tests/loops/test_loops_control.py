@@ -123,7 +123,7 @@ def test_single_precision_gives_what_double_precision_gives(name):
     for role in ("coriolis_matrix", "coriolis_transpose", "momentum", "slotine_li_regressor",
                  "momentum_rest_regressor", "jacobian", "jacobian_dot_qd", "forward_dynamics",
                  "coupling_rate"):  # fmt: skip
-        close(one.call(role, tau=tau), two.call(role, tau=tau), 2e-3)
+        close(one.call(role, tau=tau), two.call(role, tau=tau), 5e-5)
 
 
 def test_what_cannot_be_done_is_told():
