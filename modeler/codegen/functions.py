@@ -422,11 +422,16 @@ def argument_lines(function: CFunction) -> list[str]:
     given = (*function.inputs, function.output)
     lengths = [" x ".join(str(size) for size in argument.shape) for argument in given]
     width = max(9, *(len(length) + 1 for length in lengths))
+    name = max(7, *(len(argument.name) + 1 for argument in given))
     lines = []
     for argument, length in zip(given, lengths, strict=True):
         order = ", row-major" if len(argument.shape) > 1 else ""
         text = f"{argument.meaning}{order} [{argument.unit}]"
-        lines.append(f"{argument.name:<7}{length:<{width}}{text}")
+        start = f"{argument.name:<{name}}{length:<{width}}"
+        lines += textwrap.wrap(
+            start + text, _WIDTH - 4, subsequent_indent=" " * len(start),
+            break_long_words=False, break_on_hyphens=False,
+        )  # fmt: skip
     return lines
 
 

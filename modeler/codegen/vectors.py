@@ -93,6 +93,8 @@ def vectors_text(
 ) -> str:
     """`vectors.csv`: in each line name, state and numbers of an input, or of what a function gives.
 
+    The last line says how many lines of outputs there are.
+
     Inputs are exact in both precisions, base parameters too; outputs have 50 digits.
 
     Args:
@@ -117,7 +119,8 @@ def vectors_text(
                     lines.append(
                         ",".join([f"{prefix}_{role}", str(state), *map(_digits, rows[state])])
                     )
-    return "".join(f"{line}\n" for line in lines)
+    outputs = sum(line.startswith(f"{prefix}_") for line in lines)
+    return "".join(f"{line}\n" for line in [*lines, f"outputs,{outputs}"])
 
 
 def _digits(x: Ball) -> str:

@@ -216,7 +216,8 @@ def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
     outputs = [
         k for k, line in enumerate(lines) if line.startswith(f"{emitted(name).spec.prefix}_")
     ]
-    assert {int(line.split(",")[1]) for line in lines} == set(range(50))
+    assert {int(line.split(",")[1]) for line in lines[:-1]} == set(range(50))
+    assert lines[-1] == f"outputs,{len(outputs)}"
     assert f"{len(outputs)} outputs, 0 fail" in made(folder, "vectors")
     digits = [len(re.sub(r"e.*|\D", "", x).lstrip("0")) for k in outputs[:40]
               for x in lines[k].split(",")[2:] if x != "0"]  # fmt: skip
@@ -229,6 +230,9 @@ def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
     (folder / "vectors.csv").write_text("\n".join(lines) + "\n")
     told = made(folder, "vectors", fails=True)
     assert f"{head}: state {state}: status 0, apart" in told and " 1 fail" in told
+    for short in (lines[:-2], lines[: len(lines) // 2], [lines[0][:-9], *lines[1:]]):
+        (folder / "vectors.csv").write_text("\n".join(short) + "\n")
+        made(folder, "vectors", fails=True)
     (folder / "vectors.csv").write_text("")
     assert "0 outputs" in made(folder, "vectors", fails=True)
 
