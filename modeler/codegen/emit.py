@@ -150,11 +150,19 @@ def function_specs(
         function.role: (block.additions, block.multiplications)
         for function, block in (*called, *blocks)
     }
+    functions = {function.role: function for function, _ in (*called, *blocks)}
+
+    def written(role: str) -> set[str]:
+        """Roles of the straight lines of code that a function consists of."""
+        function = functions.get(role)
+        made = function and (function.closed or function.composed)
+        if not made:
+            return {role}
+        return set().union(*map(written, made.calls)) - {role}
+
     found = []
     for function in (function for function, _ in blocks if not function.internal):
-        made = function.closed or function.composed
-        calls = (function.role,) if made is None else made.calls
-        parts = [own[role] for role in calls if role in own]
+        parts = [own[role] for role in sorted(written(function.role)) if role in own]
         found.append(
             FunctionSpec(
                 name=f"{prefix}_{function.role}",
