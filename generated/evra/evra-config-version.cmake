@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 2) any of this C interface,
-# find_package(evra 2.45501.59171.17997) only what has the signature b1bde723464d66ea.
-set(PACKAGE_VERSION 2.45501.59171.17997)
+# find_package(evra 2.45417.13851.59730) only what has the signature b169361be95219a7.
+set(PACKAGE_VERSION 2.45417.13851.59730)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

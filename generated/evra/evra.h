@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "b1bde723464d66ea"
-#define EVRA_SIGNATURE_1 0xb1bde723u
-#define EVRA_SIGNATURE_2 0x464d66eau
+#define EVRA_SIGNATURE "b169361be95219a7"
+#define EVRA_SIGNATURE_1 0xb169361bu
+#define EVRA_SIGNATURE_2 0xe95219a7u
 
 /* Of the calls: raised when one takes other arguments; evra_generator.h says which version of
  * modeler wrote the folder. */
@@ -510,7 +510,8 @@ int evra_inertia_matrix(const double q[EVRA_JOINTS], const double beta[EVRA_BASE
  * x0 = R x + p with T = [R | p], for a point x of the frame
  *
  * q      8          joint positions [m]
- * T      26 x 3 x 4 poses [R | p] of rows Px, Py, Pz, Pa, Pb, P, s1, s2, 11, 21, 31, 12, 22, 32, 13, 23, 33, 14, 24, 34, 15, 25, 35, 16, 26, 36 in frame 0, row-major [1 | m]
+ * T      26 x 3 x 4 poses [R | p] of rows Px, Py, Pz, Pa, Pb, P, s1, s2, 11, 21, 31, 12, 22, 32,
+ *                   13, 23, 33, 14, 24, 34, 15, 25, 35, 16, 26, 36 in frame 0, row-major [1 | m]
  */
 int evra_forward_kinematics(const double q[EVRA_JOINTS], double T[26 * 3 * 4]);
 
@@ -619,6 +620,7 @@ struct evra_posture {
 
 struct evra_state {
     struct evra_posture at;
+    int closed; /* by the last call of evra_state; memory of zeros is no state yet */
     int status;
     int rated; /* `rate` holds dG/dt */
     double rate[208];
@@ -629,7 +631,7 @@ struct evra_state {
  *
  * They are those of the same name without q and qd, and give the same numbers. The loops are closed
  * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
- * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
+ * state's own last one, state.at.u (from home, if there is none yet): at 1 kHz that takes two or three evaluations of the closure
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
  * the posture is the last closed one, from where the next call may go on. Before the first status 0
  * there is none: give NULL, and call no function that ends in _at.

@@ -156,7 +156,7 @@ static void base_rows(struct evra_posture *p, double *rows, const double *qd,
 
 const char *evra_signature(void)
 {
-    return "b1bde723464d66ea";
+    return "b169361be95219a7";
 }
 
 int evra_tree_next(const double *q, const double *qd, const double *qdd, int next,
@@ -188,7 +188,10 @@ int evra_state(const double *q, const double *qd, const double *previous,
     int status = MODELER_NOT_FINITE;
 
     if (modeler_finite(qd, 8) != 0) {
-        if (previous == p->u && p->kept.valid) {
+        if (previous == p->u && !p->kept.valid) {
+            previous = NULL;
+        }
+        if (previous == p->u) {
             status = modeler_close_soon(&evra_loops, q, p->u, &work);
         } else {
             status = modeler_close(&evra_loops, q,
@@ -198,6 +201,7 @@ int evra_state(const double *q, const double *qd, const double *previous,
     if (status == MODELER_CLOSED) {
         evra_moved(&evra_loops, qd, p);
     }
+    state->closed = status == MODELER_CLOSED;
     state->status = status;
     state->rated = 0;
     return status;
@@ -206,8 +210,9 @@ int evra_state(const double *q, const double *qd, const double *previous,
 int evra_coupling_rate_at(struct evra_state *state, double *rate)
 {
     struct evra_posture *const p = &state->at;
+    const int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
-    if (state->status == MODELER_CLOSED && !state->rated) {
+    if (status == MODELER_CLOSED && !state->rated) {
         const modeler_work work = work_of(p);
 
         modeler_coupling_rate(&evra_loops, evra_tree_drift, p->u, p->G, p->ud,
@@ -217,7 +222,7 @@ int evra_coupling_rate_at(struct evra_state *state, double *rate)
     for (int k = 0; rate != NULL && k < 208; k++) {
         rate[k] = state->rate[k];
     }
-    return rate == NULL ? state->status : modeler_told(state->status, rate, 208);
+    return rate == NULL ? status : modeler_told(status, rate, 208);
 }
 
 /* Regressor of the standard parameters. */
@@ -280,7 +285,7 @@ int evra_base_regressor(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS
 int evra_base_regressor_at(struct evra_state *state, const double qdd[EVRA_JOINTS],
                            double MODELER_OUT(phi, 8 * 90))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(qdd, 8) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -327,7 +332,7 @@ int evra_inverse_dynamics_at(struct evra_state *state, const double qdd[EVRA_JOI
                              const double beta[EVRA_BASE_PARAMETERS],
                              double MODELER_OUT(tau, EVRA_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(qdd, 8) != 0 && modeler_finite(beta, 90) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -368,7 +373,7 @@ int evra_gravity(const double q[EVRA_JOINTS], const double beta[EVRA_BASE_PARAME
 int evra_gravity_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
                     double MODELER_OUT(tau, EVRA_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 90) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -409,7 +414,7 @@ int evra_coriolis(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
 int evra_coriolis_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
                      double MODELER_OUT(tau, EVRA_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 90) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -450,7 +455,7 @@ int evra_friction(const double q[EVRA_JOINTS], const double qd[EVRA_JOINTS],
 int evra_friction_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
                      double MODELER_OUT(tau, EVRA_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 90) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -499,7 +504,7 @@ int evra_inertia_matrix(const double q[EVRA_JOINTS], const double beta[EVRA_BASE
 int evra_inertia_matrix_at(struct evra_state *state, const double beta[EVRA_BASE_PARAMETERS],
                            double MODELER_OUT(M, 8 * 8))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 90) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -533,7 +538,7 @@ int evra_forward_kinematics(const double q[EVRA_JOINTS], double MODELER_OUT(T, 2
 
 int evra_forward_kinematics_at(struct evra_state *state, double MODELER_OUT(T, 26 * 3 * 4))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED) {
         made_forward_kinematics(&state->at, state->rows, T);
@@ -598,7 +603,7 @@ int evra_coupling(const double q[EVRA_JOINTS], double MODELER_OUT(G, 26 * 8))
 
 int evra_coupling_at(struct evra_state *state, double MODELER_OUT(G, 26 * 8))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED) {
         made_coupling(&state->at, state->rows, G);

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "d505d47745bfb43b"
-#define FIVE_BAR_SIGNATURE_1 0xd505d477u
-#define FIVE_BAR_SIGNATURE_2 0x45bfb43bu
+#define FIVE_BAR_SIGNATURE "2c0f60dfae3d7864"
+#define FIVE_BAR_SIGNATURE_1 0x2c0f60dfu
+#define FIVE_BAR_SIGNATURE_2 0xae3d7864u
 
 /* Of the calls: raised when one takes other arguments; five_bar_generator.h says which version of
  * modeler wrote the folder. */
@@ -270,6 +270,7 @@ struct five_bar_posture {
 
 struct five_bar_state {
     struct five_bar_posture at;
+    int closed; /* by the last call of five_bar_state; memory of zeros is no state yet */
     int status;
     int rated; /* `rate` holds dG/dt */
     double rate[8];
@@ -280,7 +281,7 @@ struct five_bar_state {
  *
  * They are those of the same name without q and qd, and give the same numbers. The loops are closed
  * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
- * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
+ * state's own last one, state.at.u (from home, if there is none yet): at 1 kHz that takes two or three evaluations of the closure
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
  * the posture is the last closed one, from where the next call may go on. Before the first status 0
  * there is none: give NULL, and call no function that ends in _at.

@@ -106,7 +106,7 @@ static void base_rows(struct five_bar_posture *p, double *rows, const double *qd
 
 const char *five_bar_signature(void)
 {
-    return "d505d47745bfb43b";
+    return "2c0f60dfae3d7864";
 }
 
 int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int next,
@@ -138,7 +138,10 @@ int five_bar_state(const double *q, const double *qd, const double *previous,
     int status = MODELER_NOT_FINITE;
 
     if (modeler_finite(qd, 2) != 0) {
-        if (previous == p->u && p->kept.valid) {
+        if (previous == p->u && !p->kept.valid) {
+            previous = NULL;
+        }
+        if (previous == p->u) {
             status = modeler_close_soon(&five_bar_loops, q, p->u, &work);
         } else {
             status = modeler_close(&five_bar_loops, q,
@@ -148,6 +151,7 @@ int five_bar_state(const double *q, const double *qd, const double *previous,
     if (status == MODELER_CLOSED) {
         five_bar_moved(&five_bar_loops, qd, p);
     }
+    state->closed = status == MODELER_CLOSED;
     state->status = status;
     state->rated = 0;
     return status;
@@ -156,8 +160,9 @@ int five_bar_state(const double *q, const double *qd, const double *previous,
 int five_bar_coupling_rate_at(struct five_bar_state *state, double *rate)
 {
     struct five_bar_posture *const p = &state->at;
+    const int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
-    if (state->status == MODELER_CLOSED && !state->rated) {
+    if (status == MODELER_CLOSED && !state->rated) {
         const modeler_work work = work_of(p);
 
         modeler_coupling_rate(&five_bar_loops, five_bar_tree_drift, p->u, p->G, p->ud,
@@ -167,7 +172,7 @@ int five_bar_coupling_rate_at(struct five_bar_state *state, double *rate)
     for (int k = 0; rate != NULL && k < 8; k++) {
         rate[k] = state->rate[k];
     }
-    return rate == NULL ? state->status : modeler_told(state->status, rate, 8);
+    return rate == NULL ? status : modeler_told(status, rate, 8);
 }
 
 /* Regressor of the standard parameters. */
@@ -230,7 +235,7 @@ int five_bar_base_regressor(const double q[FIVE_BAR_JOINTS], const double qd[FIV
 int five_bar_base_regressor_at(struct five_bar_state *state, const double qdd[FIVE_BAR_JOINTS],
                                double MODELER_OUT(phi, 2 * 11))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(qdd, 2) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -278,7 +283,7 @@ int five_bar_inverse_dynamics_at(struct five_bar_state *state, const double qdd[
                                  const double beta[FIVE_BAR_BASE_PARAMETERS],
                                  double MODELER_OUT(tau, FIVE_BAR_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(qdd, 2) != 0 && modeler_finite(beta, 11) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -319,7 +324,7 @@ int five_bar_gravity(const double q[FIVE_BAR_JOINTS], const double beta[FIVE_BAR
 int five_bar_gravity_at(struct five_bar_state *state, const double beta[FIVE_BAR_BASE_PARAMETERS],
                         double MODELER_OUT(tau, FIVE_BAR_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 11) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -361,7 +366,7 @@ int five_bar_coriolis(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_
 int five_bar_coriolis_at(struct five_bar_state *state, const double beta[FIVE_BAR_BASE_PARAMETERS],
                          double MODELER_OUT(tau, FIVE_BAR_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 11) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -403,7 +408,7 @@ int five_bar_friction(const double q[FIVE_BAR_JOINTS], const double qd[FIVE_BAR_
 int five_bar_friction_at(struct five_bar_state *state, const double beta[FIVE_BAR_BASE_PARAMETERS],
                          double MODELER_OUT(tau, FIVE_BAR_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 11) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -454,7 +459,7 @@ int five_bar_inertia_matrix_at(struct five_bar_state *state,
                                const double beta[FIVE_BAR_BASE_PARAMETERS],
                                double MODELER_OUT(M, 2 * 2))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 11) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -488,7 +493,7 @@ int five_bar_forward_kinematics(const double q[FIVE_BAR_JOINTS], double MODELER_
 
 int five_bar_forward_kinematics_at(struct five_bar_state *state, double MODELER_OUT(T, 4 * 3 * 4))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED) {
         made_forward_kinematics(&state->at, state->rows, T);
@@ -554,7 +559,7 @@ int five_bar_coupling(const double q[FIVE_BAR_JOINTS], double MODELER_OUT(G, 4 *
 
 int five_bar_coupling_at(struct five_bar_state *state, double MODELER_OUT(G, 4 * 2))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED) {
         made_coupling(&state->at, state->rows, G);

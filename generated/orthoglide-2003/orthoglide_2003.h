@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "dbeb8cd22b4478d8"
-#define ORTHOGLIDE_2003_SIGNATURE_1 0xdbeb8cd2u
-#define ORTHOGLIDE_2003_SIGNATURE_2 0x2b4478d8u
+#define ORTHOGLIDE_2003_SIGNATURE "ee7eda148a2ec3f0"
+#define ORTHOGLIDE_2003_SIGNATURE_1 0xee7eda14u
+#define ORTHOGLIDE_2003_SIGNATURE_2 0x8a2ec3f0u
 
 /* Of the calls: raised when one takes other arguments; orthoglide_2003_generator.h says which version of
  * modeler wrote the folder. */
@@ -438,7 +438,8 @@ int orthoglide_2003_inertia_matrix(const double q[ORTHOGLIDE_2003_JOINTS],
  * x0 = R x + p with T = [R | p], for a point x of the frame
  *
  * q      3          joint positions [m]
- * T      21 x 3 x 4 poses [R | p] of rows Px, Py, P, 11, 12, 13, 21, 31, 41, 51, 71, 22, 32, 42, 52, 72, 23, 33, 43, 53, 73 in frame 0, row-major [1 | m]
+ * T      21 x 3 x 4 poses [R | p] of rows Px, Py, P, 11, 12, 13, 21, 31, 41, 51, 71, 22, 32, 42,
+ *                   52, 72, 23, 33, 43, 53, 73 in frame 0, row-major [1 | m]
  */
 int orthoglide_2003_forward_kinematics(const double q[ORTHOGLIDE_2003_JOINTS],
                                        double T[21 * 3 * 4]);
@@ -551,6 +552,7 @@ struct orthoglide_2003_posture {
 
 struct orthoglide_2003_state {
     struct orthoglide_2003_posture at;
+    int closed; /* by the last call of orthoglide_2003_state; memory of zeros is no state yet */
     int status;
     int rated; /* `rate` holds dG/dt */
     double rate[36];
@@ -561,7 +563,7 @@ struct orthoglide_2003_state {
  *
  * They are those of the same name without q and qd, and give the same numbers. The loops are closed
  * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
- * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
+ * state's own last one, state.at.u (from home, if there is none yet): at 1 kHz that takes two or three evaluations of the closure
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
  * the posture is the last closed one, from where the next call may go on. Before the first status 0
  * there is none: give NULL, and call no function that ends in _at.

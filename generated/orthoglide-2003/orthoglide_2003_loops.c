@@ -128,7 +128,7 @@ static void base_rows(struct orthoglide_2003_posture *p, double *rows, const dou
 
 const char *orthoglide_2003_signature(void)
 {
-    return "dbeb8cd22b4478d8";
+    return "ee7eda148a2ec3f0";
 }
 
 int orthoglide_2003_tree_next(const double *q, const double *qd, const double *qdd, int next,
@@ -160,7 +160,10 @@ int orthoglide_2003_state(const double *q, const double *qd, const double *previ
     int status = MODELER_NOT_FINITE;
 
     if (modeler_finite(qd, 3) != 0) {
-        if (previous == p->u && p->kept.valid) {
+        if (previous == p->u && !p->kept.valid) {
+            previous = NULL;
+        }
+        if (previous == p->u) {
             status = modeler_close_soon(&orthoglide_2003_loops, q, p->u, &work);
         } else {
             status = modeler_close(&orthoglide_2003_loops, q,
@@ -170,6 +173,7 @@ int orthoglide_2003_state(const double *q, const double *qd, const double *previ
     if (status == MODELER_CLOSED) {
         orthoglide_2003_moved(&orthoglide_2003_loops, qd, p);
     }
+    state->closed = status == MODELER_CLOSED;
     state->status = status;
     state->rated = 0;
     return status;
@@ -178,8 +182,9 @@ int orthoglide_2003_state(const double *q, const double *qd, const double *previ
 int orthoglide_2003_coupling_rate_at(struct orthoglide_2003_state *state, double *rate)
 {
     struct orthoglide_2003_posture *const p = &state->at;
+    const int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
-    if (state->status == MODELER_CLOSED && !state->rated) {
+    if (status == MODELER_CLOSED && !state->rated) {
         const modeler_work work = work_of(p);
 
         modeler_coupling_rate(&orthoglide_2003_loops, orthoglide_2003_tree_drift, p->u, p->G, p->ud,
@@ -189,7 +194,7 @@ int orthoglide_2003_coupling_rate_at(struct orthoglide_2003_state *state, double
     for (int k = 0; rate != NULL && k < 36; k++) {
         rate[k] = state->rate[k];
     }
-    return rate == NULL ? state->status : modeler_told(state->status, rate, 36);
+    return rate == NULL ? status : modeler_told(status, rate, 36);
 }
 
 /* Regressor of the standard parameters. */
@@ -259,7 +264,7 @@ int orthoglide_2003_base_regressor_at(struct orthoglide_2003_state *state,
                                       const double qdd[ORTHOGLIDE_2003_JOINTS],
                                       double MODELER_OUT(phi, 3 * 43))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(qdd, 3) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -309,7 +314,7 @@ int orthoglide_2003_inverse_dynamics_at(struct orthoglide_2003_state *state,
                                         const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
                                         double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(qdd, 3) != 0 && modeler_finite(beta, 43) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -352,7 +357,7 @@ int orthoglide_2003_gravity_at(struct orthoglide_2003_state *state,
                                const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
                                double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 43) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -396,7 +401,7 @@ int orthoglide_2003_coriolis_at(struct orthoglide_2003_state *state,
                                 const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
                                 double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 43) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -440,7 +445,7 @@ int orthoglide_2003_friction_at(struct orthoglide_2003_state *state,
                                 const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
                                 double MODELER_OUT(tau, ORTHOGLIDE_2003_JOINTS))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 43) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -491,7 +496,7 @@ int orthoglide_2003_inertia_matrix_at(struct orthoglide_2003_state *state,
                                       const double beta[ORTHOGLIDE_2003_BASE_PARAMETERS],
                                       double MODELER_OUT(M, 3 * 3))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED && !(modeler_finite(beta, 43) != 0)) {
         status = MODELER_NOT_FINITE;
@@ -527,7 +532,7 @@ int orthoglide_2003_forward_kinematics(const double q[ORTHOGLIDE_2003_JOINTS],
 int orthoglide_2003_forward_kinematics_at(struct orthoglide_2003_state *state,
                                           double MODELER_OUT(T, 21 * 3 * 4))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED) {
         made_forward_kinematics(&state->at, state->rows, T);
@@ -594,7 +599,7 @@ int orthoglide_2003_coupling(const double q[ORTHOGLIDE_2003_JOINTS], double MODE
 
 int orthoglide_2003_coupling_at(struct orthoglide_2003_state *state, double MODELER_OUT(G, 12 * 3))
 {
-    int status = state->status;
+    int status = state->closed != 0 ? MODELER_CLOSED : modeler_first(state->status, MODELER_OPEN);
 
     if (status == MODELER_CLOSED) {
         made_coupling(&state->at, state->rows, G);

@@ -1,6 +1,6 @@
 # find_package(orthoglide_2012) takes any, find_package(orthoglide_2012 2) any of this C interface,
-# find_package(orthoglide_2012 2.16328.2270.47737) only what has the signature 3fc808deba79eddd.
-set(PACKAGE_VERSION 2.16328.2270.47737)
+# find_package(orthoglide_2012 2.23002.45994.4318) only what has the signature 59dab3aa10deea25.
+set(PACKAGE_VERSION 2.23002.45994.4318)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

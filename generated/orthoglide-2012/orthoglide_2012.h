@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "3fc808deba79eddd"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0x3fc808deu
-#define ORTHOGLIDE_2012_SIGNATURE_2 0xba79edddu
+#define ORTHOGLIDE_2012_SIGNATURE "59dab3aa10deea25"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0x59dab3aau
+#define ORTHOGLIDE_2012_SIGNATURE_2 0x10deea25u
 
 /* Of the calls: raised when one takes other arguments; orthoglide_2012_generator.h says which version of
  * modeler wrote the folder. */
@@ -499,7 +499,8 @@ int orthoglide_2012_inertia_matrix(const double q[ORTHOGLIDE_2012_JOINTS],
  * x0 = R x + p with T = [R | p], for a point x of the frame
  *
  * q      3          joint positions [m]
- * T      18 x 3 x 4 poses [R | p] of rows 6x, 6y, 6, 11, 12, 13, 21, 31, 41, 51, 22, 32, 42, 52, 23, 33, 43, 53 in frame 0, row-major [1 | m]
+ * T      18 x 3 x 4 poses [R | p] of rows 6x, 6y, 6, 11, 12, 13, 21, 31, 41, 51, 22, 32, 42, 52,
+ *                   23, 33, 43, 53 in frame 0, row-major [1 | m]
  */
 int orthoglide_2012_forward_kinematics(const double q[ORTHOGLIDE_2012_JOINTS],
                                        double T[18 * 3 * 4]);
@@ -612,6 +613,7 @@ struct orthoglide_2012_posture {
 
 struct orthoglide_2012_state {
     struct orthoglide_2012_posture at;
+    int closed; /* by the last call of orthoglide_2012_state; memory of zeros is no state yet */
     int status;
     int rated; /* `rate` holds dG/dt */
     double rate[36];
@@ -622,7 +624,7 @@ struct orthoglide_2012_state {
  *
  * They are those of the same name without q and qd, and give the same numbers. The loops are closed
  * from the closed posture `previous`; NULL: from home, as at the start. In a control loop give the
- * state's own last one, state.at.u: at 1 kHz that takes two or three evaluations of the closure
+ * state's own last one, state.at.u (from home, if there is none yet): at 1 kHz that takes two or three evaluations of the closure
  * equations. Returns a status. Unless it is 0, the functions return it too, with outputs NaN, and
  * the posture is the last closed one, from where the next call may go on. Before the first status 0
  * there is none: give NULL, and call no function that ends in _at.
