@@ -27,8 +27,6 @@ def test_no_compiler_warns(name, single, tmp_path):
     for cc in filter(shutil.which, ALIGNED):
         for language, standard in (("c", "c99"), ("c++", "c++17")):
             words = [*STRICT, ALIGNED[cc], *["-Wdouble-promotion"] * single, f"-std={standard}"]
-            if cc == "gcc" and language == "c++" and made.robot.loops:
-                words.append("-Wno-shadow")  # struct x_state and function x_state
             made.command(cc, "-fsyntax-only", *words, "-I.", "-x", language, *sources)
 
 

@@ -19,8 +19,8 @@ from tests.loops import drawn_robots
 
 LOOPS = ("five-bar", "3rrr", "delta", "stewart", "sr400", "orthoglide-2003",
          "orthoglide-2012", "evra", "orthoglide-leg", "dvrk-psm", "wrist-coupled")  # fmt: skip
-TREES = ("sr400-tree", "orthoglide-leg-tree", *(f"tree {k}" for k in range(8)))
-CHAINS = (*SERIAL, *(f"chain {k}" for k in range(4)))
+TREES = ("sr400-tree", "orthoglide-leg-tree", *(f"tree {k}" for k in range(4)))
+CHAINS = (*SERIAL, *(f"chain {k}" for k in range(2)))
 
 SOLVED = 1e-9  # of what equations are solved for, or loops are
 EXACT = 1e-11
@@ -221,7 +221,8 @@ def folder(tmp_path_factory):
     @cache
     def made(name: str, single: bool = False) -> Folder:
         found = derivation(name)
-        frames = (found.robot.joints[0].name, *list(found.robot.frames)[:1])
+        moving = [name for name, frame in found.robot.frames.items() if frame.row != "0"]
+        frames = (found.robot.joints[0].name, *moving[:1])
         path = tmp_path_factory.mktemp("c")
         return Folder(found, path, single, control=Control(frames)).compiled()
 
