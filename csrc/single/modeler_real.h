@@ -29,6 +29,7 @@ typedef float modeler_real;
 #define modeler_batch_3 modelerf_batch_3
 #define modeler_batch_4 modelerf_batch_4
 #define modeler_batch_5 modelerf_batch_5
+#define modeler_batch_6 modelerf_batch_6
 #define modeler_batch_status_1 modelerf_batch_status_1
 #define modeler_batch_status_2 modelerf_batch_status_2
 #define modeler_batch_status_3 modelerf_batch_status_3

@@ -23,12 +23,12 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "b169361be95219a7"
-#define EVRA_SIGNATURE_1 0xb169361bu
-#define EVRA_SIGNATURE_2 0xe95219a7u
+#define EVRA_SIGNATURE "eda89537a739a4d9"
+#define EVRA_SIGNATURE_1 0xeda89537u
+#define EVRA_SIGNATURE_2 0xa739a4d9u
 
-/* Of the calls: raised when one takes other arguments; evra_generator.h says which version of
- * modeler wrote the folder. */
+/* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
+ * stands in evra_generator.h. */
 #define EVRA_INTERFACE 2
 #define EVRA_LICENSE "MIT"
 

@@ -156,7 +156,7 @@ static void base_rows(struct evra_posture *p, double *rows, const double *qd,
 
 const char *evra_signature(void)
 {
-    return "b169361be95219a7";
+    return "eda89537a739a4d9";
 }
 
 int evra_tree_next(const double *q, const double *qd, const double *qdd, int next,

@@ -23,12 +23,12 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "2c0f60dfae3d7864"
-#define FIVE_BAR_SIGNATURE_1 0x2c0f60dfu
-#define FIVE_BAR_SIGNATURE_2 0xae3d7864u
+#define FIVE_BAR_SIGNATURE "27c64ab7d471a8df"
+#define FIVE_BAR_SIGNATURE_1 0x27c64ab7u
+#define FIVE_BAR_SIGNATURE_2 0xd471a8dfu
 
-/* Of the calls: raised when one takes other arguments; five_bar_generator.h says which version of
- * modeler wrote the folder. */
+/* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
+ * stands in five_bar_generator.h. */
 #define FIVE_BAR_INTERFACE 2
 #define FIVE_BAR_LICENSE "MIT"
 

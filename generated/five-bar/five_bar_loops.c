@@ -106,7 +106,7 @@ static void base_rows(struct five_bar_posture *p, double *rows, const double *qd
 
 const char *five_bar_signature(void)
 {
-    return "2c0f60dfae3d7864";
+    return "27c64ab7d471a8df";
 }
 
 int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int next,

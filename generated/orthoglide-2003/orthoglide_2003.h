@@ -23,12 +23,12 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "ee7eda148a2ec3f0"
-#define ORTHOGLIDE_2003_SIGNATURE_1 0xee7eda14u
-#define ORTHOGLIDE_2003_SIGNATURE_2 0x8a2ec3f0u
+#define ORTHOGLIDE_2003_SIGNATURE "de853b7a507de556"
+#define ORTHOGLIDE_2003_SIGNATURE_1 0xde853b7au
+#define ORTHOGLIDE_2003_SIGNATURE_2 0x507de556u
 
-/* Of the calls: raised when one takes other arguments; orthoglide_2003_generator.h says which version of
- * modeler wrote the folder. */
+/* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
+ * stands in orthoglide_2003_generator.h. */
 #define ORTHOGLIDE_2003_INTERFACE 2
 #define ORTHOGLIDE_2003_LICENSE "MIT"
 

@@ -128,7 +128,7 @@ static void base_rows(struct orthoglide_2003_posture *p, double *rows, const dou
 
 const char *orthoglide_2003_signature(void)
 {
-    return "ee7eda148a2ec3f0";
+    return "de853b7a507de556";
 }
 
 int orthoglide_2003_tree_next(const double *q, const double *qd, const double *qdd, int next,

@@ -23,12 +23,12 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "59dab3aa10deea25"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0x59dab3aau
-#define ORTHOGLIDE_2012_SIGNATURE_2 0x10deea25u
+#define ORTHOGLIDE_2012_SIGNATURE "240bdab962c21cbb"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0x240bdab9u
+#define ORTHOGLIDE_2012_SIGNATURE_2 0x62c21cbbu
 
-/* Of the calls: raised when one takes other arguments; orthoglide_2012_generator.h says which version of
- * modeler wrote the folder. */
+/* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
+ * stands in orthoglide_2012_generator.h. */
 #define ORTHOGLIDE_2012_INTERFACE 2
 #define ORTHOGLIDE_2012_LICENSE "MIT"
 

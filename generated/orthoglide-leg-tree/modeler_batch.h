@@ -23,6 +23,9 @@ typedef void (*modeler_function_4)(const modeler_real *, const modeler_real *, c
                                    const modeler_real *, modeler_real *);
 typedef void (*modeler_function_5)(const modeler_real *, const modeler_real *, const modeler_real *,
                                    const modeler_real *, const modeler_real *, modeler_real *);
+typedef void (*modeler_function_6)(const modeler_real *, const modeler_real *, const modeler_real *,
+                                   const modeler_real *, const modeler_real *, const modeler_real *,
+                                   modeler_real *);
 
 /* An input over samples: the values of sample i stand at data + i*step.
  * step 0: the same values for every sample, as for parameters. */
@@ -42,6 +45,8 @@ void modeler_batch_3(modeler_function_3 function, size_t samples, const modeler_
 void modeler_batch_4(modeler_function_4 function, size_t samples, const modeler_input inputs[4],
                      modeler_real *out, size_t out_step);
 void modeler_batch_5(modeler_function_5 function, size_t samples, const modeler_input inputs[5],
+                     modeler_real *out, size_t out_step);
+void modeler_batch_6(modeler_function_6 function, size_t samples, const modeler_input inputs[6],
                      modeler_real *out, size_t out_step);
 
 /* Emitted functions with a status, and loops over samples that keep it. */

@@ -71,7 +71,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "a70dea6d459e919f";
+    return "0061310f2947145b";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

@@ -20,12 +20,12 @@ extern "C" {
 #endif
 
 /* What orthoglide_leg_tree_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE "a70dea6d459e919f"
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0xa70dea6du
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x459e919fu
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE "0061310f2947145b"
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x0061310fu
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x2947145bu
 
-/* Of the calls: raised when one takes other arguments; orthoglide_leg_tree_generator.h says which version of
- * modeler wrote the folder. */
+/* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
+ * stands in orthoglide_leg_tree_generator.h. */
 #define ORTHOGLIDE_LEG_TREE_INTERFACE 2
 #define ORTHOGLIDE_LEG_TREE_LICENSE "MIT"
 

@@ -54,7 +54,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "a70dea6d459e919f";
+    return "0061310f2947145b";
 }
 
 #else /* for one instruction set */

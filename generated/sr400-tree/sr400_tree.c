@@ -84,7 +84,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "013f1eb6dfb8eff5";
+    return "858526820bb95c64";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

@@ -20,12 +20,12 @@ extern "C" {
 #endif
 
 /* What sr400_tree_signature() of the library that belongs to this header returns. */
-#define SR400_TREE_SIGNATURE "013f1eb6dfb8eff5"
-#define SR400_TREE_SIGNATURE_1 0x013f1eb6u
-#define SR400_TREE_SIGNATURE_2 0xdfb8eff5u
+#define SR400_TREE_SIGNATURE "858526820bb95c64"
+#define SR400_TREE_SIGNATURE_1 0x85852682u
+#define SR400_TREE_SIGNATURE_2 0x0bb95c64u
 
-/* Of the calls: raised when one takes other arguments; sr400_tree_generator.h says which version of
- * modeler wrote the folder. */
+/* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
+ * stands in sr400_tree_generator.h. */
 #define SR400_TREE_INTERFACE 2
 #define SR400_TREE_LICENSE "MIT"
 

@@ -70,7 +70,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "013f1eb6dfb8eff5";
+    return "858526820bb95c64";
 }
 
 #else /* for one instruction set */

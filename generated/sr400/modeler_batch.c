@@ -44,6 +44,14 @@ void modeler_batch_5(modeler_function_5 function, size_t samples, const modeler_
     }
 }
 
+void modeler_batch_6(modeler_function_6 function, size_t samples, const modeler_input inputs[6],
+                     modeler_real *out, size_t out_step)
+{
+    for (size_t i = 0; i < samples; i++) {
+        function(AT(0), AT(1), AT(2), AT(3), AT(4), AT(5), out + i * out_step);
+    }
+}
+
 void modeler_batch_status_1(modeler_status_1 function, size_t samples,
                             const modeler_input inputs[1], modeler_real *out, size_t out_step,
                             int *status)

@@ -81,7 +81,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "039fa5b7de3b845b";
+    return "18bd5b6b125ba37c";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

@@ -20,12 +20,12 @@ extern "C" {
 #endif
 
 /* What sr400_signature() of the library that belongs to this header returns. */
-#define SR400_SIGNATURE "039fa5b7de3b845b"
-#define SR400_SIGNATURE_1 0x039fa5b7u
-#define SR400_SIGNATURE_2 0xde3b845bu
+#define SR400_SIGNATURE "18bd5b6b125ba37c"
+#define SR400_SIGNATURE_1 0x18bd5b6bu
+#define SR400_SIGNATURE_2 0x125ba37cu
 
-/* Of the calls: raised when one takes other arguments; sr400_generator.h says which version of
- * modeler wrote the folder. */
+/* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
+ * stands in sr400_generator.h. */
 #define SR400_INTERFACE 2
 #define SR400_LICENSE "MIT"
 

@@ -67,7 +67,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "039fa5b7de3b845b";
+    return "18bd5b6b125ba37c";
 }
 
 #else /* for one instruction set */

@@ -57,7 +57,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "20db183e61b2262f";
+    return "ca9e32086a96b4fa";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

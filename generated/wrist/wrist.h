@@ -20,12 +20,12 @@ extern "C" {
 #endif
 
 /* What wrist_signature() of the library that belongs to this header returns. */
-#define WRIST_SIGNATURE "20db183e61b2262f"
-#define WRIST_SIGNATURE_1 0x20db183eu
-#define WRIST_SIGNATURE_2 0x61b2262fu
+#define WRIST_SIGNATURE "ca9e32086a96b4fa"
+#define WRIST_SIGNATURE_1 0xca9e3208u
+#define WRIST_SIGNATURE_2 0x6a96b4fau
 
-/* Of the calls: raised when one takes other arguments; wrist_generator.h says which version of
- * modeler wrote the folder. */
+/* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
+ * stands in wrist_generator.h. */
 #define WRIST_INTERFACE 2
 #define WRIST_LICENSE "MIT"
 

@@ -48,7 +48,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "20db183e61b2262f";
+    return "ca9e32086a96b4fa";
 }
 
 #else /* for one instruction set */

@@ -238,7 +238,7 @@ def _declarations(spec: ModuleSpec) -> str:
     loops = spec.closure is not None
     lines = [
         _INPUT,
-        *(_BATCH.format(count, "") for count in range(1, 6)),
+        *(_BATCH.format(count, "") for count in range(1, 7)),
         *(_BATCH.format(f"status_{count}", ", int *") for count in range(1, 6)),
         f"const char *{spec.prefix}_signature(void);",
     ]

@@ -13,6 +13,7 @@ import sympy
 
 import modeler
 from modeler.codegen.closed import solving_of
+from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.codegen.functions import comment_text, module_prefix, symbol_macros
 from modeler.codegen.package import FOLDER, PROGRAMS, write_emitted
@@ -270,7 +271,8 @@ def test_names_that_would_clash_are_refused():
 def test_programs_stand_in_a_folder_of_their_own():
     """So `cc *.c` is the library, and a robot may be called as a program."""
     made = module("wrist")
-    files = emit(made.model, made.base, fitted_of(made.emitted.spec)).files
+    fitted, control = fitted_of(made.emitted.spec), Control(vectors=True)
+    files = emit(made.model, made.base, fitted, control=control).files
     units = {name[:-2] for name in files if name.endswith(".c")}
     assert {name for name in units if "/" in name} == {f"{FOLDER}/{name}" for name in PROGRAMS}
     assert all(re.match(r"wrist|modeler_", name) for name in units if "/" not in name)
