@@ -71,7 +71,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "0061310f2947145b";
+    return "7bc3080934463271";
 }
 
 /* Joint torques, by the Newton-Euler recursion.
@@ -551,7 +551,7 @@ void orthoglide_leg_tree_friction(const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
 /* Base parameters from standard ones: the grouping relations.
  * 27 additions, 5 multiplications. */
 void orthoglide_leg_tree_base_parameters(const double chi[ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS],
-                                         double MODELER_OUT(beta, ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS))
+        double MODELER_OUT(beta, ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS))
 {
     const double k1 = orthoglide_leg_tree_geo_D4*orthoglide_leg_tree_geo_D4;
 

@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_leg_tree_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE "0061310f2947145b"
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x0061310fu
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x2947145bu
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE "7bc3080934463271"
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x7bc30809u
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x34463271u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in orthoglide_leg_tree_generator.h. */
@@ -292,7 +292,7 @@ void orthoglide_leg_tree_friction(const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
  * beta   32       base parameters [SI]
  */
 void orthoglide_leg_tree_base_parameters(const double chi[ORTHOGLIDE_LEG_TREE_STANDARD_PARAMETERS],
-                                         double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS]);
+        double beta[ORTHOGLIDE_LEG_TREE_BASE_PARAMETERS]);
 
 /* Poses of the frames of all moving rows of the table, in order.
  *

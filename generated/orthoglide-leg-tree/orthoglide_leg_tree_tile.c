@@ -54,7 +54,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "0061310f2947145b";
+    return "7bc3080934463271";
 }
 
 #else /* for one instruction set */

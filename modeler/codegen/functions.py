@@ -468,6 +468,8 @@ def arguments(function: CFunction, number: str, prefix: str, defined: bool = Fal
 def prototype(name: str, parameters: Sequence[str], returns: str = "void") -> str:
     """`void name(...)`, in lines of readable length."""
     indent = " " * (len(returns) + len(name) + 2)
+    if len(indent) + max(map(len, parameters)) > _WIDTH - 3:
+        indent = " " * 8
     return "\n".join(
         textwrap.wrap(
             f"{returns} {name}({', '.join(p.replace(' ', chr(160)) for p in parameters)})",
