@@ -26,7 +26,8 @@ int main(void)
 
 int main(void);
 
-static double q[N], qd[N], qdd[N], v[N], a[N], dq[N], dt[1], beta[SR400_BASE_PARAMETERS];
+static double q[N], qd[N], qdd[N], v[N], a[N], dq[N], dt[1];
+static double beta[SR400_BASE_PARAMETERS];
 static double chi[SR400_STANDARD_PARAMETERS], out[LARGEST];
 
 /* The debugger's service `what` of the machine. */
