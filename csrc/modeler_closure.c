@@ -338,8 +338,8 @@ int modeler_close(const modeler_closure *loops, const modeler_real *q, const mod
     modeler_workspace w;
 
     *work->kept = nothing;
-    if (!modeler_finite(q, (size_t)loops->given) ||
-        !modeler_finite(start, (size_t)loops->unknowns)) {
+    if (!modeler_finite(q, loops->given) ||
+        !modeler_finite(start, loops->unknowns)) {
         return MODELER_NOT_FINITE;
     }
     w = modeler_parts(loops, work);
@@ -365,7 +365,7 @@ static int next(const modeler_closure *loops, const modeler_real *q, modeler_rea
     int moved = 0;
 
     w.brief = brief;
-    if (!modeler_finite(q, (size_t)loops->given)) {
+    if (!modeler_finite(q, loops->given)) {
         return MODELER_NOT_FINITE;
     }
     if (!w.kept->valid) {

@@ -14,7 +14,7 @@
 #include "modeler_status.h"
 
 /* 1 if all are finite. */
-static inline int modeler_numbers(const modeler_real *x, int n)
+static inline int modeler_finite(const modeler_real *x, int n)
 {
     int bad = 0;
 
@@ -26,9 +26,9 @@ static inline int modeler_numbers(const modeler_real *x, int n)
 
 /* What a function returns: the status, or MODELER_NOT_FINITE. `x` is NaN then unless it is
  * MODELER_DONE. */
-static inline int modeler_outcome(int status, modeler_real *x, int n)
+static inline int modeler_told(int status, modeler_real *x, int n)
 {
-    if (status == MODELER_DONE && !modeler_numbers(x, n)) {
+    if (status == MODELER_DONE && !modeler_finite(x, n)) {
         status = MODELER_NOT_FINITE;
     }
     for (int i = 0; status != MODELER_DONE && i < n; i++) {
@@ -44,7 +44,7 @@ static inline int modeler_pivots(const modeler_real *pivot, const modeler_real *
     int status = MODELER_DONE;
 
     for (int i = n - 1; i >= 0 && status == MODELER_DONE; i--) {
-        if (!modeler_numbers(pivot + i, 1)) {
+        if (!modeler_finite(pivot + i, 1)) {
             status = MODELER_NOT_FINITE;
         } else if (!(pivot[i] > MODELER_REAL(0.0)) || !(pivot[i] > MODELER_PIVOT * diagonal[i])) {
             status = MODELER_SINGULAR;

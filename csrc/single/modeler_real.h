@@ -52,7 +52,5 @@ typedef float modeler_real;
 #define modeler_project modelerf_project
 #define modeler_project_more modelerf_project_more
 #define modeler_apply_more modelerf_apply_more
-#define modeler_finite modelerf_finite
-#define modeler_told modelerf_told
 
 #endif

@@ -156,7 +156,7 @@ static void base_rows(struct evra_posture *p, double *rows, const double *qd,
 
 const char *evra_signature(void)
 {
-    return "eda89537a739a4d9";
+    return "8a619fbff15bf7b4";
 }
 
 int evra_tree_next(const double *q, const double *qd, const double *qdd, int next,
@@ -177,7 +177,7 @@ int evra_tree_next(const double *q, const double *qd, const double *qdd, int nex
     if (status == MODELER_CLOSED) {
         base_rows(p, rows, qd, qdd, phi);
     }
-    return modeler_told(status, phi, (size_t)EVRA_JOINTS * EVRA_BASE_PARAMETERS);
+    return modeler_told(status, phi, EVRA_JOINTS * EVRA_BASE_PARAMETERS);
 }
 
 int evra_state(const double *q, const double *qd, const double *previous,

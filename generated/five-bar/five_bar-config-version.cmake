@@ -1,6 +1,6 @@
 # find_package(five_bar) takes any, find_package(five_bar 2) any of this C interface,
-# find_package(five_bar 2.10182.19127.54385) only what has the signature 27c64ab7d471a8df.
-set(PACKAGE_VERSION 2.10182.19127.54385)
+# find_package(five_bar 2.23710.2457.14417) only what has the signature 5c9e099938514890.
+set(PACKAGE_VERSION 2.23710.2457.14417)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "27c64ab7d471a8df"
-#define FIVE_BAR_SIGNATURE_1 0x27c64ab7u
-#define FIVE_BAR_SIGNATURE_2 0xd471a8dfu
+#define FIVE_BAR_SIGNATURE "5c9e099938514890"
+#define FIVE_BAR_SIGNATURE_1 0x5c9e0999u
+#define FIVE_BAR_SIGNATURE_2 0x38514890u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in five_bar_generator.h. */

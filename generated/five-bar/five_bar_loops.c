@@ -106,7 +106,7 @@ static void base_rows(struct five_bar_posture *p, double *rows, const double *qd
 
 const char *five_bar_signature(void)
 {
-    return "27c64ab7d471a8df";
+    return "5c9e099938514890";
 }
 
 int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int next,
@@ -127,7 +127,7 @@ int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int
     if (status == MODELER_CLOSED) {
         base_rows(p, rows, qd, qdd, phi);
     }
-    return modeler_told(status, phi, (size_t)FIVE_BAR_JOINTS * FIVE_BAR_BASE_PARAMETERS);
+    return modeler_told(status, phi, FIVE_BAR_JOINTS * FIVE_BAR_BASE_PARAMETERS);
 }
 
 int five_bar_state(const double *q, const double *qd, const double *previous,

@@ -16,6 +16,7 @@
 
 #include "modeler_kept.h"
 #include "modeler_runtime.h"
+#include "modeler_solve.h"
 #include "modeler_status.h"
 
 #ifdef __cplusplus
@@ -129,13 +130,6 @@ void modeler_project_more(const modeler_closure *loops, const modeler_real *G,
 /* out += A x: A is rows x inner, x is inner x width. */
 void modeler_apply_more(const modeler_real *A, int rows, int inner, const modeler_real *x,
                         int width, modeler_real *out);
-
-/* 1 if all are finite. */
-int modeler_finite(const modeler_real *x, size_t length);
-
-/* What a function returns: the status, or MODELER_NOT_FINITE. Unless it is MODELER_CLOSED, `out` is
- * all NaN then. */
-int modeler_told(int status, modeler_real *out, size_t length);
 
 #ifdef __cplusplus
 }

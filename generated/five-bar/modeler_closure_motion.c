@@ -188,24 +188,3 @@ void modeler_apply_more(const modeler_real *A, int rows, int inner, const modele
         }
     }
 }
-
-int modeler_finite(const modeler_real *x, size_t length)
-{
-    for (size_t i = 0; i < length; i++) {
-        if (!isfinite(x[i])) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-int modeler_told(int status, modeler_real *out, size_t length)
-{
-    if (status == MODELER_CLOSED && !modeler_finite(out, length)) {
-        status = MODELER_NOT_FINITE;
-    }
-    for (size_t i = 0; i < length && status != MODELER_CLOSED; i++) {
-        out[i] = NAN;
-    }
-    return status;
-}

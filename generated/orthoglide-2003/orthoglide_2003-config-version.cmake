@@ -1,6 +1,6 @@
 # find_package(orthoglide_2003) takes any, find_package(orthoglide_2003 2) any of this C interface,
-# find_package(orthoglide_2003 2.56965.15226.20605) only what has the signature de853b7a507de556.
-set(PACKAGE_VERSION 2.56965.15226.20605)
+# find_package(orthoglide_2003 2.52006.15126.36370) only what has the signature cb263b168e1216d9.
+set(PACKAGE_VERSION 2.52006.15126.36370)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -128,7 +128,7 @@ static void base_rows(struct orthoglide_2003_posture *p, double *rows, const dou
 
 const char *orthoglide_2003_signature(void)
 {
-    return "de853b7a507de556";
+    return "cb263b168e1216d9";
 }
 
 int orthoglide_2003_tree_next(const double *q, const double *qd, const double *qdd, int next,
@@ -149,7 +149,7 @@ int orthoglide_2003_tree_next(const double *q, const double *qd, const double *q
     if (status == MODELER_CLOSED) {
         base_rows(p, rows, qd, qdd, phi);
     }
-    return modeler_told(status, phi, (size_t)ORTHOGLIDE_2003_JOINTS * ORTHOGLIDE_2003_BASE_PARAMETERS);
+    return modeler_told(status, phi, ORTHOGLIDE_2003_JOINTS * ORTHOGLIDE_2003_BASE_PARAMETERS);
 }
 
 int orthoglide_2003_state(const double *q, const double *qd, const double *previous,

@@ -128,7 +128,7 @@ static void base_rows(struct orthoglide_2012_posture *p, double *rows, const dou
 
 const char *orthoglide_2012_signature(void)
 {
-    return "240bdab962c21cbb";
+    return "cc36a9ec705f11ad";
 }
 
 int orthoglide_2012_tree_next(const double *q, const double *qd, const double *qdd, int next,
@@ -149,7 +149,7 @@ int orthoglide_2012_tree_next(const double *q, const double *qd, const double *q
     if (status == MODELER_CLOSED) {
         base_rows(p, rows, qd, qdd, phi);
     }
-    return modeler_told(status, phi, (size_t)ORTHOGLIDE_2012_JOINTS * ORTHOGLIDE_2012_BASE_PARAMETERS);
+    return modeler_told(status, phi, ORTHOGLIDE_2012_JOINTS * ORTHOGLIDE_2012_BASE_PARAMETERS);
 }
 
 int orthoglide_2012_state(const double *q, const double *qd, const double *previous,

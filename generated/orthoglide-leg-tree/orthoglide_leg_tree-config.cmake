@@ -1,5 +1,5 @@
 # find_package(orthoglide_leg_tree) gives the targets orthoglide_leg_tree::orthoglide_leg_tree and orthoglide_leg_tree::batch: the kind that BUILD_SHARED_LIBS asks for, else the
-# other; COMPONENTS static or shared insists. orthoglide_leg_tree_SIGNATURE is what orthoglide_leg_tree_signature() returns.
+# other; COMPONENTS static or shared insists. orthoglide_leg_tree_SIGNATURE is that of the whole folder.
 set(orthoglide_leg_tree_SIGNATURE 7bc3080934463271)
 
 if(orthoglide_leg_tree_FIND_COMPONENTS)

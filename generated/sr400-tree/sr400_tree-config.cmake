@@ -1,5 +1,5 @@
 # find_package(sr400_tree) gives the targets sr400_tree::sr400_tree and sr400_tree::batch: the kind that BUILD_SHARED_LIBS asks for, else the
-# other; COMPONENTS static or shared insists. sr400_tree_SIGNATURE is what sr400_tree_signature() returns.
+# other; COMPONENTS static or shared insists. sr400_tree_SIGNATURE is that of the whole folder.
 set(sr400_tree_SIGNATURE 858526820bb95c64)
 
 if(sr400_tree_FIND_COMPONENTS)

@@ -1,5 +1,5 @@
 # find_package(sr400) gives the targets sr400::sr400 and sr400::batch: the kind that BUILD_SHARED_LIBS asks for, else the
-# other; COMPONENTS static or shared insists. sr400_SIGNATURE is what sr400_signature() returns.
+# other; COMPONENTS static or shared insists. sr400_SIGNATURE is that of the whole folder.
 set(sr400_SIGNATURE 18bd5b6b125ba37c)
 
 if(sr400_FIND_COMPONENTS)

@@ -1,5 +1,5 @@
 # find_package(wrist) gives the targets wrist::wrist and wrist::batch: the kind that BUILD_SHARED_LIBS asks for, else the
-# other; COMPONENTS static or shared insists. wrist_SIGNATURE is what wrist_signature() returns.
+# other; COMPONENTS static or shared insists. wrist_SIGNATURE is that of the whole folder.
 set(wrist_SIGNATURE ca9e32086a96b4fa)
 
 if(wrist_FIND_COMPONENTS)

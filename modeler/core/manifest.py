@@ -27,7 +27,8 @@ BATCH_RUNTIME = ("modeler_batch.h", "modeler_batch.c")
 """Loops over samples, which a controller has no use for."""
 
 CLOSURE_RUNTIME = (
-    "modeler_status.h", "modeler_kept.h", "modeler_closure.h", "modeler_workspace.h",
+    "modeler_status.h", "modeler_solve.h", "modeler_kept.h", "modeler_closure.h",
+    "modeler_workspace.h",
     "modeler_closure.c", "modeler_closure_factor.c", "modeler_closure_motion.c",
 )  # fmt: skip
 """Those that stand beside a robot with loops."""

@@ -47,7 +47,9 @@ def known_frames(robot: Robot) -> dict[str, LinkFrame | None]:
 
 
 def body_frame(model: SymbolicModel, name: str = "") -> BodyFrame:
-    """The frame of that name; of the tool without one, which is the last row's where none is.
+    """The frame of that name; without one that of the tool.
+
+    Where the robot states none, that of the platform, or of the last row.
 
     Raises:
         DerivationError: no frame has the name.
@@ -59,7 +61,7 @@ def body_frame(model: SymbolicModel, name: str = "") -> BodyFrame:
             f'frame "{name}": {robot.name} has none of that name; expected {", ".join(known)}'
         )
     link = known[name] if name else robot.tool
-    row = link.row if link else name or names[-1]
+    row = link.row if link else name or (*names, *robot.platform)[-1]
     return BodyFrame(names.index(row), *_on_row(model, link))
 
 
