@@ -26,7 +26,7 @@ def main(words: list[str] | None = None) -> int:
     if asked.list:
         for line in lines:
             for key in line.keys:
-                print(f"{key.name:<48}{key.unit:<4}{key.meaning}")
+                print(f"{key.name:<50}{key.unit:<4}{key.meaning}")
         return 0
     if not lines:
         print(f"benchmarks: no line matches {' '.join(asked.only)}; see --list", file=sys.stderr)
@@ -50,7 +50,7 @@ def measured(lines: list[Line], quick: bool, place: Path | None = None) -> dict[
                 report["missing"][key.name] = str(value)
             else:
                 told = f"{value:.4g} {key.unit}"
-            print(f"{key.name:<48}{told}", flush=True)
+            print(f"{key.name:<50}{told}", flush=True)
         report["seconds"] = round(time.perf_counter() - start, 1)
         if place is not None:
             place.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
