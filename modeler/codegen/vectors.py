@@ -43,7 +43,7 @@ _DIRECT = Closed("poses", "", "q")
 """Stands for what a tree's functions are: no loops are closed."""
 
 _BITS = 192
-_MANY, _DIGITS, _MANY_BITS = 50, 50, 320
+_MANY, _DIGITS, _MANY_BITS = 50, 50, 448
 _FINE = 2.0**-14  # rad or m
 _REACHES = (0.1, 0.02, 0.004)  # rad, or share of the robot's size; near a singularity, the last
 _SEED = 5

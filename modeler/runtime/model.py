@@ -39,6 +39,9 @@ class _Functions(dict[str, FunctionSpec]):
         super().__init__({f.name.removeprefix(start): f for f in spec.every_function})
         self._spec = spec
 
+    def __repr__(self) -> str:
+        return f"<{len(self)} functions of {self._spec.robot}>"
+
     def __missing__(self, role: str) -> FunctionSpec:
         some = "; it was generated with --only: generate it without" * (
             self._spec.units is not None

@@ -188,7 +188,7 @@ def test_load_opens_by_what_is_in_the_file(model: md.Model, tmp_path: Path) -> N
 def test_the_c_has_its_values_and_no_paths(model: md.Model, tmp_path: Path) -> None:
     emitted = model.to_c(tmp_path / "c")
     texts = [p.read_text() for p in (tmp_path / "c").rglob("*") if p.is_file()]
-    assert emitted.code == md.generate(model).code
+    assert md.generate(model).code.items() <= emitted.code.items()
     assert any(f"{model['Fv1'].value:.6g}"[:6] in text for text in texts)
     assert not any("mon.parquet" in text for text in texts)
 

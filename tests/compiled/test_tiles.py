@@ -105,8 +105,10 @@ def python_of(text: str, geometry: dict, q, qd, qdd) -> dict[int, np.ndarray]:
         assert initial
         names[name] = geometry[symbol]
     body = text.split("(entries)(", 1)[1].split("{\n", 1)[1].split("\n}\n", 1)[0]
-    for line in body.splitlines():
-        line = re.sub(r"^ *(const (double|modeler_lanes) )?", "", line).removesuffix(";")
+    body = re.sub(r"/\*.*?\*/", "", body, flags=re.DOTALL)
+    for statement in body.split(";"):
+        line = " ".join(statement.split())
+        line = re.sub(r"^ *(const (double|modeler_lanes) )?", "", line)
         line = re.sub(r"^MODELER_PUT\((\d+)\)", r"found[\1]", line)
         pair = re.fullmatch(r"modeler_lanes_sincos\((.*), &(\w+), &(\w+)\)", line)
         if pair:

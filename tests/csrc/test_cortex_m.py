@@ -22,7 +22,7 @@ from tests.modules import loaded, states
 LIMITS = {"puma560": 4300, "panda": 7000}
 """Bytes of the compact regressor of the base parameters, sines and cosines included, at most."""
 
-FLOAT_FUNCTIONS = {"memset", "memcpy", "sqrtf", "fminf", "tanf", "tanhf", "expf", "powf"}
+FLOAT_FUNCTIONS = {"memset", "memcpy", "memmove", "sqrtf", "fminf", "tanf", "tanhf", "expf", "powf"}
 """What a library in single precision may want; with __aeabi_ names it would be soft floats."""
 
 
