@@ -272,9 +272,7 @@ def _functions_of(
 ) -> Sequence[CFunction]:
     frame = derivation.body_frame(model, name)
     row, n = model.robot.joints[frame.row].name, model.geometry.coordinates
-    of = (
-        f"frame {name}" if name else "the tool" if model.robot.tool else f"the frame of row {row}"
-    )
+    of = f"frame {name}" if name else "the tool" if model.robot.tool else f"the frame of row {row}"
     of = layout.comment_text(of)
     speed, turn = "rows 0-2 velocity of its origin, 3-5 angular", "in axes of frame 0"
 

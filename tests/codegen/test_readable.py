@@ -25,7 +25,9 @@ def names_of(files) -> list[str]:
     own = [t for name, t in files.items() if re.fullmatch(r"(?!modeler)\w+\.c", name)]
     found = [name for text in own for name in _CONSTANT.findall(text)]
     return [
-        name for name in found if not re.fullmatch(r"(q|qd|qdd|s)_\d+|none|\w+_(geo|width)_\w+", name)
+        name
+        for name in found
+        if not re.fullmatch(r"(q|qd|qdd|s)_\d+|none|\w+_(geo|width)_\w+", name)
     ]
 
 
