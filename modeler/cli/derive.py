@@ -365,7 +365,7 @@ def run_generate(args: argparse.Namespace) -> Json:
             "was edited since, so it stays: remove it, or keep it elsewhere"
         )
     result = {"robot": spec.robot, "folder": args.out, "files": sorted(emitted.files)}
-    if spec.control is not None:
+    if spec.control is not None and spec.control.functions:
         say(f"for controllers, in {spec.prefix}_control.h:")
         say_lines(map(_function_line, spec.control.functions), "  ")
     if fitted is None:

@@ -85,7 +85,11 @@ int main(int, char **argv)
     }
     q[0] = NAN;
     const int status = control.update(q, qd, Reference{}, tau);
-    std::printf("%.17g %.17g %d %g\\n", worst, largest, status, tau[0]);
+    const double left = tau[0];
+    q[0] = 0.1;
+    control.limit[0] = NAN;
+    const int unlimited = control.update(q, qd, Reference{}, tau);
+    std::printf("%.17g %.17g %d %g %d %g\\n", worst, largest, status, left, unlimited, tau[0]);
 }
 """
 
@@ -198,10 +202,10 @@ def test_the_core_tracks_a_motion_without_ros(package, tmp_path) -> None:
         run("gcc", "-std=c99", "-O1", "-c", source, "-o", tmp_path / f"{source.stem}.o")
     run("g++", "-std=c++17", "-O1", *WARNED, "-I", folder / "src", tmp_path / "harness.cpp",
         *tmp_path.glob("*.o"), "-o", tmp_path / "harness")  # fmt: skip
-    right, largest, status, left = map(float, run(tmp_path / "harness", 1.0, 0.0).split())
+    right, largest, *told = map(float, run(tmp_path / "harness", 1.0, 0.0).split())
     wrong = float(run(tmp_path / "harness", 0.7, 0.0).split()[0])
     assert right < 2e-3 < wrong  # rad; it begins 0.1 rad away
-    assert (status, left) == (3.0, 0.0)
+    assert told == [3.0, 0.0, 3.0, 0.0]  # a position, then a limit that is no number
     limited = float(run(tmp_path / "harness", 1.0, largest / 3).split()[1])
     assert limited == pytest.approx(largest / 3, rel=1e-5)
 

@@ -102,6 +102,30 @@ def motion(spec: ModuleSpec, t: np.ndarray, seed: int) -> tuple[np.ndarray, ...]
     return q, size * w * np.cos(angle), -size * w**2 * np.sin(angle)
 
 
+@pytest.mark.parametrize("name", ["five-bar", pytest.param("delta", marks=IN_TURN)])
+def test_memory_of_zeros_is_no_state_and_a_first_cycle_that_fails_does_no_harm(name, robots):
+    robot = robots(name)
+    fresh = robot._replace(memory=ctypes.create_string_buffer(len(robot.memory)))
+    n, u = len(robot.spec.joints), len(robot.spec.closure.home)
+    q, qd, qdd = (x[0] for x in motion(robot.spec, np.zeros(1), seed=3))
+    beta = np.ones(len(robot.spec.base))
+
+    def refused() -> bool:
+        calls = [
+            fresh.call("gravity_at", beta, out=(n,)),
+            fresh.call("inverse_dynamics_at", qdd, beta, out=(n,)),
+            fresh.call("coupling_rate_at", out=(u, n)),
+        ]
+        return all(status != 0 and np.isnan(out).all() for status, out in calls)
+
+    assert refused()
+    assert fresh.state(np.full(n, np.nan), qd) == 3 and refused()
+    assert fresh.state(np.full(n, 1e3), qd) in (1, 4) and refused()
+    assert fresh.state(q, qd) == 0  # from its own last posture, which is none: from home
+    status, torque = fresh.call("gravity_at", beta, out=(n,))
+    assert status == 0 and np.isfinite(torque).all()
+
+
 @pytest.mark.parametrize("name", ROBOTS)
 def test_one_cycle_of_a_controller_at_1_khz_evaluates_the_loops_at_most_4_times(name, robots):
     """Torques, M, g, C, friction and regressor together; they are those of the plain functions."""
