@@ -417,7 +417,8 @@ class Oracle:
     def _placed(self, frame: LinkFrame | None, row: str | None) -> tuple[str, np.ndarray]:
         """(row, pose on it)."""
         if frame is None:
-            return row or self.robot.joints[-1].name, np.eye(4)
+            last = self.robot.platform or [joint.name for joint in self.robot.joints]
+            return row or last[-1], np.eye(4)
         x = [e.number(self.symbols) for e in frame.position]
         roll, pitch, yaw = (e.number(self.symbols) for e in frame.angles)
         T = _moved(_rotation(2, yaw) @ _rotation(1, pitch) @ _rotation(0, roll), x)
