@@ -196,7 +196,10 @@ class DataScreen(ProjectLogs):
             if not self.live and hub.running is not None and hub.gives_way:
                 hub.running.cancel()
 
-        while self.live and hub.running is None and not studio.read_only:
+        while self.live and not studio.read_only:
+            if hub.running is not None:  # maybe what the screen before this one asked for
+                await asyncio.sleep(0.1)
+                continue
             every = (commands.look(studio.project, file) for file in self.logs)
             left = [a for a in every if a.words not in failed and self._unseen(a.words)]
             if not left:
