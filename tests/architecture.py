@@ -85,8 +85,8 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 22  # the workbench in the browser
-MOST_MODULES = 412  # everything a controller calls, three doors
-MOST_CODE_LINES = 67_830  # everything a controller calls, three doors
+MOST_MODULES = 422  # the last rows of the papers
+MOST_CODE_LINES = 69_515  # the last rows of the papers, the last seconds
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.
