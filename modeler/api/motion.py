@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from modeler import excitation, simulation
+from modeler.api.clearance import with_clearance
 from modeler.api.workflow import compile_model, derive, generate, recompile
 from modeler.core.errors import DataError
 from modeler.effects import effect_named
@@ -23,7 +24,7 @@ from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
 Progress = Callable[[float], None]
 
 
-def _no_progress(share: float) -> None:
+def no_progress(share: float) -> None:
     """Nobody looks."""
 
 
@@ -47,11 +48,15 @@ class Subject:
     cutoff: float = 0.0
 
     def search(
-        self, bounds: excitation.Bounds, wish: excitation.Wish, progress: Progress = _no_progress
+        self,
+        bounds: excitation.Bounds,
+        wish: excitation.Wish,
+        progress: Progress = no_progress,
+        known: excitation.Known | None = None,
     ) -> excitation.Exciting:
         """The motion that tells its parameters apart."""
         return excitation.excite(
-            self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress
+            self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress, known
         )
 
     def check_forecast(self, where: str = "") -> None:
@@ -64,6 +69,11 @@ class Subject:
 
     def forecast(self, motion: excitation.Exciting, rate: float, encoders: "Encoders") -> FitResult:
         """What a fit would say of a log of a motion; see `forecast`."""
+        log = self.forecast_log(motion, rate, encoders)
+        return identify(observe(self.compiled, [log]), "weighted", self.compiled)
+
+    def forecast_log(self, motion: excitation.Exciting, rate: float, encoders: "Encoders") -> Log:
+        """The log of a motion that is to be expected."""
         self.check_forecast()
         assert self.sigma is not None and self.beta is not None
         spec, moves = self.compiled.spec, motion.sampled(rate)
@@ -76,12 +86,11 @@ class Subject:
         driven = [joint.actuated for joint in spec.joints]
         tau = self.compiled.inverse_dynamics(q, qd, qdd, self.beta, read)
         tau = tau + driven * self.sigma * np.sqrt(power) * rng.normal(size=q.shape)
-        log = Log(
+        return Log(
             "forecast", tuple(names), moves["time"],
             encoders.read(q, [joint.unit for joint in spec.joints], rng), tau,
             extra={"temperature": np.zeros(len(q))},
         )  # fmt: skip
-        return identify(observe(self.compiled, [log]), "weighted", self.compiled)
 
 
 @dataclass(frozen=True)
@@ -90,20 +99,20 @@ class Encoders:
 
     Attributes:
         counts: per turn of a revolute joint; 0: exact.
-        noise: standard deviation of white noise besides, rad or m.
+        noise: standard deviation of white noise besides, rad or m; (J,) if joints differ.
     """
 
     counts: int = 0
-    noise: float = 0.0
+    noise: Any = 0.0
 
     def read(self, q: np.ndarray, units: Sequence[str], rng: np.random.Generator) -> np.ndarray:
         """(n, J) positions as they are logged of exact ones (n, J)."""
-        if self.counts < 0 or not 0.0 <= self.noise < math.inf:
+        noise = np.asarray(self.noise, dtype=float)
+        if self.counts < 0 or not np.all((noise >= 0.0) & np.isfinite(noise)):
             raise DataError(
-                f"encoders of {self.counts} counts and noise {self.noise:g}: expected neither "
-                "below 0"
+                f"encoders of {self.counts} counts and noise {self.noise}: expected neither below 0"
             )
-        seen = q + self.noise * rng.normal(size=q.shape)
+        seen = q + noise * rng.normal(size=q.shape)
         step = np.array([2.0 * np.pi if unit == "rad" else 0.0 for unit in units])
         step = step / self.counts if self.counts else np.zeros(len(units))
         return np.where(step > 0.0, np.round(seen / np.where(step > 0.0, step, 1.0)) * step, seen)
@@ -135,7 +144,8 @@ def excite(
     *,
     limits: Mapping[str, Sequence[float]] | None = None,
     boxes: Mapping[str, Sequence[float]] | None = None,
-    progress: Progress = _no_progress,
+    clearance: float | None = None,
+    progress: Progress = no_progress,
     **wish: Any,
 ) -> excitation.Exciting:
     """A motion within limits along which the parameters are well told apart (docs/excitation.md).
@@ -148,6 +158,8 @@ def excite(
         limits: joint -> lower, upper, speed, acceleration and, if wanted, torque, SI; in place of
             those of the robot file.
         boxes: frame -> x0, x1, y0, y1, z0, z1 in frame 0, m, that its origin stays in.
+        clearance: m that links keep from each other and from planes; None: 0.01 if the robot file
+            has [capsules], else they are not looked at.
         progress: called with the share done, 0 to 1.
         wish: of `excite.search.Wish`: duration [s], harmonics, criterion, starts, seed ...
 
@@ -156,8 +168,8 @@ def excite(
         RobotError: an empty range.
     """
     subject = subject_of(thing)
-    bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
-    return subject.search(bounds, _wish(bounds, wish), progress)
+    bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {}, clearance)
+    return subject.search(bounds, wish_of(bounds, wish), progress)
 
 
 def forecast(
@@ -197,7 +209,7 @@ def tell_apart(
     *,
     limits: Mapping[str, Sequence[float]] | None = None,
     boxes: Mapping[str, Sequence[float]] | None = None,
-    progress: Progress = _no_progress,
+    progress: Progress = no_progress,
     **wish: Any,
 ) -> tuple[excitation.Exciting, excitation.Separation]:
     """The motion along which two effects that the model lacks are least alike.
@@ -217,10 +229,13 @@ def tell_apart(
     subject = subject_of(model)
     bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
     question = question_of(subject, f"{first},{second}", "tell_apart:")
-    return excitation.tell_apart(subject.compiled, bounds, _wish(bounds, wish), question, progress)
+    return excitation.tell_apart(
+        subject.compiled, bounds, wish_of(bounds, wish), question, progress
+    )
 
 
-def _wish(bounds: excitation.Bounds, given: Mapping[str, Any]) -> excitation.Wish:
+def wish_of(bounds: excitation.Bounds, given: Mapping[str, Any]) -> excitation.Wish:
+    """A wish by the names of its fields."""
     known = [field.name for field in dataclasses.fields(excitation.Wish)]
     for name in given:
         if name not in known:
@@ -274,6 +289,7 @@ def bounds_of(
     compiled: CompiledModel,
     limits: Mapping[str, Sequence[float]],
     boxes: Mapping[str, Sequence[float]],
+    clearance: float | None = None,
 ) -> excitation.Bounds:
     """The limits of the robot file, with those that are given in their place.
 
@@ -282,6 +298,7 @@ def bounds_of(
         compiled: the same.
         limits: as of `excite`.
         boxes: as of `excite`.
+        clearance: as of `excite`.
 
     Raises:
         DataError: another number of values, or no number; a joint or frame that is not there.
@@ -315,7 +332,7 @@ def bounds_of(
         name: _checked("boxes", name, given, moving, (6,), "x0, x1, y0, y1, z0, z1")
         for name, given in boxes.items()
     }
-    return excitation.Bounds(
+    bounds = excitation.Bounds(
         tuple(coordinates), lower, upper, speed, acceleration,
         torque=np.array([torques.get(name, np.inf) for name in coordinates]),
         boxes=tuple(
@@ -324,6 +341,7 @@ def bounds_of(
         ),
         passive=tuple(passive), home=home,
     )  # fmt: skip
+    return with_clearance(robot, compiled, bounds, clearance)
 
 
 def _checked(

@@ -1,4 +1,14 @@
-from .criterion import condition as condition, signals as signals
+from .clearance import (
+    BASE as BASE,
+    Clearance as Clearance,
+    Nearest as Nearest,
+    Plane as Plane,
+    Solids as Solids,
+    drawn_postures as drawn_postures,
+    nearest as nearest,
+    without_neighbours as without_neighbours,
+)
+from .criterion import Known as Known, condition as condition, signals as signals
 from .motion import Bounds as Bounds, Box as Box
 from .result import (
     Exciting as Exciting,

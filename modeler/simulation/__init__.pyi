@@ -20,6 +20,7 @@ from .settings import (
 from .trajectory import (
     Reference as Reference,
     at_rate as at_rate,
+    curve_of as curve_of,
     motion_limits as motion_limits,
     read_motion as read_motion,
 )
