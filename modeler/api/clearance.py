@@ -1,13 +1,13 @@
 """Whether links run into each other: capsules of a robot, and the nearest two along a motion."""
 
 import dataclasses
+import itertools
 import math
 from pathlib import Path
 
 import numpy as np
 
 from modeler import excitation, exports, simulation
-from modeler.api.workflow import compile_model, derive, generate
 from modeler.core.errors import DataError
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel
@@ -38,10 +38,10 @@ def with_clearance(
         margin = USUAL
     if not 0.0 <= margin < math.inf:
         raise DataError(f"clearance: got {margin:g} m; expected 0 or more")
+    ranges = np.stack([bounds.lower, bounds.upper])
     solids = _solids(robot, compiled)
-    drawn = excitation.drawn_postures(bounds.lower, bounds.upper)
-    clearance = excitation.without_neighbours(compiled, solids, margin, drawn, bounds.home)
-    return dataclasses.replace(bounds, clearance=clearance)
+    found = excitation.without_neighbours(compiled, solids, margin, ranges, bounds.home)
+    return dataclasses.replace(bounds, clearance=found)
 
 
 def _solids(robot: Robot, compiled: CompiledModel) -> excitation.Solids:
@@ -49,57 +49,39 @@ def _solids(robot: Robot, compiled: CompiledModel) -> excitation.Solids:
     moving, closure = [joint.name for joint in robot.moving], compiled.spec.closure
     at = {} if closure is None else dict(zip(closure.variables, closure.home, strict=True))
     shapes = exports.capsules_on_links(robot, at)
-    on = {row: carrier for row, carrier, _ in shapes}
-    links = [carrier for _, carrier, _ in shapes]
-    joined = {(on.get(j.name), on.get(j.antecedent)) for j in robot.joints}
-    joined |= {(on.get(loop.frame), on.get(loop.meets)) for loop in robot.loops}
+    on, links = {row: carrier for row, carrier, _ in shapes}, [carrier for _, carrier, _ in shapes]
+    joined = {frozenset((on.get(j.name), on.get(j.antecedent))) for j in robot.joints}
+    joined |= {frozenset((on.get(loop.frame), on.get(loop.meets))) for loop in robot.loops}
     pairs = [
         (i, k)
-        for k, other in enumerate(links)
-        for i, one in enumerate(links[:k])
-        if one != other and (one, other) not in joined and (other, one) not in joined
+        for i, k in itertools.combinations(range(len(links)), 2)
+        if links[i] != links[k] and frozenset((links[i], links[k])) not in joined
     ]
-    planes = [excitation.Plane(name, v[:3], v[3]) for name, v in robot.planes.items()]
-    flat = [(i, k) for i, link in enumerate(links) if link in moving for k in range(len(planes))]
+    moves = [i for i, link in enumerate(links) if link in moving]
+    pairs += [(i, len(links) + k) for i in moves for k in range(len(robot.planes))]
+    planes = np.array([*robot.planes.values()]).reshape(-1, 4)
+    planes /= np.linalg.norm(planes[:, :3], axis=1)[:, None]
     places = [moving.index(link) if link in moving else excitation.BASE for link in links]
     return excitation.Solids(
-        tuple("base" if row == "0" else row for row, *_ in shapes), np.array(places),
+        (*("base" if row == "0" else row for row, *_ in shapes), *robot.planes),
+        np.array(places + [excitation.BASE] * len(planes)),
         np.array([(shape.start, shape.end) for *_, shape in shapes]),
-        np.array([shape.radius for *_, shape in shapes]), tuple(planes),
-        np.array(pairs, dtype=int).reshape(-1, 2), np.array(flat, dtype=int).reshape(-1, 2),
+        np.array([shape.radius for *_, shape in shapes] + [0.0] * len(planes)),
+        planes[:, :3], planes[:, 3], np.array(pairs, dtype=int).reshape(-1, 2),
     )  # fmt: skip
 
 
 def nearest_along(
     compiled: CompiledModel, clearance: excitation.Clearance, path: str | Path
 ) -> excitation.Nearest | None:
-    """The nearest two along the motion of a file; None if there are none to look at."""
-    names = [joint.name for joint in compiled.spec.joints]
-    motion = simulation.read_motion(path, names)
-    curve = simulation.curve_of(motion)
-    return excitation.nearest(compiled, clearance.solids, curve, float(motion.time[-1]))
-
-
-def check_motion(
-    robot: Robot, path: str | Path, *, clearance: float = USUAL
-) -> excitation.Nearest | None:
-    """Where a motion brings two links, or a link and a plane, closest to each other.
-
-    >>> excite(robot, duration=4.0, harmonics=2, starts=1).write("next.csv", rate=100.0)
-    >>> check_motion(robot, "next.csv") is None  # its two links share a joint
-    True
-
-    Args:
-        robot: its [capsules] are what links fill; without, as `modeler show` draws them.
-        path: of a motion or log, .csv or .parquet; commanded positions, if it has them.
-        clearance: m; pairs that are nearer in all postures are left out.
+    """The nearest two along the motion of a file; None if there are none to look at.
 
     Raises:
         DataError: the file has no motion of this robot.
     """
-    from modeler.api.motion import bounds_of
-
-    compiled = compile_model(generate(derive(robot)))
-    bounds = bounds_of(robot, compiled, {}, {}, clearance)
-    assert bounds.clearance is not None
-    return nearest_along(compiled, bounds.clearance, path)
+    if not len(clearance.solids.pairs):
+        return None
+    names = [joint.name for joint in compiled.spec.joints]
+    motion = simulation.read_motion(path, names)
+    curve = simulation.curve_of(motion)
+    return excitation.nearest(compiled, clearance.solids, curve, float(motion.time[-1]))

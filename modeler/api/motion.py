@@ -10,13 +10,15 @@ from typing import Any
 import numpy as np
 
 from modeler import excitation, simulation
-from modeler.api.clearance import with_clearance
-from modeler.api.workflow import compile_model, derive, generate, recompile
+from modeler.api.clearance import USUAL, nearest_along, with_clearance
+from modeler.api.fitting import processing_of
+from modeler.api.log_maps import Mapped
+from modeler.api.workflow import Logs, compile_model, derive, generate, listed, read_logs, recompile
 from modeler.core.errors import DataError
 from modeler.effects import effect_named
 from modeler.estimation import FitResult, IdentifiedModel, identify
 from modeler.numerics.filters import BANDWIDTH
-from modeler.observation import Log, observe
+from modeler.observation import Log, Observation, Processing, check_apart, observe
 from modeler.robot import Limits, Robot, near, robot_from_text
 from modeler.runtime import CompiledModel
 from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
@@ -24,7 +26,7 @@ from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
 Progress = Callable[[float], None]
 
 
-def no_progress(share: float) -> None:
+def _no_progress(share: float) -> None:
     """Nobody looks."""
 
 
@@ -51,7 +53,7 @@ class Subject:
         self,
         bounds: excitation.Bounds,
         wish: excitation.Wish,
-        progress: Progress = no_progress,
+        progress: Progress = _no_progress,
         known: excitation.Known | None = None,
     ) -> excitation.Exciting:
         """The motion that tells its parameters apart."""
@@ -139,13 +141,84 @@ def subject_of(thing: Robot | IdentifiedModel) -> Subject:
     return Subject(robot, recompile(thing), sigma if known else None, kept, thing.beta, cutoff)
 
 
+@dataclass(frozen=True, eq=False)
+class Recorded:
+    """Logs that there are, and what their fit says.
+
+    Attributes:
+        subject: the robot, with the noise and values of that fit.
+        logs: as read.
+        observation, fit: of them.
+        processing: that a fit of more logs begins with.
+    """
+
+    subject: Subject
+    logs: list[Log]
+    observation: Observation
+    fit: FitResult
+    processing: Processing
+
+    @property
+    def known(self) -> excitation.Known:
+        """Their information W'S^-1 W, as a triangle, and how many rows a second has."""
+        seen = self.observation
+        sigma = np.array([joint.sigma for joint in self.fit.joints])[seen.row_joint]
+        used = sigma > 0.0
+        steps = np.diff(seen.time)[np.diff(seen.segment) == 0]
+        R = np.asarray(np.linalg.qr(seen.W[used] / sigma[used, None], mode="r"))
+        return excitation.Known(R, 1.0 / float(np.median(steps)))
+
+    def extended(
+        self, motion: excitation.Exciting, rate: float, encoders: Encoders
+    ) -> excitation.Exciting:
+        """The motion, with what its log adds: by the fit of these logs and of a forecast of it."""
+        compiled = self.subject.compiled
+        if encoders == Encoders():  # as those of the logs
+            told = self.observation.report.bands.noise
+            seen = {n.joint: n.deviation for n in told if n.of == "positions"}
+            noise = [seen.get(joint.name, 0.0) for joint in compiled.spec.joints]
+            encoders = Encoders(0, np.array(noise))
+        log = self.subject.forecast_log(motion, rate, encoders)
+        both = identify(observe(compiled, [*self.logs, log], self.processing), "weighted", compiled)
+        now, then = self.fit.parameters, both.parameters
+        gain = excitation.Gain(
+            tuple(p.name for p in now), tuple(p.unit for p in now),
+            tuple(p.sigma for p in now), tuple(p.sigma for p in then),
+            tuple(log.name for log in self.logs),
+            (self.fit.condition_scaled, both.condition_scaled),
+        )  # fmt: skip
+        return dataclasses.replace(motion, gain=gain)
+
+
+def recorded(subject: Subject, logs: Logs, mapping: Mapped = ()) -> Recorded:
+    """The logs of a robot, fitted as `modeler fit` does by itself: all parameters, weighted.
+
+    Raises:
+        DataError: a log cannot be read or fitted, or rows are given twice.
+    """
+    compiled, read = subject.compiled, read_logs(subject.compiled, listed(logs), mapping)
+    check_apart(read)
+    processing = processing_of(subject.robot.fit)
+    observation = observe(compiled, read, processing)
+    fit = identify(observation, "weighted", compiled)
+    sigma = np.array([joint.sigma for joint in fit.joints])
+    subject = dataclasses.replace(
+        subject, sigma=np.where(sigma > 0.0, sigma, sigma.max()), kept=None, beta=fit.beta,
+        cutoff=fit.processing.parallel_cutoff or 0.0,
+    )  # fmt: skip
+    return Recorded(subject, read, observation, fit, processing)
+
+
 def excite(
     thing: Robot | IdentifiedModel,
+    logs: Logs = (),
     *,
+    mapping: Mapped = (),
+    rate: float = 1000.0,
     limits: Mapping[str, Sequence[float]] | None = None,
     boxes: Mapping[str, Sequence[float]] | None = None,
     clearance: float | None = None,
-    progress: Progress = no_progress,
+    progress: Progress = _no_progress,
     **wish: Any,
 ) -> excitation.Exciting:
     """A motion within limits along which the parameters are well told apart (docs/excitation.md).
@@ -155,6 +228,10 @@ def excite(
 
     Args:
         thing: a robot, or a model: then weighted as its fit, essential parameters only.
+        logs: that there are: the motion adds most to what they tell, and its `gain` says what; all
+            parameters, and criterion "information" unless another one is asked for.
+        mapping: whose column of the logs is which, over [log] of the robot file.
+        rate: samples of the next log per second.
         limits: joint -> lower, upper, speed, acceleration and, if wanted, torque, SI; in place of
             those of the robot file.
         boxes: frame -> x0, x1, y0, y1, z0, z1 in frame 0, m, that its origin stays in.
@@ -169,7 +246,12 @@ def excite(
     """
     subject = subject_of(thing)
     bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {}, clearance)
-    return subject.search(bounds, wish_of(bounds, wish), progress)
+    if not listed(logs):
+        return subject.search(bounds, _wish(bounds, wish), progress)
+    there = recorded(subject, logs, mapping)
+    asked = _wish(bounds, {"criterion": "information", **wish})
+    motion = there.subject.search(bounds, asked, progress, there.known)
+    return there.extended(motion, rate, Encoders())
 
 
 def forecast(
@@ -209,7 +291,7 @@ def tell_apart(
     *,
     limits: Mapping[str, Sequence[float]] | None = None,
     boxes: Mapping[str, Sequence[float]] | None = None,
-    progress: Progress = no_progress,
+    progress: Progress = _no_progress,
     **wish: Any,
 ) -> tuple[excitation.Exciting, excitation.Separation]:
     """The motion along which two effects that the model lacks are least alike.
@@ -229,13 +311,10 @@ def tell_apart(
     subject = subject_of(model)
     bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
     question = question_of(subject, f"{first},{second}", "tell_apart:")
-    return excitation.tell_apart(
-        subject.compiled, bounds, wish_of(bounds, wish), question, progress
-    )
+    return excitation.tell_apart(subject.compiled, bounds, _wish(bounds, wish), question, progress)
 
 
-def wish_of(bounds: excitation.Bounds, given: Mapping[str, Any]) -> excitation.Wish:
-    """A wish by the names of its fields."""
+def _wish(bounds: excitation.Bounds, given: Mapping[str, Any]) -> excitation.Wish:
     known = [field.name for field in dataclasses.fields(excitation.Wish)]
     for name in given:
         if name not in known:
@@ -357,6 +436,31 @@ def _checked(
     if len(values) not in counts or any(math.isnan(value) for value in values):
         raise DataError(f"{what} of {name}: got {given}; expected {form}, numbers in SI units")
     return values
+
+
+def check_motion(
+    robot: Robot, motion: str | Path, *, clearance: float = USUAL
+) -> excitation.Nearest | None:
+    """Where a motion brings two links, or a link and a plane, closest to each other.
+
+    >>> check_motion(robot, "mon.parquet") is None  # its two links share a joint
+    True
+
+    Args:
+        robot: its [capsules] are what links fill; without, as `modeler excite` takes them.
+        motion: file of a motion or log, .csv or .parquet; commanded positions, if it has them.
+        clearance: m; pairs that are nearer in nearly all postures are left out.
+
+    Returns:
+        None if no two are left to look at.
+
+    Raises:
+        DataError: the file has no motion of this robot.
+    """
+    compiled = compile_model(generate(derive(robot)))
+    bounds = bounds_of(robot, compiled, {}, {}, clearance)
+    assert bounds.clearance is not None
+    return nearest_along(compiled, bounds.clearance, motion)
 
 
 # Measurements by simulation.

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import modeler.api.motion as motions
 from modeler import excitation, simulation
-from modeler.api import clearance, next_motion
+from modeler.api import clearance
 from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import robot_of
 from modeler.core.builtin import MOTIONS
@@ -37,7 +37,7 @@ def run_excite(args: argparse.Namespace) -> Json:
     there = None
     if args.candidates:
         with working("fitting the logs that there are"):
-            there = next_motion.recorded(subject, args.candidates)
+            there = motions.recorded(subject, args.candidates)
         subject = there.subject
     harmonics = args.harmonics
     if harmonics is None:
@@ -53,13 +53,11 @@ def run_excite(args: argparse.Namespace) -> Json:
             motion, apart = excitation.tell_apart(subject.compiled, bounds, wish, question, bar)
             lines, extra = [*apart.lines(), *motion.lines()[2:]], {"between": apart.to_json()}
         else:
-            motion = subject.search(bounds, wish, bar, there and there.known)
+            motion = subject.search(bounds, wish, bar, there.known if there else None)
+            if there is not None:
+                motion = there.extended(motion, args.rate, encoders)
             lines = motion.lines()
-    if there is not None:
-        with working("forecasting sigmas"):
-            gain = there.sharpened(motion, args.rate, encoders)
-        lines, extra["next"] = [*lines, *gain.lines()], gain.to_json()
-    elif subject.sigma is not None:
+    if there is None and subject.sigma is not None:
         with working("forecasting sigmas"):
             told, extra["forecast"] = forecast_line(subject, motion, args.rate, encoders)
         lines.append(told)

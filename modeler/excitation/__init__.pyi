@@ -2,9 +2,7 @@ from .clearance import (
     BASE as BASE,
     Clearance as Clearance,
     Nearest as Nearest,
-    Plane as Plane,
     Solids as Solids,
-    drawn_postures as drawn_postures,
     nearest as nearest,
     without_neighbours as without_neighbours,
 )
@@ -12,6 +10,7 @@ from .criterion import Known as Known, condition as condition, signals as signal
 from .motion import Bounds as Bounds, Box as Box
 from .result import (
     Exciting as Exciting,
+    Gain as Gain,
     check_kind as check_kind,
     csv_text as csv_text,
     motion_table as motion_table,

@@ -1,8 +1,8 @@
 """Links as capsules: how near they come to each other and to planes along a motion."""
 
+import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -17,92 +17,56 @@ _ALWAYS = 0.95  # of drawn postures: links that are too near in so many are so b
 _POSTURES = 500
 
 
-@dataclass(frozen=True)
-class Plane:
-    """What stands still and is flat: a floor, a wall; free are the x of `normal x > offset`."""
-
-    name: str
-    normal: tuple[float, float, float]
-    offset: float
-
-
 @dataclass(frozen=True, eq=False)
 class Solids(Brief):
-    """A robot and its surroundings, as capsules and planes.
+    """A robot and its surroundings: k capsules, and after them planes.
 
     Attributes:
-        names: (k,) of the link of each capsule.
-        carriers: (k,) places of their rows, as `forward_kinematics` has them; `BASE`.
-        ends: (k, 2, 3) of their axes in the frames of these rows, m.
-        radius: (k,) m.
-        planes: of the surroundings.
-        pairs: (p, 2) capsules that must not meet.
-        against: (m, 2) capsule and plane that must not meet.
+        names: of the link of each capsule, then of the planes.
+        carriers: places of their rows, as `forward_kinematics` has them; `BASE`.
+        ends: (k, 2, 3) of the axes of capsules, in the frames of these rows, m.
+        radius: m; 0 of planes.
+        normals, offsets: (m, 3) and (m,) of planes: `normal x > offset` is free.
+        pairs: (p, 2) that must not meet, the capsule first.
     """
 
     names: tuple[str, ...]
     carriers: np.ndarray
     ends: np.ndarray
     radius: np.ndarray
-    planes: tuple[Plane, ...]
+    normals: np.ndarray
+    offsets: np.ndarray
     pairs: np.ndarray
-    against: np.ndarray
 
-    def who(self, column: int) -> tuple[str, str]:
-        """The two of a column of `distances`."""
-        if column < len(self.pairs):
-            one, other = self.pairs[column]
-            return self.names[one], self.names[other]
-        one, other = self.against[(column - len(self.pairs)) // 2]
-        return self.names[one], self.planes[other].name
-
-    def only(self, kept: np.ndarray) -> "Solids":
-        """Those columns of `distances` alone; both ends of a capsule stay or go together."""
-        p = len(self.pairs)
-        both = kept[p:].reshape(-1, 2).all(axis=1)
-        return Solids(self.names, self.carriers, self.ends, self.radius, self.planes,
-                      self.pairs[kept[:p]], self.against[both])  # fmt: skip
-
-    @cached_property
-    def _flat(self) -> tuple[np.ndarray, np.ndarray]:
-        """(m, 3) normals and (m,) offsets of `against`."""
-        planes = [self.planes[k] for k in self.against[:, 1]]
-        normals = np.array([plane.normal for plane in planes]).reshape(-1, 3)
-        size = np.linalg.norm(normals, axis=1)
-        return normals / size[:, None], np.array([plane.offset for plane in planes]) / size
+    def who(self, pair: int) -> tuple[str, str]:
+        """The names of a pair."""
+        one, other = self.pairs[pair]
+        return self.names[one], self.names[other]
 
     def placed(self, poses: np.ndarray) -> np.ndarray:
         """(n, k, 2, 3) ends in frame 0, of poses (n, rows, 3, 4)."""
         still = np.eye(3, 4)[None, None].repeat(len(poses), axis=0)
-        own = np.concatenate([poses, still], axis=1)[:, self.carriers]
+        own = np.concatenate([poses, still], axis=1)[:, self.carriers[: len(self.ends)]]
         return np.einsum("nkab,ksb->nksa", own[..., :3], self.ends) + own[:, :, None, :, 3]
 
     def distances(self, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(n, p + 2 m) m, below 0 where two meet, and (n, p + 2 m, 2, 3) the nearest points.
-
-        Points lie on the axes of capsules and on planes; the ends of a capsule count one by one.
+        """(n, p) m, below 0 where two meet, and (n, p, 2, 3) the nearest points of axes and planes.
 
         Args:
             ends: (n, k, 2, 3) of `placed`.
         """
-        one, other = ends[:, self.pairs[:, 0]], ends[:, self.pairs[:, 1]]
-        near = nearest_points(one, other)
-        normals, offsets = self._flat
-        tips = ends[:, self.against[:, 0]]
-        heights = np.einsum("nmsa,ma->nms", tips, normals) - offsets[:, None]
-        feet = tips - heights[..., None] * normals[:, None]
-        flat = heights - self.radius[self.against[:, 0], None]
-        n = len(ends)
-        gaps = np.linalg.norm(near[:, :, 0] - near[:, :, 1], axis=2)
-        gaps = gaps - self.radius[self.pairs].sum(axis=1)
-        points = np.stack([tips, feet], axis=3).reshape(n, -1, 2, 3)
-        return np.hstack([gaps, flat.reshape(n, -1)]), np.concatenate([near, points], axis=1)
-
-    @cached_property
-    def sides(self) -> np.ndarray:
-        """(p + 2 m, 2) capsules of the columns; -1 for a plane."""
-        flat = np.column_stack([self.against[:, 0], np.full(len(self.against), -1)])
-        return np.concatenate([self.pairs, np.repeat(flat, 2, axis=0)])
+        k, (one, other) = len(self.ends), self.pairs.T
+        flat = other >= k
+        points = np.empty((len(ends), len(self.pairs), 2, 3))
+        points[:, ~flat] = nearest_points(ends[:, one[~flat]], ends[:, other[~flat]])
+        gaps = np.linalg.norm(points[:, :, 0] - points[:, :, 1], axis=2)
+        tips, normals = ends[:, one[flat]], self.normals[other[flat] - k]
+        heights = np.einsum("nmsa,ma->nms", tips, normals) - self.offsets[other[flat] - k, None]
+        low = heights.argmin(axis=2)[:, :, None]
+        gaps[:, flat] = np.take_along_axis(heights, low, 2)[:, :, 0]
+        tip = np.take_along_axis(tips, low[..., None], 2)[:, :, 0]
+        points[:, flat] = np.stack([tip, tip - gaps[:, flat, None] * normals], axis=2)
+        return gaps - self.radius[self.pairs].sum(axis=1), points
 
 
 def nearest_points(one: np.ndarray, other: np.ndarray) -> np.ndarray:
@@ -214,18 +178,14 @@ class Clearance(Brief):
         share = np.exp((self.margin - gaps) / self.soft)
         push = (-pull * share / self.soft / np.maximum(length, 1e-12))[..., None] * apart
         moments = np.zeros(poses.shape)
-        for column, sides in enumerate(solids.sides):
-            for side, capsule in enumerate(sides):
-                carrier = BASE if capsule < 0 else solids.carriers[capsule]
-                if carrier == BASE:
-                    continue
-                pose = poses[:, carrier]
-                at = np.ones((len(q), 4))
-                at[:, :3] = np.einsum(
-                    "nba,nb->na", pose[:, :, :3], points[:, column, side] - pose[:, :, 3]
-                )
-                own = push[:, column] * (1.0 if side == 0 else -1.0)
-                moments[:, carrier] += own[:, :, None] * at[:, None, :]
+        for column, side in np.ndindex(solids.pairs.shape):
+            carrier = solids.carriers[solids.pairs[column, side]]
+            if carrier == BASE:
+                continue
+            R, p = poses[:, carrier, :, :3], poses[:, carrier, :, 3]
+            at = np.ones((len(q), 1, 4))
+            at[:, 0, :3] = np.einsum("nba,nb->na", R, points[:, column, side] - p)
+            moments[:, carrier] += (1.0 - 2.0 * side) * push[:, column, :, None] * at
         slope = np.empty_like(q)
         for j, step in enumerate(steps.tolist()):
             way = step * np.eye(len(steps))[j]
@@ -235,42 +195,34 @@ class Clearance(Brief):
 
 
 def without_neighbours(
-    compiled: CompiledModel, solids: Solids, margin: float, postures: np.ndarray,
+    compiled: CompiledModel, solids: Solids, margin: float, ranges: np.ndarray,
     home: np.ndarray | None,
 ) -> Clearance:  # fmt: skip
     """A clearance without the pairs that no motion can keep apart.
 
-    These are capsules nearer than `margin` in 95 % of the postures and, where loops are closed from
-    home, at home.
+    These are nearer than `margin` in 95 % of 500 postures that close or, where loops are closed
+    from home, at home.
 
     Args:
         compiled: the robot.
         solids: all pairs of links that share no joint.
         margin: m.
-        postures: (n, J) drawn from the ranges; those that do not close are skipped.
+        ranges: (2, J) lower and upper limits, in which postures are drawn.
         home: (J,) of a robot with loops.
     """
     whole = Clearance(solids, margin)
-    if compiled.spec.closure is not None:
-        postures = postures[compiled.closing_status(postures) == 0]
-    near = whole.shares(compiled, postures) > 1.0
-    often = near.mean(axis=0)
-    stays = often > _ALWAYS
+    q = np.random.default_rng(0).uniform(ranges[0], ranges[1], (_POSTURES, ranges.shape[1]))
+    often = (whole.shares(compiled, q[compiled.closing_status(q) == 0]) > 1.0).mean(axis=0)
+    at_home = np.zeros(len(often), dtype=bool)
     if home is not None:
-        stays |= whole.shares(compiled, home[None, :])[0] > 1.0
-    p = len(solids.pairs)
-    stays[p:] = np.repeat(stays[p:].reshape(-1, 2).any(axis=1), 2)
-    told = {}
-    for k in np.flatnonzero(stays):
-        why = f"nearer in {100.0 * often[k]:.0f} % of postures" if often[k] > _ALWAYS else "at home"
-        told[solids.who(k)] = why
-    left_out = tuple((*pair, why) for pair, why in told.items())
-    return Clearance(solids.only(~stays), margin, left_out)
-
-
-def drawn_postures(lower: np.ndarray, upper: np.ndarray) -> np.ndarray:
-    """(500, J) within ranges."""
-    return np.random.default_rng(0).uniform(lower, upper, (_POSTURES, len(lower)))
+        at_home = whole.shares(compiled, home[None, :])[0] > 1.0
+    out = at_home | (often > _ALWAYS)
+    told = {
+        solids.who(int(k)): "at home" if at_home[k] else f"in {100.0 * often[k]:.0f} % of postures"
+        for k in np.flatnonzero(out)
+    }
+    kept = dataclasses.replace(solids, pairs=solids.pairs[~out])
+    return Clearance(kept, margin, tuple((*pair, why) for pair, why in told.items()))
 
 
 # A whole motion, also between its samples.
@@ -299,26 +251,26 @@ def nearest(
         path: from times (n,) to positions (n, J).
         duration: s.
     """
-    sides, n = solids.sides, _SAMPLES
+    n = _SAMPLES
 
     def seen(times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         ends = solids.placed(compiled.forward_kinematics(path(times)))
         return ends, solids.distances(ends)[0]
 
-    def of_sides(values: np.ndarray) -> np.ndarray:
-        """Sums over both of a column, of values by capsule, planes standing still."""
-        return np.pad(values, ((0, 0), (0, 1)))[:, sides].sum(axis=2)
+    def of_pairs(values: np.ndarray) -> np.ndarray:
+        """Sums over both, of values (n, k) by capsule; planes stand still."""
+        return np.pad(values, ((0, 0), (0, len(solids.offsets))))[:, solids.pairs].sum(axis=2)
 
     times, sharp = np.linspace(0.0, duration, n), _SHARP * float(np.median(solids.radius))
     h = times[1]
     ends, gaps = seen(times)
     bend = 2.0 * np.linalg.norm(np.diff(ends, 2, axis=0), axis=3).max(axis=(0, 2)) / h**2
-    bends = of_sides(bend[None, :])
+    bends = of_pairs(bend[None, :])
     at, begin, end = times[:-1], (ends[:-1], gaps[:-1]), (ends[1:], gaps[1:])
     best = np.unravel_index(np.argmin(gaps), gaps.shape)
     least, when, column, bound = float(gaps[best]), float(times[best[0]]), int(best[1]), np.inf
     for _ in range(_ROUNDS):
-        travel = of_sides(np.linalg.norm(end[0] - begin[0], axis=3).max(axis=2))
+        travel = of_pairs(np.linalg.norm(end[0] - begin[0], axis=3).max(axis=2))
         low = (0.5 * (begin[1] + end[1] - travel) - bends * h**2 / 8.0).min(axis=1)
         open_ = low < least - sharp
         bound = min(bound, float(low[~open_].min(initial=np.inf)))
@@ -331,16 +283,15 @@ def nearest(
             least, when, column = float(gaps[best]), float(at[open_][best[0]] + h), int(best[1])
         first, last = ([part[open_] for part in side] for side in (begin, end))
         at = np.concatenate([at[open_], at[open_] + h])
-        begin = tuple(np.concatenate([a, b]) for a, b in zip(first, (ends, gaps), strict=True))
-        end = tuple(np.concatenate([a, b]) for a, b in zip((ends, gaps), last, strict=True))
+        begin = (np.concatenate([first[0], ends]), np.concatenate([first[1], gaps]))
+        end = (np.concatenate([ends, last[0]]), np.concatenate([gaps, last[1]]))
     else:
         bound = min(bound, float(low.min()))
     q = path(np.array([when]))
     points = solids.distances(solids.placed(compiled.forward_kinematics(q)))[1][0, column]
-    radii = [solids.radius[side] if side >= 0 else 0.0 for side in sides[column]]
     way = points[1] - points[0]
     way = way / max(float(np.linalg.norm(way)), 1e-12)
-    surface = points + np.array([radii[0] * way, -radii[1] * way])
+    surface = points + np.outer([1.0, -1.0] * solids.radius[solids.pairs[column]], way)
     closure = compiled.spec.closure
     names = [j.name for j in compiled.spec.joints] if closure is None else closure.variables
     posture = dict(zip(names, compiled.close(q)[0].tolist(), strict=True))

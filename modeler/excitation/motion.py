@@ -162,7 +162,7 @@ class PostureLimits:
         """(n, J) derivative by q of a number whose derivative by `shares` is `pull`."""
         slope, steps, clearance = np.zeros_like(q), _STEP * self.bounds.half, self.bounds.clearance
         if clearance is not None:
-            first = pull.shape[1] - len(clearance.solids.sides)
+            first = pull.shape[1] - len(clearance.solids.pairs)
             own, pull = pull[:, first:], pull[:, :first]
             with suppress(LoopError):  # as below
                 slope += clearance.pulled_back(self.compiled, q, own, steps)

@@ -13,12 +13,14 @@ import pyarrow.parquet as pq
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.core.result import Presented
+from modeler.core.table import aligned
 from modeler.excitation.clearance import Nearest
 from modeler.excitation.criterion import signals
 from modeler.excitation.families import Series, coefficients_json
 from modeler.excitation.motion import Bounds
 from modeler.runtime import CompiledModel
 
+_TOLD = 12  # parameters of a gain, for people
 _DIGITS = 13  # after the point: rest is 0, not a rounding of it
 
 
@@ -59,6 +61,53 @@ class Used(Brief):
 
 
 @dataclass(frozen=True, eq=False)
+class Gain(Brief):
+    """What a log of a motion adds to logs that there are.
+
+    Attributes:
+        names, units: (c,) of the base parameters.
+        before: their sigmas by the logs that there are; None: those do not tell.
+        after: those to expect of these logs and the next one, by the rules of the same fit.
+        logs: names of the logs that there are.
+        condition: of their rows, and with those of the next one; columns of length one.
+    """
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    before: tuple[float | None, ...]
+    after: tuple[float | None, ...]
+    logs: tuple[str, ...]
+    condition: tuple[float, float]
+
+    def lines(self) -> list[str]:
+        """Lines of text: what gains most, first."""
+        rows = []
+        for name, unit, a, b in zip(self.names, self.units, self.before, self.after, strict=True):
+            cells = ["not told" if value is None else f"{value:.3g}" for value in (a, b)]
+            gain = a / b if a and b else np.inf if b else 1.0
+            rows.append((gain, (name, *cells, unit, f"/ {gain:.3g}" if a and b else "")))
+        rows.sort(key=lambda row: -row[0])
+        head, shown = ("parameter", "sigma before", "expected after", "unit", ""), rows[:_TOLD]
+        table = aligned([head, *(cells for _, cells in shown)], (0, 3))
+        return [
+            f"beside {', '.join(self.logs)}: condition number with columns of length one "
+            "{:.4g} before, {:.4g} with it; it sharpens".format(*self.condition),
+            *(line.rstrip() for line in table),
+            *([f"and {len(rows) - _TOLD} others, less"] if len(rows) > _TOLD else []),
+        ]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        sigmas = zip(self.names, self.before, self.after, strict=True)
+        first, then = (c if np.isfinite(c) else None for c in self.condition)
+        return {
+            "logs": list(self.logs),
+            "condition_scaled": {"before": first, "after": then},
+            "sigmas": {name: {"before": a, "after": b} for name, a, b in sigmas},
+        }
+
+
+@dataclass(frozen=True, eq=False)
 class Exciting(Presented):
     """A motion that excites a robot.
 
@@ -78,6 +127,7 @@ class Exciting(Presented):
         ended_early: True if the time limit ended the search.
         seconds: that it took.
         nearest: where links come closest; None where they are not looked at.
+        gain: what it adds to logs; None without.
     """
 
     robot: str
@@ -95,6 +145,7 @@ class Exciting(Presented):
     ended_early: bool
     seconds: float
     nearest: Nearest | None = None
+    gain: Gain | None = None
 
     def sampled(self, rate: float) -> dict[str, np.ndarray]:
         """Columns by name: time, q, qd and qdd of every joint, from rest to rest."""
@@ -140,7 +191,7 @@ class Exciting(Presented):
             lines.append(b.clearance.line(self.nearest))
         if self.ended_early:
             lines.append("the time limit ended the search: another run may find another motion")
-        return lines
+        return [*lines, *(self.gain.lines() if self.gain else [])]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -171,6 +222,7 @@ class Exciting(Presented):
             "singular_share": u.loops,
             "clearance": None if b.clearance is None else b.clearance.to_json(self.nearest),
             "ended_early": self.ended_early,
+            "next": None if self.gain is None else self.gain.to_json(),
             "series": coefficients_json(self.series, self.x, b.joints),
         }
 

@@ -159,7 +159,7 @@ def finished(
     early = not on()
     x = task.drawn_in(x, finer(task))
     clearance, near = task.bounds.clearance, None
-    while clearance is not None and len(clearance.solids.sides):
+    while clearance is not None and len(clearance.solids.pairs):
         near = nearest(
             task.columns.compiled, clearance.solids,
             lambda t, x=x: task.series.at(t).motion(x)[0], wish.duration,  # type: ignore[misc]

@@ -282,8 +282,8 @@ def _mjcf(physics: Physics, parts: list[Part], names: Names) -> ET.Element:
             if capsule.start.any():
                 shape["pos"] = capsule.start
             if capsule.length:
-                ends = np.concatenate([capsule.start, capsule.end])
-                shape = {"type": "capsule", "size": capsule.radius, "fromto": ends}
+                way = np.concatenate([capsule.start, capsule.end])
+                shape = {"type": "capsule", "size": capsule.radius, "fromto": way}
             body.append(_node("geom", **shape, mass=0.0, contype="0", conaffinity="0"))
         if part.leaders:
             _follow(part, zero, equality, tendons)

@@ -22,6 +22,7 @@ from .log import (
     log_page as log_page,
     log_pictures as log_pictures,
 )
+from .nearest_page import nearest_html as nearest_html
 from .page import (
     Origin as Origin,
     Page as Page,
@@ -33,7 +34,6 @@ from .page import (
 )
 from .robot_closing import Posture as Posture
 from .robot_drawing import modes_bytes as modes_bytes, picture_bytes as picture_bytes
-from .nearest_page import nearest_html as nearest_html
 from .robot_page import (
     PICTURE_KINDS as PICTURE_KINDS,
     modes_html as modes_html,

@@ -42,7 +42,7 @@ def _mark(near: Nearest) -> Iterator[Part]:
 def _capsules(skeleton: Skeleton, solids: Solids, pair: tuple[str, str]) -> Iterator[Face]:
     """All capsules, each on its link; planes are not drawn."""
     moving = [i for i, row in enumerate(skeleton.rows) if row.joint.moves]
-    for k, name in enumerate(solids.names):
+    for k, name in enumerate(solids.names[: len(solids.ends)]):
         carrier = int(solids.carriers[k])
         frame = BASE if carrier == STILL else moving[carrier]
         color = OPEN if name in pair else BODIES[k % len(BODIES)]

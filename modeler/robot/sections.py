@@ -417,8 +417,8 @@ def read_capsules(
     table = dict(place.table(f"[capsules] {_CAPSULES}"))
     planes, flat = {}, place.at("planes", table.pop("planes", {}))
     for name, here in flat.items("planes = {floor = [0, 0, 1, 0]}"):
-        cells = here.entries("[x, y, z, offset], the normal that points to where is room", 4)
-        numbers = tuple(number_at(here.holding(cell), symbols, "m") for cell in cells)
+        four = here.entries("[x, y, z, offset], the normal that points to where is room", 4)
+        numbers = tuple(number_at(here.holding(cell), symbols, "m") for cell in four)
         if not any(numbers[:3]):
             raise here.error("got the normal (0, 0, 0); expected a direction, such as [0, 0, 1, 0]")
         planes[name] = numbers
