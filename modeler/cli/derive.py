@@ -106,8 +106,10 @@ def check_request(args: argparse.Namespace) -> None:
     Raises:
         ModelerError: they stand without what they change.
     """
-    if args.nonzero and not (args.closed_form or args.regressor):
-        raise ModelerError("--nonzero changes nothing by itself; add --closed-form or --regressor")
+    if args.nonzero and not (args.closed_form or args.regressor or args.blocks):
+        raise ModelerError(
+            "--nonzero changes nothing by itself; add --closed-form, --regressor or --blocks"
+        )
     if args.expanded and not (args.closed_form or args.terms):
         raise ModelerError("--expanded changes nothing by itself; add --closed-form or --terms")
     if args.document and args.format != "latex":
@@ -257,17 +259,13 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
     asked = {"closed_form": motion, "regressor": args.regressor}
     if any(asked.values()):
         found = formulas.equation_of(model, base, motion=motion, columns=args.regressor)
-        mark = _COMMENT[args.format]
-        words.say()
-        for line in found.words:
-            indent = mark + "  " if mark != "* " else "  "
-            words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
-        words.say()
-        words.formulas(_SHEETS[args.format](found.sheet, words))
-        told = {"equation": list(found.words), **formulas.function_sheet.sheet_json(found.sheet)}
+        told = _print_equation(found, args.format, words)
         added |= {key: told for key, wanted in asked.items() if wanted}
+    if args.blocks:
+        added["blocks"] = _print_equation(formulas.block_form(model, base), args.format, words)
     few = len(model.robot.coordinates) <= FEW_JOINTS and model.closure is None
-    unasked = few and args.format == "text" and not (args.closed_form or args.regressor)
+    asked_else = args.closed_form or args.regressor or args.blocks
+    unasked = few and args.format == "text" and not asked_else
     wanted = unasked if args.terms is None else args.terms
     if wanted:
         _print_coefficients(args, derivation, words)
@@ -275,6 +273,17 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
         write_atomically(Path(args.coefficients_out), formulas.terms_report(model, derivation.base))
         words.say(f"written: {args.coefficients_out}")
     return added
+
+
+def _print_equation(found: formulas.Equation, form: Form, words: Words) -> Json:
+    mark = _COMMENT[form]
+    words.say()
+    for line in found.words:
+        indent = mark + "  " if mark != "* " else "  "
+        words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
+    words.say()
+    words.formulas(_SHEETS[form](found.sheet, words))
+    return {"equation": list(found.words), **formulas.function_sheet.sheet_json(found.sheet)}
 
 
 def _print_coefficients(args: argparse.Namespace, derivation: Derivation, words: Words) -> None:
