@@ -69,6 +69,9 @@ _DERIVE = Command(
             flag("--closed-form",
                  "M(q), Christoffel coefficients and gravity; of loops J_t and J_p too"),
             flag("--regressor", "every base column, that of friction too"),
+            flag("--energy",
+                 "velocities and energy functions h of every link: H = h xi, the energy model"),
+            flag("--kane", "Kane's form: velocities, tangent vectors beta, momenta, forces"),
             flag("--expanded",
                  "with --closed-form: sums of monomials instead of named quantities; with --terms: "
                  "all coefficients, those that follow from others too"),

@@ -4,6 +4,7 @@ from . import (
     render as render,
     values as values,
 )
+from .by_link import energy_functions as energy_functions, kane_form as kane_form
 from .cad import (
     CadComparison as CadComparison,
     KnownAgainstFit as KnownAgainstFit,
@@ -26,6 +27,7 @@ from .print_checks import (
 from .print_report import check_friction as check_friction, terms_report as terms_report
 from .printed import Print as Print
 from .regressor_form import (
+    Equation as Equation,
     equation_of as equation_of,
     nonzero_base as nonzero_base,
     regressor_form as regressor_form,
