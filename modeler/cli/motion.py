@@ -34,8 +34,8 @@ def run_excite(args: argparse.Namespace) -> Json:
     bounds = bounds_of(subject.robot, subject.compiled, args.limit, args.box, margin)
     if args.report is not None and not (bounds.clearance and len(bounds.clearance.solids.pairs)):
         raise DataError(
-            "--report: no two links are looked at; expected --clearance, or [capsules] of the robot "
-            "file, and links that may meet"
+            "--report: no two links are looked at; expected --clearance, or [capsules] of the "
+            "robot file, and links that may meet"
         )
     if args.choose is not None:
         return _choose(args, subject)
