@@ -1,12 +1,13 @@
 """The order spectrum of a state, and the ripples that it proposes."""
 
 from collections.abc import Callable, Set
+from functools import lru_cache
 from typing import cast
 
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.effect_columns import all_columns, own_columns
+from modeler.diagnosis.effect_columns import Rows, all_columns, own_columns
 from modeler.diagnosis.signals import resonance
 from modeler.diagnosis.state import State, column_key
 from modeler.diagnosis.timing import smoothed
@@ -129,14 +130,14 @@ def rival(state: State, j: int, residual: np.ndarray) -> Flexible:
     in the residual, and in the motion as it was measured too, which would seem to predict it.
     """
     fold = state.data.blocks.fold[state.data.numbers[j]]
-    sets = functions(_measured(state, j)) if fold.size >= LEAST else {}
+    sets = functions(_measured(state, j)) if fold.size >= LEAST else ()
     return flexible(sets, residual, fold)
 
 
 def _measured(state: State, j: int) -> Measurements:
-    rows = smoothed(state)
-    every = [np.hstack([s.q, s.v, s.a, s.load, s.torque]) for s in rows.signals]
-    q, v, a, load, torque = np.split(rows.filtered(j, every), 5, axis=1)
+    rows, J = smoothed(state), state.rows.joints
+    every = rows.filtered(j, _everywhere(rows))
+    q, v, a, load, torque = np.split(every[:, : 5 * J], 5, axis=1)
     way = [np.sign(s.v[:, j]) for s in rows.signals]
     slips = [
         np.column_stack([bristle(s.q[:, j], d * state.scales[j].range) for d in SLIPS])
@@ -151,8 +152,23 @@ def _measured(state: State, j: int) -> Measurements:
         torque=torque,
         direction=rows.filtered(j, way),
         slips=rows.filtered(j, slips),
-        further={"waves": _waves(state, j), "ringing": _ringing(state, j)},
+        further={"waves": _waves(state, j), "ringing": every[:, 5 * J :]},
     )
+
+
+@lru_cache(maxsize=1)  # all joints of some logs are asked for one after the other
+def _everywhere(rows: Rows) -> list[np.ndarray]:
+    """(samples, 5 J + ...) by stretch: q, v, a, load and torque of all joints, and what rings.
+
+    Oscillators that the accelerations of all joints excite, and their speeds.
+    """
+    every = []
+    for s in rows.signals:
+        z = np.column_stack(
+            [resonance(a, s.step, frequency, _LIGHT) for a in s.a.T for frequency in _RINGING]
+        )
+        every.append(np.hstack([s.q, s.v, s.a, s.load, s.torque, z, np.gradient(z, axis=0)]))
+    return every
 
 
 def _waves(state: State, j: int) -> np.ndarray:
@@ -162,14 +178,3 @@ def _waves(state: State, j: int) -> np.ndarray:
         return np.zeros((len(state.residual[j]), 0))
     angles = [np.outer(s.q[:, j], found.peaks) for s in smoothed(state).signals]
     return state.rows.filtered(j, [np.hstack([np.cos(x), np.sin(x)]) for x in angles])
-
-
-def _ringing(state: State, j: int) -> np.ndarray:
-    """(rows_j, ...) oscillators that the accelerations of all joints excite, and their speeds."""
-    every = []
-    for s in smoothed(state).signals:
-        z = np.column_stack(
-            [resonance(a, s.step, frequency, _LIGHT) for a in s.a.T for frequency in _RINGING]
-        )
-        every.append(np.hstack([z, np.gradient(z, axis=0)]))
-    return state.rows.filtered(j, every)
