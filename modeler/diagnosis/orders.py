@@ -24,7 +24,7 @@ def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
         q, r = _samples(state, j)
         # orders that pass the parallel filter where the joint is slow
         cutoff = state.data.observation.report.processing.parallel_cutoff or 1e9
-        moving = [np.abs(s.v[s.segment.whole[:: s.every], j]) for s in state.rows.signals]
+        moving = [np.abs(s.v[s.segment.whole, j]) for s in state.rows.signals]
         speeds = np.concatenate(moving)
         slow = float(np.quantile(speeds[speeds > 0.0], 0.1)) if (speeds > 0.0).any() else 1.0
         reached = 2.0 * np.pi * cutoff / max(slow, 1e-9)
@@ -37,14 +37,13 @@ def _samples(state: State, j: int) -> tuple[np.ndarray, np.ndarray]:
     """Positions and residuals of the samples that count, not filtered."""
     q, r = [], []
     segment = state.rows.segment[j]
-    for number, part in enumerate(state.data.observation.stretches):
+    for number, signals in enumerate(state.rows.signals):
         if not (segment == number).any():
             continue
-        signals = state.rows.signals[number]
-        usable = part.usable[:: signals.every, j]
+        usable = signals.usable[:, j]
         model = signals.torque[:, j] + _extra(state, number, j)
         q.append(signals.q[usable, j])
-        r.append((part.segment.tau[:: signals.every, j] - model)[usable])
+        r.append((signals.segment.tau[:, j] - model)[usable])
     if not q:
         return np.zeros(0), np.zeros(0)
     residual = np.concatenate(r)
