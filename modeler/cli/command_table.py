@@ -72,6 +72,9 @@ _DERIVE = Command(
             flag("--blocks",
                  "of parallel robots: the regressor in blocks of platform, motors and legs, with "
                  "the Jacobian of each leg and of the robot (Guegan, Khalil, Lemoine 2003)"),
+            flag("--energy",
+                 "velocities and energy functions h of every link: H = h xi, the energy model"),
+            flag("--kane", "Kane's form: velocities, tangent vectors beta, momenta, forces"),
             flag("--expanded",
                  "with --closed-form: sums of monomials instead of named quantities; with --terms: "
                  "all coefficients, those that follow from others too"),

@@ -129,6 +129,11 @@ def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
             "whose loops, if any, follow linear relations; leave out --terms, "
             "--coefficients-out and --expanded, or ask for --closed-form, which has J_t and J_p"
         )
+    if looped and args.kane:
+        raise ModelerError(
+            f"{derivation.robot.name}: --kane is written for robots without loops; leave it out, "
+            "or add --cut-loops"
+        )
 
 
 MANY = 200
@@ -143,6 +148,7 @@ _SHEETS: dict[Form, Callable[[formulas.function_sheet.Sheet, Words], str]] = {
 }
 _WIDTH = 96
 _COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
+_FORMS = ("closed_form", "regressor", "blocks", "energy", "kane")
 
 
 def run_derive(args: argparse.Namespace) -> Json:
@@ -248,7 +254,7 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
     model, base = derivation.model, derivation.base
     if args.nonzero:
         base = formulas.nonzero_base(model, base)
-    added: Json = {}
+    added: Json = _by_link(args, model, words)
     if args.closed_form and args.expanded:
         words.say()
         closed = formulas.closed_form(model, base)
@@ -264,7 +270,7 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
     if args.blocks:
         added["blocks"] = _print_equation(formulas.block_form(model, base), args.format, words)
     few = len(model.robot.coordinates) <= FEW_JOINTS and model.closure is None
-    asked_else = args.closed_form or args.regressor or args.blocks
+    asked_else = any(vars(args)[key] for key in _FORMS)
     unasked = few and args.format == "text" and not asked_else
     wanted = unasked if args.terms is None else args.terms
     if wanted:
@@ -272,6 +278,21 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
     if args.coefficients_out is not None:
         write_atomically(Path(args.coefficients_out), formulas.terms_report(model, derivation.base))
         words.say(f"written: {args.coefficients_out}")
+    return added
+
+
+def _by_link(args: argparse.Namespace, model: SymbolicModel, words: Words) -> Json:
+    """Energy functions and Kane's form, each with its difference from the derivation."""
+    added: Json = {}
+    for key, form, what in (
+        ("energy", formulas.energy_functions, "d/dt h against the power of the torques"),
+        ("kane", formulas.kane_form, "torques of Kane's form against Newton-Euler"),
+    ):
+        if vars(args)[key]:
+            states = random_states(model, 50, np.random.default_rng(1985))
+            found, off = form(model, states)
+            added[key] = _print_equation(found, args.format, words) | {"difference": off}
+            words.say(f"\n{what}: {off:.1e} of the largest")
     return added
 
 

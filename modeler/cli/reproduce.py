@@ -79,6 +79,8 @@ def _print_robot(name: str, derived: papers.DerivedPaper, lines: Sequence[papers
             say(f"      must hold: {line.derived}")
         if line.verdict in (papers.LineVerdict.MISPRINT, papers.LineVerdict.DIFFERENT):
             say(f"      derived: {line.derived}")
+            if line.corrected:
+                say(f"      corrected, which holds: {line.corrected}")
         if line.why:
             say(f"      {line.why}")
 

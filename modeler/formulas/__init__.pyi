@@ -4,6 +4,7 @@ from . import (
     render as render,
     values as values,
 )
+from .by_link import energy_functions as energy_functions, kane_form as kane_form
 from .cad import (
     CadComparison as CadComparison,
     KnownAgainstFit as KnownAgainstFit,

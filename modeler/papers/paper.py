@@ -19,14 +19,21 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import sympy
 
 from modeler.core.builtin import paper_names
 from modeler.core.errors import RobotError
 from modeler.core.expression import parse
 from modeler.core.json import built
-from modeler.derivation import BaseParameters, SymbolicModel, base_parameters, derive_model
-from modeler.formulas import CoefficientTable, coefficient_table
+from modeler.derivation import (
+    BaseParameters,
+    SymbolicModel,
+    base_parameters,
+    derive_model,
+    random_states,
+)
+from modeler.formulas import CoefficientTable, coefficient_table, function_sheet, kane_form
 from modeler.papers.quotation import (
     Amount,
     Monomial,
@@ -64,6 +71,7 @@ class PrintedLine:
         legs: what stands for i; one line each.
         gives: what is derived, one expression per number, or the expression of a set.
         difference: derived minus printed, in our names; "" if they are to be the same.
+        corrected: the quotation as it should read, which must hold.
         slip: one of `SLIPS`, where there is a difference.
         why: reason of the difference, or a remark.
         of: "M13R = Off13/g - Off13R/g": what a left side is that the robot does not have, in base
@@ -83,6 +91,7 @@ class PrintedLine:
     legs: tuple[str, ...] = ("",)
     gives: tuple[str, ...] = ()
     difference: str = ""
+    corrected: str = ""
     slip: str = ""
     why: str = ""
     of: str = ""
@@ -229,6 +238,13 @@ class DerivedPaper:
     def table(self) -> CoefficientTable:
         """Coefficients of the closed form."""
         return coefficient_table(self.model, self.base)
+
+    @cached_property
+    def kane(self) -> Mapping[str, str]:
+        """Formulas of Kane's form, by name."""
+        states = random_states(self.model, 1, np.random.default_rng(0))
+        sheet = function_sheet.sheet_json(kane_form(self.model, states)[0].sheet)
+        return {each["name"]: each["formula"] for each in sheet["definitions"]}
 
     @cached_property
     def tied(self) -> Mapping[str, Sum]:
