@@ -21,5 +21,6 @@ from .trajectory import (
     Reference as Reference,
     at_rate as at_rate,
     motion_limits as motion_limits,
+    point_to_point_reference as point_to_point_reference,
     read_motion as read_motion,
 )

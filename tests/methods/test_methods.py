@@ -13,7 +13,14 @@ from modeler.papers.methods import MethodTable, Outcome, Row, figures, quoted, r
 from modeler.papers.paper import read_paper
 
 TITLES = {
-    "guegan-2003": ["Table 2", "The direction", "Table 3", "Condition numbers"],
+    "guegan-2003": [
+        "Blocks",
+        "Table 2",
+        "The direction",
+        "Table 3",
+        "Condition numbers",
+        "The exciting motion",
+    ],
     "briot-2012": ["Table 3", "The second load"],
     "houda": ["Table 1", "Table 1", "The energy model"],
     "hanssen-2000": ["Eq. (3)", "Persistent excitation", "Two steps", "Physical parameters"],
