@@ -69,6 +69,9 @@ _DERIVE = Command(
             flag("--closed-form",
                  "M(q), Christoffel coefficients and gravity; of loops J_t and J_p too"),
             flag("--regressor", "every base column, that of friction too"),
+            flag("--blocks",
+                 "of parallel robots: the regressor in blocks of platform, motors and legs, with "
+                 "the Jacobian of each leg and of the robot (Guegan, Khalil, Lemoine 2003)"),
             flag("--energy",
                  "velocities and energy functions h of every link: H = h xi, the energy model"),
             flag("--kane", "Kane's form: velocities, tangent vectors beta, momenta, forces"),
@@ -76,8 +79,8 @@ _DERIVE = Command(
                  "with --closed-form: sums of monomials instead of named quantities; with --terms: "
                  "all coefficients, those that follow from others too"),
             flag("--nonzero",
-                 "with --closed-form and --regressor: leave out base parameters that are 0 at the "
-                 "values of [parameters]"),
+                 "with --closed-form, --regressor and --blocks: leave out base parameters that are "
+                 "0 at the values of [parameters]"),
         )),
         flag("--cut-loops", "cut the loops: the tree, as counted leg by leg"),
         value("--coefficients-out", "FILE.md", places.Output, "write the page of the coefficients"),

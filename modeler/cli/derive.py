@@ -106,8 +106,10 @@ def check_request(args: argparse.Namespace) -> None:
     Raises:
         ModelerError: they stand without what they change.
     """
-    if args.nonzero and not (args.closed_form or args.regressor):
-        raise ModelerError("--nonzero changes nothing by itself; add --closed-form or --regressor")
+    if args.nonzero and not (args.closed_form or args.regressor or args.blocks):
+        raise ModelerError(
+            "--nonzero changes nothing by itself; add --closed-form, --regressor or --blocks"
+        )
     if args.expanded and not (args.closed_form or args.terms):
         raise ModelerError("--expanded changes nothing by itself; add --closed-form or --terms")
     if args.document and args.format != "latex":
@@ -146,6 +148,7 @@ _SHEETS: dict[Form, Callable[[formulas.function_sheet.Sheet, Words], str]] = {
 }
 _WIDTH = 96
 _COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
+_FORMS = ("closed_form", "regressor", "blocks", "energy", "kane")
 
 
 def run_derive(args: argparse.Namespace) -> Json:
@@ -262,14 +265,13 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
     asked = {"closed_form": motion, "regressor": args.regressor}
     if any(asked.values()):
         found = formulas.equation_of(model, base, motion=motion, columns=args.regressor)
-        told = _print_equation(args, found, words)
+        told = _print_equation(found, args.format, words)
         added |= {key: told for key, wanted in asked.items() if wanted}
+    if args.blocks:
+        added["blocks"] = _print_equation(formulas.block_form(model, base), args.format, words)
     few = len(model.robot.coordinates) <= FEW_JOINTS and model.closure is None
-    unasked = (
-        few
-        and args.format == "text"
-        and not (args.closed_form or args.regressor or args.energy or args.kane)
-    )
+    asked_else = any(vars(args)[key] for key in _FORMS)
+    unasked = few and args.format == "text" and not asked_else
     wanted = unasked if args.terms is None else args.terms
     if wanted:
         _print_coefficients(args, derivation, words)
@@ -289,19 +291,19 @@ def _by_link(args: argparse.Namespace, model: SymbolicModel, words: Words) -> Js
         if vars(args)[key]:
             states = random_states(model, 50, np.random.default_rng(1985))
             found, off = form(model, states)
-            added[key] = _print_equation(args, found, words) | {"difference": off}
+            added[key] = _print_equation(found, args.format, words) | {"difference": off}
             words.say(f"\n{what}: {off:.1e} of the largest")
     return added
 
 
-def _print_equation(args: argparse.Namespace, found: formulas.Equation, words: Words) -> Json:
-    mark = _COMMENT[args.format]
+def _print_equation(found: formulas.Equation, form: Form, words: Words) -> Json:
+    mark = _COMMENT[form]
     words.say()
     for line in found.words:
         indent = mark + "  " if mark != "* " else "  "
         words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
     words.say()
-    words.formulas(_SHEETS[args.format](found.sheet, words))
+    words.formulas(_SHEETS[form](found.sheet, words))
     return {"equation": list(found.words), **formulas.function_sheet.sheet_json(found.sheet)}
 
 

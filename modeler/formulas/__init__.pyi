@@ -16,7 +16,8 @@ from .coefficients import (
     CoefficientTable as CoefficientTable,
     coefficient_table as coefficient_table,
 )
-from .function_sheet import sheet_lines as sheet_lines
+from .function_sheet import SheetWriter as SheetWriter, sheet_lines as sheet_lines
+from .leg_blocks import LegBlock as LegBlock, block_form as block_form, leg_blocks as leg_blocks
 from .physical_system import PhysicalSystem as PhysicalSystem, physical_system as physical_system
 from .print_checks import (
     check_independent as check_independent,

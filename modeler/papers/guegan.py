@@ -14,13 +14,14 @@ import numpy as np
 from modeler.codegen import derive, generate, load
 from modeler.estimation import FitResult, identify
 from modeler.observation import Observation, observe, read_log
+from modeler.papers.guegan_blocks import block_table
 from modeler.papers.methods import MethodTable, Outcome, Row, figures, judged, recovered
 from modeler.papers.paper import Paper
 from modeler.robot import Limits, Robot
 from modeler.runtime import CompiledModel, compiled_once
 from modeler.simulation import SimulationSettings, simulate, write_log
 
-ROBOT = "orthoglide-2003-similar-legs"
+WHOLE, ROBOT = "orthoglide-2003", "orthoglide-2003-similar-legs"
 RUNS, SECONDS, RATE, NOISE = 10, 4.0, 400.0, 0.1
 LIMITS = Limits(0.02, 0.32, 0.8, 8.0)
 WEAK = ("ZZ2R", "MX2", "XX3R", "MX4")
@@ -52,11 +53,13 @@ def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[Method
         for place in ("Table 2", "Table 3")
     )
     truth = {name: values[0] for name, values in table_3.items()}
-    derivation = derive(load(ROBOT))
+    each, derivation = (derive(load(name)) for name in (WHOLE, ROBOT))
     compiled = compiled_once(generate(derivation))
+    blocks = block_table((each, compiled_once(generate(each))), (derivation, compiled))
     observation, exact = _simulated(derivation.robot, truth, compiled, report)
     full, reduced = identify(observation), identify(_chosen(observation, truth))
     return [
+        blocks,
         _all_parameters(table_2, truth, full),
         _weak_direction(table_2, observation.names, exact),
         _essential(table_3, full, reduced),
