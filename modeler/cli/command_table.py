@@ -560,6 +560,7 @@ _REPRODUCE = Command(
     (
         value("paper", "PAPER", places.Word, f"one of {', '.join(paper_names())}"),
         choice("--section", ("print", "methods"), "what is printed, or methods; default: both"),
+        pictures(),
     ),
     "write the lines for machines",
 )  # fmt: skip

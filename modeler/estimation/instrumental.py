@@ -169,9 +169,7 @@ def _weighted(problem: Problem) -> Estimate:
 
 
 def didim(
-    problem: Problem,
-    method: str = "didim",
-    solve: Callable[[Problem], Estimate] = _weighted,
+    problem: Problem, method: str = "didim", solve: Callable[[Problem], Estimate] = _weighted
 ) -> Estimate:
     """min sum_j |y_j - W_j(q_s(beta)) beta|^2 / sigma_j^2, q_s the simulated motion.
 
