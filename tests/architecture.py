@@ -63,7 +63,7 @@ PACKAGES: dict[str, set[str]] = {
     "diagnosis": {"numpy", "scipy", "threadpoolctl"},
     "validation": {"numpy", "scipy"},
     "fleet": {"numpy", "scipy"},
-    "excitation": {"numpy", "matplotlib", "pyarrow"},
+    "excitation": {"numpy", "scipy", "matplotlib", "pyarrow"},
     "simulation": {"numpy", "scipy", "pyarrow", "casadi", "cvxpy"},
     "exports": {"numpy", "scipy", "cvxpy"},
     "papers": {"numpy", "sympy"},
