@@ -440,7 +440,7 @@ def in_band(
     prepared: Prepared | None = None, mending: LogRepair | None = None,
 ) -> Prepared:  # fmt: skip
     """The logs, with the band that `analysed` chooses."""
-    prepared = prepared or prepare(compiled.spec, logs, fitted, mending)
+    prepared = (prepared or prepare(compiled.spec, logs, fitted, mending)).uncommanded()
     noise = prepared.noise
     if "parallel_cutoff" not in fitted.chosen or not noise.moving:
         return prepared
@@ -462,7 +462,7 @@ def in_band(
     found = Look(compiled, prepared).quiet(motion, given is not None)
     prepared = prepared.with_cutoffs(found.position, found.parallel)
     if any(log.check is not None for log in prepared.logs):  # in the band of the rows
-        prepared = prepare(compiled.spec, logs, prepared.processing, mending)
+        prepared = prepare(compiled.spec, logs, prepared.processing, mending).uncommanded()
     return prepared
 
 
@@ -470,7 +470,7 @@ def again(
     compiled: "CompiledModel", logs: Sequence[Log], processing: ChosenProcessing
 ) -> Observation:
     """Other logs in the band of a diagnosis."""
-    return seen_in(compiled, logs, prepare(compiled.spec, logs, processing))
+    return seen_in(compiled, logs, prepare(compiled.spec, logs, processing).uncommanded())
 
 
 def cutoff(data: SearchData) -> float:
