@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 
 from modeler import papers
-from modeler.cli.console import Json, progress, say, say_lines, working
+from modeler.cli.console import Json, draw_pictures, progress, say, say_lines, working
 from modeler.core.errors import ModelerError
 from modeler.core.table import aligned
 
@@ -35,6 +35,12 @@ def run_reproduce(args: argparse.Namespace) -> Json:
         tables = _methods(paper)
         args.different += _failed(tables)
         found["methods"] = [_table_json(table) for table in tables]
+        drawn = [table.picture for table in tables if table.picture is not None]
+        if args.picture is not None and not drawn:
+            raise ModelerError(f"--picture: {paper.name} has no figure to draw; leave it out")
+        draw_pictures(args.picture, lambda: drawn)
+    elif args.picture is not None:
+        raise ModelerError("--picture: figures are of the methods; leave out --section print")
     return found
 
 

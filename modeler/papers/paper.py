@@ -33,7 +33,14 @@ from modeler.derivation import (
     derive_model,
     random_states,
 )
-from modeler.formulas import CoefficientTable, coefficient_table, function_sheet, kane_form
+from modeler.formulas import (
+    CoefficientTable,
+    Equation,
+    coefficient_table,
+    energy_functions,
+    function_sheet,
+    kane_form,
+)
 from modeler.papers.quotation import (
     Amount,
     Monomial,
@@ -242,9 +249,15 @@ class DerivedPaper:
     @cached_property
     def kane(self) -> Mapping[str, str]:
         """Formulas of Kane's form, by name."""
-        states = random_states(self.model, 1, np.random.default_rng(0))
-        sheet = function_sheet.sheet_json(kane_form(self.model, states)[0].sheet)
+        sheet = function_sheet.sheet_json(self.forms["kane"][0].sheet)
         return {each["name"]: each["formula"] for each in sheet["definitions"]}
+
+    @cached_property
+    def forms(self) -> Mapping[str, tuple[Equation, float]]:
+        """Energy functions, and without loops Kane's form, with how far each is from the model."""
+        states = random_states(self.model, 20, np.random.default_rng(2000))
+        found = {"energy": energy_functions(self.model, states)}
+        return found if self.robot.loops else found | {"kane": kane_form(self.model, states)}
 
     @cached_property
     def tied(self) -> Mapping[str, Sum]:
