@@ -308,7 +308,7 @@ class State(Brief):
     def scales(self) -> list[JointScale]:
         """What is large on each joint."""
         motion = (
-            [getattr(s, name)[s.segment.whole[:: s.every]] for s in self.rows.signals]
+            [getattr(s, name)[s.segment.whole] for s in self.rows.signals]
             for name in ("q", "v", "load")
         )
         return scales_of(self.spec, *motion)
@@ -426,10 +426,24 @@ def analysed(
         prepared: the logs as `fitted` prepares them; None: they are.
         mending: of the same logs, where it is shared.
     """
+    look = in_band(compiled, logs, fitted, band, prepared, mending)
+    return seen_in(compiled, logs, look)
+
+
+def seen_in(compiled: "CompiledModel", logs: Sequence[Log], look: Prepared) -> Observation:
+    """The observation of logs whose band is chosen."""
+    return _whole(observed(compiled, logs, look, every_joint=True))
+
+
+def in_band(
+    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None,
+    prepared: Prepared | None = None, mending: LogRepair | None = None,
+) -> Prepared:  # fmt: skip
+    """The logs, with the band that `analysed` chooses."""
     prepared = prepared or prepare(compiled.spec, logs, fitted, mending)
     noise = prepared.noise
     if "parallel_cutoff" not in fitted.chosen or not noise.moving:
-        return _whole(observed(compiled, logs, prepared, every_joint=True))
+        return prepared
     given = None if "position_cutoff" in fitted.chosen else fitted.position_cutoff
     asked = dataclasses.replace(
         fitted, position_cutoff=given, parallel_cutoff=None, decimation=None, edge=None
@@ -449,15 +463,14 @@ def analysed(
     prepared = prepared.with_cutoffs(found.position, found.parallel)
     if any(log.check is not None for log in prepared.logs):  # in the band of the rows
         prepared = prepare(compiled.spec, logs, prepared.processing, mending)
-    return _whole(observed(compiled, logs, prepared, every_joint=True))
+    return prepared
 
 
 def again(
     compiled: "CompiledModel", logs: Sequence[Log], processing: ChosenProcessing
 ) -> Observation:
     """Other logs in the band of a diagnosis."""
-    prepared = prepare(compiled.spec, logs, processing)
-    return _whole(observed(compiled, logs, prepared, every_joint=True))
+    return seen_in(compiled, logs, prepare(compiled.spec, logs, processing))
 
 
 def cutoff(data: SearchData) -> float:

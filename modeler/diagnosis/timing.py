@@ -58,7 +58,7 @@ def _by_smooth_motion(
     """Values by instruments, whether these support the effect, and whether it is a convention."""
     found, error = instrumental(state, candidate)
     sure = bool(np.max(np.abs(found) / np.maximum(error, 1e-300)) > DELAY_T_RATIO)
-    step = float(np.median([s.segment.step for s in state.rows.signals]))
+    step = float(np.median([s.segment.logged_step for s in state.rows.signals]))
     small = abs(float(found[0])) < CONVENTION * step
     supported = sure and bool(np.sum(found * values) > 0.0)
     return found, supported, small and candidate.effect.acts is Acts.TORQUE

@@ -212,18 +212,17 @@ def _along(problem: Problem, W: np.ndarray, solve: Callable[[Problem], Estimate]
         len(problem.data.rows), problem.names, free.tolist(),
     )  # fmt: skip
     found = solve(dataclasses.replace(problem, given=W, data=data))
-    left, pull = problem.y - W @ found.beta, found.pull
-    residual = left if found.residual is None else found.residual
+    pull = found.pull
     if pull is None:
-        weight = np.where(counted, 1.0 / found.sigma[problem.joint] ** 2, 0.0)
-        pull = (W @ found.covariance) * weight[:, None]
-    weight = np.divide(residual, left, out=np.ones(len(left)), where=left != 0.0)
+        pull = np.where(counted[:, None], W @ found.covariance, 0.0)
+        pull /= found.sigma[problem.joint][:, None] ** 2
+    weight = 1.0 if found.weight is None else found.weight
     shift = pull.T @ (weight * ((W - problem.W) @ found.beta))
     return dataclasses.replace(
         found,
         covariance=found.covariance + np.outer(shift, shift),
         pull=pull,
-        residual=residual,
+        residual=problem.y - W @ found.beta if found.residual is None else found.residual,
         whole=data.whole(found.sigma) if found.whole is None else found.whole,
     )
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from modeler.core.brief import Brief
 from modeler.numerics.filters import LEAST_WEIGHT, RowFilter, filter_at, spacing
@@ -29,6 +30,13 @@ class Stretch(Brief):
     usable: np.ndarray
     rows: RowFilter
     used: np.ndarray
+
+    def thinned(self, every: int, read: np.ndarray | None) -> "Stretch":
+        """The same rows by every so manieth sample; `read` (samples, m) is what effects read."""
+        weights = csr_array(self.rows.weights[:, ::every])
+        rows = RowFilter(weights, self.rows.centres // every)
+        usable = self.usable[::every].copy()
+        return Stretch(self.segment.thinned(every, read), usable, rows, self.used)
 
     @property
     def decimation(self) -> int:

@@ -110,7 +110,7 @@ def _rows(derivation: Derivation, compiled: CompiledModel) -> list[Row]:
     DP = _turned(found.of["Jp"]) @ found.of["WP"]
     drives = [found.driven(k) for k in legs]
     if alike:
-        right, scan = (sum(found.carried(k, s) for k in legs) for s in (False, True))
+        right, scan = (np.sum([found.carried(k, s) for k in legs], axis=0) for s in (False, True))
         ends = ["DL1"]
         rows = [_row("(30) DLS", "Jp^T sum_i [Ji^T DLi]", right, found.columns("DL1")[1], scan)]
         whole, parts = "(30) Dsym", [DP, *drives, right]

@@ -8,7 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler.cli import main
-from modeler.excitation.motion import series
+from modeler.excitation.families import series
 from modeler.excitation.result import csv_text
 from modeler.excitation.search import Wish, random_motion, task_of
 from modeler.simulation import at_rate, read_motion

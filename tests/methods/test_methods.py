@@ -15,7 +15,14 @@ from modeler.papers.paper import read_paper
 from tests.json_schemas import check_schema
 
 TITLES = {
-    "guegan-2003": ["Table 2", "The direction", "Table 3", "Condition numbers"],
+    "guegan-2003": [
+        "Blocks",
+        "Table 2",
+        "The direction",
+        "Table 3",
+        "Condition numbers",
+        "The exciting motion",
+    ],
     "briot-2012": ["Table 3", "The second load"],
     "houda": ["Table 1", "Table 1", "The energy model"],
     "hanssen-2000": ["Eq. (3)", "Persistent excitation", "Two steps", "Figure 2", "Physical"],
