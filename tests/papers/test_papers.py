@@ -101,6 +101,12 @@ def test_a_line_that_differs_ends_with_status_1(capsys, monkeypatch):
     assert "1 line is different: as many as 33 physical" in capsys.readouterr().err
 
 
+def test_a_robot_names_its_paper():
+    named = {"evra": "houda", "wrist": "hanssen-2000", "orthoglide-leg": "guegan-2003",
+             "orthoglide-2012": "briot-2012"}  # fmt: skip
+    assert {robot: read_paper(robot).name for robot in named} == named
+
+
 def test_an_unknown_paper_is_told(capsys):
     assert main(["reproduce", "newton-1687"]) == 1
     assert 'no paper "newton-1687"; expected one of briot-2012' in capsys.readouterr().err
