@@ -81,7 +81,7 @@ ONLY_IN = {
     "casadi": ("derivation/lagrange.py", "codegen/casadi_functions.py", "simulation/"),
     "clarabel": ("estimation/nearest_body.py",),
     "cvxpy": ("estimation/consistent.py", "simulation/completion.py", "exports/completion.py"),
-    "flint": ("derivation/precise.py",),
+    "flint": ("derivation/field.py", "derivation/precise.py"),
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),
     "rosbags": ("logs/bags.py",),
