@@ -93,7 +93,10 @@ class ThinnedRows:
         if nearest is not None:
             q = np.ascontiguousarray(q[nearest])
         values = compiled.base_regressor(q, qd, qdd, self.read)
-        return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
+        out = np.zeros((self.means[0].shape[0], *values.shape[1:]))
+        for j, (mean, own) in enumerate(zip(self.means, compiled.pattern.columns, strict=True)):
+            out[:, j, own] = mean @ values[:, j, own]
+        return out
 
 
 def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
