@@ -272,9 +272,7 @@ def _explained(seen: Evidence) -> Hypothesis | None:
     """The hypothesis that explains most, with those that do as well in its words."""
     tried = [*_torques(seen), *_motions(seen)]
     scores = mapped(partial(_lowered, seen), tried)
-    found = [
-        (score, one) for score, one in zip(scores, tried, strict=True) if score >= one.least
-    ]
+    found = [(score, one) for score, one in zip(scores, tried, strict=True) if score >= one.least]
     if not found:
         return None
     most = max(score for score, _ in found)

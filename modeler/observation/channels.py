@@ -94,8 +94,8 @@ class ThinnedRows:
             q = np.ascontiguousarray(q[nearest])
         values = compiled.base_regressor(q, qd, qdd, self.read)
         out = np.zeros((self.means[0].shape[0], *values.shape[1:]))
-        for j, (mean, own) in enumerate(zip(self.means, compiled.pattern.columns, strict=True)):
-            out[:, j, own] = mean @ values[:, j, own]
+        for j, (mean, some) in enumerate(zip(self.means, compiled.pattern.spans, strict=True)):
+            out[:, j, some] = mean @ values[:, j, some]
         return out
 
 
