@@ -101,6 +101,15 @@ def test_a_line_that_differs_ends_with_status_1(capsys, monkeypatch):
     assert "1 line is different: as many as 33 physical" in capsys.readouterr().err
 
 
+def test_a_paper_is_found_by_its_robot():
+    names = {
+        "orthoglide-2003": "guegan-2003",
+        "orthoglide-2012": "briot-2012",
+        "wrist": "hanssen-2000",
+    }
+    assert {robot: read_paper(robot).name for robot in names} == names
+
+
 def test_an_unknown_paper_is_told(capsys):
     assert main(["reproduce", "newton-1687"]) == 1
     assert 'no paper "newton-1687"; expected one of briot-2012' in capsys.readouterr().err
