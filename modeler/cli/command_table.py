@@ -572,7 +572,8 @@ _REPRODUCE = Command(
     "beside ours. Exit status 1 if a line differs unexpectedly.",
     "modeler reproduce guegan-2003 --section methods",
     (
-        value("paper", "PAPER", places.Word, f"one of {', '.join(paper_names())}, or its robot"),
+        value("paper", "PAPER", places.Word,
+              f"one of {', '.join(paper_names())}, or a robot of theirs"),
         choice("--section", ("print", "methods"), "what is printed, or methods; default: both"),
         pictures(),
     ),

@@ -22,6 +22,8 @@ METHODS: dict[str, Callable[[papers.Paper, Callable[[float], None]], list[papers
 def run_reproduce(args: argparse.Namespace) -> Json:
     """Prints the lines; raises if one is different."""
     paper = papers.read_paper(args.paper)
+    if args.picture is not None and args.section == "print":
+        raise ModelerError("--picture: figures are of the methods; leave out --section print")
     say(paper.title)
     args.after, args.different = after_reproduce, []
     found: dict[str, object] = {"paper": paper.name}
@@ -39,8 +41,6 @@ def run_reproduce(args: argparse.Namespace) -> Json:
         if args.picture is not None and not drawn:
             raise ModelerError(f"--picture: {paper.name} has no figure to draw; leave it out")
         draw_pictures(args.picture, lambda: drawn)
-    elif args.picture is not None:
-        raise ModelerError("--picture: figures are of the methods; leave out --section print")
     return found
 
 

@@ -304,13 +304,10 @@ def _motor_torques(model: SymbolicModel) -> dict[int, Along]:
     if model.robot.relations or not all(rows[k].joint.angular for k in moving):
         return {}
     for k in moving:
+        chain = [row for row in model.geometry.ancestors(k) if row in moving]
         tau = model.graph.symbol(f"tau{rows[k].joint.name}") * rows[k].rate
-        before = rows[k].parent
-        while before is not None and rows[before].index is None:
-            before = rows[before].parent
-        for row, torque in ((k, tau), (before, -tau)):
-            if row is not None:
-                found[row] = {**found.get(row, {}), (k, 2): torque}
+        for row, torque in zip(chain[:2], (tau, -tau), strict=False):
+            found[row] = {**found.get(row, {}), (k, 2): torque}
     return found
 
 
@@ -345,7 +342,8 @@ def _triads(model: SymbolicModel) -> dict[tuple[int, int], tuple[int, str]]:
         axes = [f"{letter}{name}" for letter in "xyz"]
         if isinstance(given, dict) and name in given:
             axes = given[name]
-        if not (isinstance(axes, list) and re.fullmatch(r"(-?[A-Za-z]+\w+,){3}", _listed(axes))):
+        listed = "".join(f"{axis}," for axis in axes) if isinstance(axes, list) else ""
+        if not re.fullmatch(r"(-?[A-Za-z]+\w+,){3}", listed):
             raise RobotError(
                 f"robot {model.robot.name}, [terms], triads, {name}: got {axes!r}; expected three "
                 'axes such as ["a3", "-a2", "a1"]'
@@ -354,7 +352,3 @@ def _triads(model: SymbolicModel) -> dict[tuple[int, int], tuple[int, str]]:
             written = re.sub(r"-?([A-Za-z]+)_?", r"\1_", axis, count=1)
             found[k, i] = (-1 if axis[0] == "-" else 1, written)
     return found
-
-
-def _listed(axes: list[object]) -> str:
-    return "".join(f"{axis}," for axis in axes)

@@ -150,16 +150,16 @@ class Paper:
 
 
 def read_paper(name: str) -> Paper:
-    """The paper of that name, or of the robot of that name.
+    """The paper of that name, or that derives the robot of that name.
 
     Raises:
         RobotError: there is none; lists those there are.
     """
-    found = {n: tomllib.loads((_FOLDER / f"{n}.toml").read_text("utf-8")) for n in paper_names()}
-    name = next((n for n, own in found.items() if name == own["robot"]), name)
-    if name not in found:
-        raise RobotError(f'there is no paper "{name}"; expected one of {", ".join(found)}')
-    document = found[name]
+    texts = {paper: (_FOLDER / f"{paper}.toml").read_text("utf-8") for paper in paper_names()}
+    name = next((paper for paper in texts if f'\nrobot = "{name}"\n' in texts[paper]), name)
+    if name not in texts:
+        raise RobotError(f'there is no paper "{name}"; expected one of {", ".join(texts)}')
+    document = tomllib.loads(texts[name])
     lines = []
     for entry in document["line"]:
         # One line, or one for each of `quotes`: quotation -> its seal, or "" without one.

@@ -264,7 +264,10 @@ def _evaluated(text: str, names: Mapping[str, Any]) -> Any:
         text, known[f"n{k}"] = text.replace(word, f" n{k} "), names[word]
     text = re.sub(r"(n\d+) +x +(n\d+)", r"cross(\1, \2)", text.translate({91: "(", 93: ")"}))
     text = re.sub(r"(?<=[\w)])\s+(?=[\w(])", "*", text.strip())
-    return evaluate(text, known)
+    try:
+        return evaluate(text, known)
+    except (SyntaxError, TypeError, ValueError) as error:  # of shapes that do not fit, too
+        raise QuotationError(f'"{text}" cannot be read: {error}') from error
 
 
 def _body_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
