@@ -9,6 +9,7 @@
 
 #include "modeler_tile.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -77,7 +78,7 @@ typedef void (*stream_function)(const modeler_real *from, modeler_real *to, size
 #define STREAM(version) stream_##version
 
 static const turn_function turns[] = {MODELER_EACH_VERSION(TURN)};
-static const column_function column[] = {MODELER_EACH_VERSION(COLUMN)};
+static const column_function turned[] = {MODELER_EACH_VERSION(COLUMN)};
 static const stream_function streams[] = {MODELER_EACH_VERSION(STREAM)};
 
 static size_t whole_lines(size_t numbers)
@@ -177,7 +178,7 @@ static size_t evaluated(supply *all, modeler_real *values)
     if (robot->tile != NULL) {
         robot->tile(all->q, all->qd, all->qdd, all->s, values);
     } else {
-        robot->closing(all->q, all->qd, all->qdd, now, all->state, values, all->status);
+        robot->closing(robot, all->q, all->qd, all->qdd, now, all->state, values, all->status);
         all->status += now;
     }
     all->left -= now;
@@ -334,7 +335,7 @@ static void by_columns(supply *all, modeler_real *W, size_t rows, modeler_real *
             memcpy(buffer, rest, LINE * sizeof(modeler_real));
             p.source = source + c * FEW * p.blocks;
             p.rows = buffer + phase;
-            column[version](&p, p.values, length, now);
+            turned[version](&p, p.values, length, now);
             if (foreign > 0) {
                 memcpy(to, p.rows, (whole < LINE ? now * p.width : LINE - phase) * sizeof(modeler_real));
             }
@@ -384,11 +385,18 @@ void modeler_tile_closed(const modeler_tiled *robot, size_t samples, const model
 {
     supply all = {robot, samples, q, qd, qdd, NULL, NULL, NULL, NULL};
     modeler_real *const rest = supplied(&all, robot, status, work);
+    const size_t joints = (size_t)robot->joints, columns = (size_t)robot->columns;
 
     if (rows == 0) {
         by_rows(&all, W, rest, 1);
     } else {
         by_columns(&all, W, rows, rest);
+    }
+    for (size_t i = 0; i < samples; i++) {
+        for (size_t k = 0; status[i] != 0 && k < joints * columns; k++) {
+            const size_t row = i * joints + k / columns, column = k % columns;
+            W[rows == 0 ? row * columns + column : column * rows + row] = NAN;
+        }
     }
 }
 

@@ -22,19 +22,23 @@ typedef void (*modeler_tile_function)(const modeler_real *q, const modeler_real 
                                       const modeler_real *qdd, const modeler_real *s,
                                       modeler_real *values);
 
+struct modeler_tiled_;
+
 /* The same of a robot with loops, of the first `samples` of the tile; `state` starts with zeros and
  * keeps the posture from which the next tile goes on. Where loops do not close, values are NaN. */
-typedef void (*modeler_tile_closing)(const modeler_real *q, const modeler_real *qd,
-                                     const modeler_real *qdd, size_t samples, void *state,
-                                     modeler_real *values, int *status);
+typedef void (*modeler_tile_closing)(const struct modeler_tiled_ *robot, const modeler_real *q,
+                                     const modeler_real *qd, const modeler_real *qdd,
+                                     size_t samples, void *state, modeler_real *values,
+                                     int *status);
 
 /* A robot's tiles. */
-typedef struct {
+typedef struct modeler_tiled_ {
     int joints, columns, signals, nonzeros;
     const int *row, *column;      /* of each entry, row after row */
     modeler_tile_function tile;   /* NULL: the robot has loops */
     modeler_tile_closing closing; /* NULL: it has none */
     size_t room;                  /* bytes of its state */
+    const void *singles;          /* what closes the loops of one sample */
 } modeler_tiled;
 
 /* Bytes that the loops below work in, without content or alignment; each thread needs its own. */

@@ -44,6 +44,7 @@ typedef float modeler_real;
 #define modeler_tile_function modelerf_tile_function
 #define modeler_tile_closing modelerf_tile_closing
 #define modeler_tiled modelerf_tiled
+#define modeler_tiled_ modelerf_tiled_
 #define modeler_tile_work modelerf_tile_work
 #define modeler_tile_observation modelerf_tile_observation
 #define modeler_tile_columns modelerf_tile_columns

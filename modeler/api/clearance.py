@@ -83,5 +83,5 @@ def nearest_along(
         return None
     names = [joint.name for joint in compiled.spec.joints]
     motion = simulation.read_motion(path, names)
-    curve = simulation.curve_of(motion)
-    return excitation.nearest(compiled, clearance.solids, curve, float(motion.time[-1]))
+    curve, samples = simulation.curve_of(motion), max(excitation.SAMPLES, 2 * len(motion.time))
+    return excitation.nearest(compiled, clearance.solids, curve, float(motion.time[-1]), samples)

@@ -137,30 +137,29 @@ def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
     }
 
 
-def _loaded(args: argparse.Namespace, place: str) -> IdentifiedModel:
+def _bare(args: argparse.Namespace, place: str) -> IdentifiedModel:
     model = load_model(place)
-    model = with_essential_only(model, place) if args.essential else model
-    if args.payload_mass is None:
-        for option in ("payload_centre", "payload_link"):
-            if getattr(args, option) is not None:
-                flag = f"--{option.replace('_', '-')}"
-                raise DataError(f"{flag}: no load; add --payload-mass KG, or leave {flag} out")
-        return model
-    return with_load(model, args.payload_mass, _centre(args.payload_centre), args.payload_link)
+    return with_essential_only(model, place) if args.essential else model
 
 
-def _centre(text: str | None) -> list[float]:
-    """Of `--payload-centre`."""
+def _loaded(args: argparse.Namespace, place: str) -> IdentifiedModel:
+    model, load = _bare(args, place), _load(args)
+    return model if load["mass"] is None else with_load(model, **load)
+
+
+def _load(args: argparse.Namespace) -> dict[str, Any]:
+    """What `with_load` takes of the options."""
+    given = {name: getattr(args, f"payload_{name}") for name in ("mass", "centre", "link")}
+    for name in ("centre", "link"):
+        if given["mass"] is None and given[name] is not None:
+            raise DataError(f"--payload-{name}: no load; add --payload-mass KG, or leave it out")
     try:
-        values = [float(part) for part in (text or "0,0,0").split(",")]
+        given["centre"] = [float(part) for part in (given["centre"] or "0,0,0").split(",")]
     except ValueError:
-        values = []
-    if len(values) != len("xyz"):
         raise DataError(
-            f"--payload-centre {text}: expected x, y and z in m, in the frame of the link, as in "
-            "0,0,0.05"
-        )
-    return values
+            f"--payload-centre {given['centre']}: expected x, y and z in m, as in 0,0,0.05"
+        ) from None
+    return given
 
 
 def _without_load(
@@ -169,10 +168,8 @@ def _without_load(
     """What is said of the model with its load and without, and their picture."""
     if args.payload_mass is None or are_long(args.logs):
         return [], lambda: []
-    bare = load_model(args.model)
-    bare = with_essential_only(bare, args.model) if args.essential else bare
-    names = (f"with {args.payload_mass:g} kg", "without the load")
-    both = dict(zip(names, (model, bare), strict=True))
+    bare = _bare(args, args.model)
+    both = {f"with {args.payload_mass:g} kg": model, "without the load": bare}
     found = checks.contested(both, [compiled] * 2, args.logs, args.map, args.logs)[0]
     picture = validation.torques_picture("load", found.names, found.predictions)
     return ["", *validation.contest_lines(found)], lambda: [picture]

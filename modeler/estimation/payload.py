@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -20,6 +21,8 @@ _ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
 
 _TOLERANCE = 1e-8  # what is left of a column, as a share of its length, counts as zero
 
+
+AnyModel = TypeVar("AnyModel", bound=IdentifiedModel)
 
 LARGEST_MASS = 1e6
 """kg. Nothing that a robot carries weighs more."""
@@ -160,11 +163,8 @@ def carrier(spec: ModuleSpec) -> str:
 
 
 def with_load(
-    model: IdentifiedModel,
-    mass: float,
-    centre: Sequence[float] = (0.0, 0.0, 0.0),
-    link: str | None = None,
-) -> IdentifiedModel:
+    model: AnyModel, mass: float, centre: Sequence[float] = (0.0, 0.0, 0.0), link: str | None = None
+) -> AnyModel:
     """The model of the robot with a load that is known: beta + K d(chi).
 
     A mass m at c of a link's frame adds m to M, m c to MX, MY, MZ and m (c'c 1 - c c') to the
@@ -188,8 +188,8 @@ def with_load(
     c = np.asarray(centre, dtype=float)
     if not 0.0 < mass <= LARGEST_MASS or c.shape != (3,) or not np.all(np.isfinite(c)):
         raise DataError(
-            f"payload: got {mass:g} kg at {', '.join(f'{x:g}' for x in c.ravel())}; expected a mass "
-            f"above 0 and at most {LARGEST_MASS:g}, and x, y, z of its centre in m"
+            f"payload: got {mass:g} kg at {', '.join(f'{x:g}' for x in c.ravel())}; expected a "
+            f"mass above 0 and at most {LARGEST_MASS:g}, and x, y, z of its centre in m"
         )
     J = mass * (c @ c * np.eye(3) - np.outer(c, c))
     added = {"M": mass, **dict(zip(("MX", "MY", "MZ"), mass * c, strict=True))}

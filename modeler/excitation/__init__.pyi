@@ -1,5 +1,6 @@
 from .clearance import (
     BASE as BASE,
+    SAMPLES as SAMPLES,
     Clearance as Clearance,
     Nearest as Nearest,
     Solids as Solids,

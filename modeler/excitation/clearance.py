@@ -57,7 +57,7 @@ class Solids(Brief):
         """
         k, (one, other) = len(self.ends), self.pairs.T
         flat = other >= k
-        points = np.empty((len(ends), len(self.pairs), 2, 3))
+        points = np.zeros((len(ends), len(self.pairs), 2, 3))
         points[:, ~flat] = nearest_points(ends[:, one[~flat]], ends[:, other[~flat]])
         gaps = np.linalg.norm(points[:, :, 0] - points[:, :, 1], axis=2)
         tips, normals = ends[:, one[flat]], self.normals[other[flat] - k]
@@ -228,7 +228,9 @@ def without_neighbours(
 # A whole motion, also between its samples.
 
 
-_SAMPLES = 1500
+SAMPLES = 1500
+"""Of a motion, between which it is looked at more closely where links come near."""
+
 _SHARP = 2e-3  # of the middle radius, to which the least distance is found
 _ROUNDS = 25
 
@@ -238,11 +240,12 @@ def nearest(
     solids: Solids,
     path: Callable[[np.ndarray], np.ndarray],
     duration: float,
+    samples: int = SAMPLES,
 ) -> Nearest:
     """The least distance along a motion, by intervals that are halved where it may lie.
 
     Within an interval h the ends of an axis leave their chords by A h^2 / 8 at most, A twice the
-    largest second difference of 1500 samples. On chords, a distance d falls no faster than both
+    largest second difference of the samples. On chords, a distance d falls no faster than both
     travel: d >= (d_0 + d_1 - travel) / 2 - (A_1 + A_2) h^2 / 8.
 
     Args:
@@ -250,8 +253,8 @@ def nearest(
         solids: its capsules.
         path: from times (n,) to positions (n, J).
         duration: s.
+        samples: to begin with.
     """
-    n = _SAMPLES
 
     def seen(times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         ends = solids.placed(compiled.forward_kinematics(path(times)))
@@ -261,7 +264,7 @@ def nearest(
         """Sums over both, of values (n, k) by capsule; planes stand still."""
         return np.pad(values, ((0, 0), (0, len(solids.offsets))))[:, solids.pairs].sum(axis=2)
 
-    times, sharp = np.linspace(0.0, duration, n), _SHARP * float(np.median(solids.radius))
+    times, sharp = np.linspace(0.0, duration, samples), _SHARP * float(np.median(solids.radius))
     h = times[1]
     ends, gaps = seen(times)
     bend = 2.0 * np.linalg.norm(np.diff(ends, 2, axis=0), axis=3).max(axis=(0, 2)) / h**2

@@ -190,12 +190,12 @@ def coefficients_json(motion: Series, x: np.ndarray, joints: tuple[str, ...]) ->
     if motion.family == "trapezoid":
         places = np.hstack([x[:, :1], x[:, :1] + x[:, 1:], x[:, :1]])
         own = {"moves": pieces(K), "shape": list(SHAPE)}
-        return {**told, **own, "coefficients": dict(zip(joints, places.tolist(), strict=True))}
+        return {**told, **own, "points": dict(zip(joints, places.tolist(), strict=True))}
     if motion.family == "bspline":
         inner, ends = x[:, :1] + x[:, 1:], np.repeat(x[:, :1], 3, axis=1)
         points = np.hstack([ends, inner, ends]).tolist()
         own = {"degree": DEGREE, "knots": spline_knots(motion.duration, K).tolist()}
-        return {**told, **own, "coefficients": dict(zip(joints, points, strict=True))}
+        return {**told, **own, "points": dict(zip(joints, points, strict=True))}
     count = 4 * K
     q = motion.at(np.arange(count) * (motion.duration / count)).values @ x.T
     spectrum = np.fft.rfft(q, axis=0) / count

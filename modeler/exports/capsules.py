@@ -91,8 +91,8 @@ def weights(robot: Robot, q: Mapping[str, float]) -> dict[str, np.ndarray]:
 def capsules_on_links(robot: Robot, q: Mapping[str, float]) -> list[tuple[str, str, Capsule]]:
     """Every body's capsules: its row, the moving row that carries it (or the base), the shape.
 
-    The shape is in the frame of the row that carries it; where a fixed row stands on another, that
-    is its capsule too.
+    The shape is in the frame of the row that carries it. Where the robot file has [capsules], rows
+    that are not among them have none.
 
     Args:
         robot: its table.
@@ -104,6 +104,8 @@ def capsules_on_links(robot: Robot, q: Mapping[str, float]) -> list[tuple[str, s
         fixed = (on, pose if joint.moves else pose @ row_pose(joint, symbols))
         places[joint.name] = (joint.name, Pose()) if joint.moves else fixed
     none = {*robot.platform[:-1], *robot.motors}
+    if robot.capsules:
+        none |= places.keys() - {capsule.row for capsule in robot.capsules}
     return [
         (row, on, Capsule(pose.place(own.end), own.radius, pose.place(own.start)))
         for row, shapes in capsules(robot, q).items() if row not in none

@@ -8,7 +8,6 @@ The Orthoglide is built for the cube in which its platform is half to twice as f
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -42,36 +41,32 @@ def cube_range(length: float, straight: float) -> tuple[float, float]:
     return straight + low, straight + high + length - math.sqrt(length**2 - 2.0 * high**2)
 
 
-@dataclass(frozen=True)
-class Conditions:
+def conditions(
+    compiled: CompiledModel, limits: Limits, lasts: float
+) -> tuple[np.ndarray, float, float]:
     """Condition numbers of W without noise, columns as they are, in SI units.
 
-    Attributes:
-        drawn: least, median and largest of tens of motions at random.
-        chosen: of the best ten that were found.
-        essential: median of the tens at random, columns of platform and motors only.
+    Args:
+        compiled: the robot.
+        limits: of every motor.
+        lasts: s, of each of the motions between random joint positions.
+
+    Returns:
+        of tens at random, ascending; of the best ten that were found; the median of tens at random
+        for the columns of platform and motors.
     """
-
-    drawn: tuple[float, float, float]
-    chosen: float
-    essential: float
-
-
-def conditions(compiled: CompiledModel, limits: Limits, lasts: float) -> Conditions:
-    """Of ten of many motions between random joint positions, each so many seconds."""
     grams = []
     for seed in range(TRIED):
         motion = point_to_point_reference((limits,) * len(compiled.spec.joints), lasts, RATE, seed)
         if not compiled.closing_status(motion.q).any():
             W = compiled.observation(motion.q, motion.qd, motion.qdd)
             grams.append(W.T @ W)
-    every, rng = np.stack(grams), np.random.default_rng(SEARCH.seed)
+    every, rng = np.stack(grams), np.random.default_rng(0)
     tens = [rng.permutation(len(every))[:RUNS] for _ in range(DRAWN)]
-    found = np.sort([_condition(every[ten].sum(axis=0)) for ten in tens])
-    essential = [_condition(every[ten].sum(axis=0)[:ESSENTIAL, :ESSENTIAL]) for ten in tens]
+    sums = [every[ten].sum(axis=0) for ten in tens]
+    few = [_condition(gram[:ESSENTIAL, :ESSENTIAL]) for gram in sums]
     chosen = min(_exchanged(every, ten) for ten in tens[:STARTS])
-    middle = float(np.median(found))
-    return Conditions((found[0], middle, found[-1]), chosen, float(np.median(essential)))
+    return np.sort([_condition(gram) for gram in sums]), chosen, float(np.median(few))
 
 
 def _exchanged(every: np.ndarray, ten: np.ndarray) -> float:
@@ -80,7 +75,7 @@ def _exchanged(every: np.ndarray, ten: np.ndarray) -> float:
     while better:
         better = False
         for place in range(RUNS):
-            rest = every[[k for i, k in enumerate(kept) if i != place]].sum(axis=0)
+            rest = every[np.delete(kept, place)].sum(axis=0)
             for other in set(range(len(every))) - {*kept}:
                 tried = _condition(rest + every[other])
                 if tried < (1.0 - _BETTER) * least:
@@ -106,36 +101,33 @@ def motion_table(
     """
     spec = compiled.spec
     assert spec.closure is not None
-    straight = spec.closure.home[spec.closure.given[0]]
+    home = np.array(spec.closure.home)[list(spec.closure.given)]  # where the bars are straight
     (D,) = (symbol.value for symbol in spec.symbols if symbol.name == "D4")
-    cube = cube_range(D, straight)
     lasts = rows / len(spec.joints) / RATE / RUNS
-    ranges = [own, *(Limits(*cube, v, 10.0 * v) for v in SPEEDS)]
-    found = [conditions(compiled, limits, lasts) for limits in ranges]
-    theirs = f"{printed[0]:.5g}; {printed[1]:.4g}"
-    table = [
-        Row(_told(limits), theirs, f"{c.drawn[1]:.4g} ({c.drawn[0]:.4g} to {c.drawn[2]:.4g}); "
-            f"{c.essential:.3g}", Outcome.SHOWN, f"ten chosen of {TRIED}: {c.chosen:.4g}")
-        for limits, c in zip(ranges, found, strict=True)
-    ]  # fmt: skip
-    table += [
-        Row(f"Fourier series, {_told(limits)}", theirs.split(";")[0],
-            f"{_searched(compiled, limits):.4g}", Outcome.SHOWN, "`modeler excite`, 10 s")
-        for limits in (own, ranges[2])
-    ]  # fmt: skip
-    least, most = found[2].chosen, max(c.drawn[2] for c in found[1:])
-    within = judged(least < printed[0] < most, Outcome.HOLDS)
-    table.append(Row("in reach over the cube", theirs.split(";")[0], f"{least:.4g} to {most:.4g}",
-                     within, "between ten chosen motions and ten slow ones"))  # fmt: skip
-    side = cube[0] - straight, 0.5 * D / math.sqrt(1.5)
-    return MethodTable(
-        "The exciting motion: condition numbers in reach, 23 columns; 13 columns",
-        (f"the paper prints no limits, only {rows:g} rows: ten motions of {lasts:.2f} s at 2.5 ms "
-         "between random joint positions",
-         "0.100 to 0.280 m: range of the robot file; the other: that of the cube of "
-         f"{side[1] - side[0]:.2f} m where the platform is half to twice as fast as the motors"),
-        tuple(table),
-    )  # fmt: skip
+    cube = [Limits(*cube_range(D, home[0]), v, 10.0 * v) for v in SPEEDS]
+    table, all_, few = list[Row](), f"{printed[0]:.5g}", f"{printed[1]:.4g}"
+    reached = list[float]()
+    for limits in (own, *cube):
+        drawn, chosen, essential = conditions(compiled, limits, lasts)
+        ours = f"{np.median(drawn):.4g} ({drawn[0]:.4g} to {drawn[-1]:.4g}); {essential:.3g}"
+        why = f"ten chosen of {TRIED}: {chosen:.4g}"
+        table.append(Row(_told(limits), f"{all_}; {few}", ours, Outcome.SHOWN, why))
+        reached += [chosen, drawn[-1]] if limits is not own else []
+    for limits in (own, cube[1]):
+        what, found = f"Fourier series, {_told(limits)}", _searched(compiled, limits, home)
+        table.append(Row(what, all_, f"{found:.4g}", Outcome.SHOWN, "`modeler excite`, 10 s"))
+    least, most = min(reached), max(reached)
+    table.append(Row("in reach over the cube", all_, f"{least:.4g} to {most:.4g}",
+                     judged(least < printed[0] < most, Outcome.HOLDS),
+                     "between ten chosen motions and ten slow ones"))  # fmt: skip
+    setting = (
+        f"the paper prints no limits, only {rows:g} rows: ten motions of {lasts:.2f} s at 2.5 ms "
+        "between random joint positions",
+        "first range: of the robot file; the other: of the cube where the platform is half to "
+        "twice as fast as the motors",
+    )
+    title = "The exciting motion: condition numbers in reach, 23 columns; 13 columns"
+    return MethodTable(title, setting, tuple(table))
 
 
 def _told(limits: Limits) -> str:
@@ -143,16 +135,13 @@ def _told(limits: Limits) -> str:
             f"{limits.acceleration:g} m/s2")  # fmt: skip
 
 
-def _searched(compiled: CompiledModel, limits: Limits) -> float:
+def _searched(compiled: CompiledModel, limits: Limits, home: np.ndarray) -> float:
     """The same of the Fourier series that the search for an exciting motion finds."""
-    closure, joints = compiled.spec.closure, tuple(joint.name for joint in compiled.spec.joints)
-    assert closure is not None
-    each = np.ones(len(joints))
-    bounds = Bounds(
-        joints, limits.lower * each, limits.upper * each, limits.speed * each,
-        limits.acceleration * each, np.inf * each, home=np.array(closure.home)[list(closure.given)],
-    )  # fmt: skip
+    joints, one = tuple(joint.name for joint in compiled.spec.joints), np.ones(len(home))
+    low, high, speed, more = (getattr(limits, name) * one
+                              for name in ("lower", "upper", "speed", "acceleration"))  # fmt: skip
+    bounds = Bounds(joints, low, high, speed, more, np.inf * one, home=home)
     found = excite(compiled, bounds, SEARCH).sampled(RATE)
-    q, qd, qdd = (np.stack([found[k + j] for j in joints], axis=1) for k in ("q", "qd", "qdd"))
-    W = compiled.observation(q, qd, qdd)
+    motion = (np.stack([found[k + j] for j in joints], axis=1) for k in ("q", "qd", "qdd"))
+    W = compiled.observation(*motion)
     return _condition(W.T @ W)

@@ -141,6 +141,14 @@ class Library(_Arrays):
         """Where a function of the library stands, for C that calls it; the caller holds this."""
         return int(self._ffi.cast("uintptr_t", getattr(self._library, name)))
 
+    @property
+    def singles(self) -> list[int]:
+        """Where C stands that closes loops: tables, and functions as the unit of tiles has them."""
+        names = [f"{self.spec.prefix}_{name}" for name in ("loops", "posed", "tree_next")]
+        names.append(f"{self._runtime}_eliminated")
+        return [int(self._ffi.cast("uintptr_t", self._ffi.addressof(self._library, name)))
+                for name in names]  # fmt: skip
+
     def batch(
         self,
         function: FunctionSpec,
@@ -258,6 +266,10 @@ def _declarations(spec: ModuleSpec) -> str:
         states = ", ".join(["const double *"] * (4 if spec.signals else 3))
         told = ", int *" if loops else ""
         lines.append(f"void {spec.prefix}_observation(size_t, {states}, double *{told});")
+    if loops:
+        lines.append(f"extern const char {spec.prefix}_loops[];")
+        names = (f"{spec.prefix}_posed", f"{spec.prefix}_tree_next", "modeler_eliminated")
+        lines += [f"void {name}(void);" for name in names]
     for function in spec.every_function:
         inputs = ", ".join("const double *" for _ in function.inputs)
         returns = "int" if function.status else "void"
@@ -469,6 +481,7 @@ typedef struct {{
     const int *row, *column;
     void *tile, *closing;
     size_t room;
+    const void *singles;
 }} modeler_tiled;
 const modeler_tiled *{prefix}_tiled(void);
 const char *{prefix}_tile_signature(void);
@@ -487,8 +500,8 @@ void modeler_tile_closed(const modeler_tiled *, size_t, const double *, const do
 class TileLibrary(_Arrays):
     """A loaded library; its functions release the interpreter lock and may run in threads."""
 
-    def __init__(self, spec: ModuleSpec, path: Path) -> None:
-        """Load the library at `path`.
+    def __init__(self, spec: ModuleSpec, path: Path, library: Library) -> None:
+        """Load the library at `path`; `library` has what closes loops one after another.
 
         Raises:
             BuildError: it cannot be loaded.
@@ -501,7 +514,11 @@ class TileLibrary(_Arrays):
                 f"{spec.robot}: the code of the tiles answers {got}, the manifest expects "
                 f"{spec.signature()}; one of them is older, generate both again"
             )
-        self._tiled = getattr(self._library, f"{spec.prefix}_tiled")()
+        given = getattr(self._library, f"{spec.prefix}_tiled")()
+        self._tiled = self._ffi.new(f"{self._runtime}_tiled *", given[0])
+        if spec.closure is not None:
+            self._singles = self._ffi.new("uintptr_t[]", library.singles)
+            self._tiled.singles = self._singles
 
     @property
     def tile(self) -> int:
@@ -539,11 +556,20 @@ class TileLibrary(_Arrays):
         return getattr(self._library, f"{self._runtime}_tile_{name}")
 
 
-def tile_library(spec: ModuleSpec, files: Mapping[str, str]) -> TileLibrary:
+def tile_library(spec: ModuleSpec, files: Mapping[str, str], library: Library) -> TileLibrary:
     """The library of these files, compiled once and then taken from the cache.
+
+    Args:
+        spec: the manifest.
+        files: with its `tile_sources`.
+        library: of the same module.
 
     Raises:
         BuildError: no compiler, or it refused.
         ManifestError: the files belong to another manifest.
     """
-    return TileLibrary(spec, build_library({name: files[name] for name in spec.tile_sources}))
+    texts = {name: files[name] for name in spec.tile_sources}
+    if spec.closure is not None:  # loops are closed one after another by the library that is there
+        unit = f"{spec.prefix}_tile.c"
+        texts[unit] = f"#define MODELER_APART\n{texts[unit]}"
+    return TileLibrary(spec, build_library(texts), library)

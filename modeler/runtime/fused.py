@@ -303,7 +303,7 @@ class Batches:
         wanted = self.spec.tile_sources
         if not wanted or not all(name in self._tile_files for name in wanted):
             return None
-        return bind.tile_library(self.spec, self._tile_files)
+        return bind.tile_library(self.spec, self._tile_files, self._library)
 
     def _motion(self, q: Any, qd: Any, qdd: Any, s: Any) -> tuple[np.ndarray, ...]:
         """Checked q, qd, qdd and, where effects read any, signals."""

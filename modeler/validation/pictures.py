@@ -354,9 +354,7 @@ def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: 
     )  # fmt: skip
 
 
-def torques_picture(
-    name: str, names: Sequence[str], predictions: Sequence[Prediction]
-) -> Picture:
+def torques_picture(name: str, names: Sequence[str], predictions: Sequence[Prediction]) -> Picture:
     """Measured torque of every joint that has one, and what each model says, against time.
 
     Args:
@@ -379,7 +377,9 @@ def torques_picture(
         ]
         y_label = f"{'torque' if joint.effort_unit == 'N m' else 'force'} [{joint.effort_unit}]"
         panels.append((Panel(f"Joint {joint.name}", label, y_label, tuple(curves), marks=marks),))
-    said = ", ".join(f"{style.named}: {told}" for told, style in zip(names, styles[1:], strict=True))
+    said = ", ".join(
+        f"{style.named}: {told}" for told, style in zip(names, styles[1:], strict=True)
+    )
     return Picture(
         name=name,
         title="Measured and predicted torque",

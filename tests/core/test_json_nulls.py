@@ -108,6 +108,9 @@ COMMANDS = {
         "--harmonics",
         "3",
     ),
+    "excite next": (ROBOT, "--from", "a.csv", "--out", "e.csv", "--starts", "1", "--harmonics", "3",
+                    "--family", "bspline", "--clearance", "0.01"),  # fmt: skip
+    "excite check": (ROBOT, "--check", "a.csv"),
     "excite choose": (ROBOT, "--choose", "1", "--from", "a.csv", "b.csv"),
     "reproduce": ("hanssen-2000", "--section", "print"),
     "completion": ("bash",),

@@ -183,7 +183,7 @@ EXCITE = ("excite", "demo-arm", "--duration", "3", "--starts", "1")
         (("--rate", "0"), "--rate: got 0"),
         (("--time-limit", "0"), "time limit"),
         (("--picture", "p.bmp"), ".png, .svg or .pdf"),
-        (("--choose", "1"), "go together"),
+        (("--choose", "1"), "needs --from"),
         (("--choose", "1", "--from", "a.csv"), "--out: got it with --choose, which names motions"),
         (("--between", "stribeck@2,spring@2"), "has no values"),
     ],

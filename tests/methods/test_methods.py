@@ -23,7 +23,7 @@ TITLES = {
         "Condition numbers",
         "The exciting motion",
     ],
-    "briot-2012": ["Table 3", "The second load"],
+    "briot-2012": ["Table 3", "Figure 3", "The second load"],
     "houda": ["Table 1", "Table 1", "The energy model"],
     "hanssen-2000": ["Eq. (3)", "Persistent excitation", "Two steps", "Figure 2", "Physical"],
 }
