@@ -38,12 +38,14 @@
     && !defined(MODELER_NO_CLONES) && !defined(MODELER_PLAIN)
 #include <limits.h> /* says whether the C library is glibc, whose loader can */
 #if defined(__GLIBC__) && !defined(__UCLIBC__) && __GNUC__ >= 8
+#undef MODELER_INTO_CLONES
 #define MODELER_CLONES __attribute__((target_clones("avx512f", "fma", "default")))
 #define MODELER_INTO_CLONES __attribute__((always_inline))
 #endif
 #endif
 #ifndef MODELER_CLONES
 #define MODELER_CLONES
+#undef MODELER_INTO_CLONES
 #define MODELER_INTO_CLONES
 #endif
 
