@@ -67,17 +67,17 @@ class SignalReference(Brief):
 
 @dataclass(frozen=True, eq=False)
 class Signals(Brief):
-    """Of one segment, thinned to what the band of the analysis needs; n samples, J joints.
+    """Of one segment; n samples, J joints.
 
     Attributes:
         segment: where it comes from.
-        every: every how manieth of its samples is used.
+        usable: (n, J) samples that count.
         q, v, a: (n, J) motion.
         reference: the model.
     """
 
     segment: Segment
-    every: int
+    usable: np.ndarray
     q: np.ndarray
     v: np.ndarray
     a: np.ndarray
@@ -86,13 +86,12 @@ class Signals(Brief):
     @property
     def step(self) -> float:
         """Between samples, s."""
-        return self.segment.step * self.every
+        return self.segment.step
 
     @cached_property
     def read(self) -> np.ndarray | None:
         """(n, m) what effects of the model read besides the motion."""
-        every = signals_of(self.reference.compiled.spec, self.segment)
-        return None if every is None else np.ascontiguousarray(every[:: self.every])
+        return signals_of(self.reference.compiled.spec, self.segment)
 
     def base_regressor(self, window: slice) -> np.ndarray:
         """(n, J, c) of the model, over a window of the samples."""
@@ -144,7 +143,7 @@ class Signals(Brief):
     @cached_property
     def time(self) -> np.ndarray:
         """(n,) s."""
-        return self.segment.time[:: self.every] - self.reference.time
+        return self.segment.time - self.reference.time
 
     def temperature(self, joint: str) -> np.ndarray | None:
         """(n,) K above the reference; None where the training logs have no such column.
@@ -155,7 +154,7 @@ class Signals(Brief):
             return None
         for name in (f"temperature{joint}", "temperature"):
             if name in self.segment.extra:
-                return self.segment.extra[name][:: self.every] - self.reference.temperature[joint]
+                return self.segment.extra[name] - self.reference.temperature[joint]
         return np.zeros(len(self.q))
 
     def state(self, memory: Memory, j: int, shapes: Mapping[str, float]) -> np.ndarray:

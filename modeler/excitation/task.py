@@ -7,7 +7,8 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.excitation.criterion import NEAR_REST, Criterion, MotionColumns
-from modeler.excitation.motion import Bounds, PostureLimits, Series
+from modeler.excitation.families import Series
+from modeler.excitation.motion import Bounds, PostureLimits
 from modeler.numerics.optimize import evolve
 
 _POSTURES = 200  # drawn, to rest in

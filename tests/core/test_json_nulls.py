@@ -108,6 +108,9 @@ COMMANDS = {
         "--harmonics",
         "3",
     ),
+    "excite next": (ROBOT, "--from", "a.csv", "--out", "e.csv", "--starts", "1", "--harmonics", "3",
+                    "--family", "bspline", "--clearance", "0.01"),  # fmt: skip
+    "excite check": (ROBOT, "--check", "a.csv"),
     "excite choose": (ROBOT, "--choose", "1", "--from", "a.csv", "b.csv"),
     "reproduce": ("hanssen-2000", "--section", "print"),
     "completion": ("bash",),
@@ -115,7 +118,7 @@ COMMANDS = {
     "fit several": (ROBOT, "a.csv", "--method", "weighted,ridge", "--holdout", "b.csv"),
     "robots one": ("wrist",),
     "physical sets": (ROBOT, "--sets"),
-    "derive forms": (ROBOT, "--closed-form", "--regressor"),
+    "derive forms": (ROBOT, "--closed-form", "--regressor", "--energy", "--kane"),
     "demo": ("--duration", "6"),
     "fleet": (ROBOT, "a.csv", "b.csv"),
     "diagnose": ("m.json", "a.csv", "--holdout", "silent.csv", "--report", "d.html"),

@@ -16,7 +16,7 @@ from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
 from tests.estimators.__main__ import main as suite
-from tests.estimators.coverage import CASES, compiled, covered, measured, table
+from tests.estimators.coverage import CASES, Case, compiled, covered, measured, table
 from tests.estimators.measured import tried
 from tests.turns import in_turn
 
@@ -221,7 +221,7 @@ def test_a_loop_that_loses_the_robot_later_is_given_up(monkeypatch):
 
     Whether a loop is lost or just holds depends on the last digits; all that are lost are told.
     """
-    monkeypatch.setitem(CASES, "coarser", (0.02, 2000))
+    monkeypatch.setitem(CASES, "coarser", Case(counts=2000))
     lost = []
     for seed in (1, 2):
         log, _ = measured(seed, "coarser")
