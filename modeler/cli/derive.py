@@ -287,18 +287,18 @@ def _by_link(args: argparse.Namespace, model: SymbolicModel, words: Words) -> Js
     """Energy functions and Kane's form, each with its difference from the derivation."""
     added: Json = {}
     for key, form, what in (
-        ("energy", formulas.energy_functions, "d/dt h against the power of the torques"),
-        ("kane", formulas.kane_form, "torques of Kane's form against Newton-Euler"),
+        ("energy", "energy_functions", "d/dt h against the power of the torques"),
+        ("kane", "kane_form", "torques of Kane's form against Newton-Euler"),
     ):
         if vars(args)[key]:
             states = random_states(model, 50, np.random.default_rng(1985))
-            found, off = form(model, states)
+            found, off = getattr(formulas, form)(model, states)
             added[key] = _print_equation(found, args.format, words) | {"difference": off}
             words.say(f"\n{what}: {off:.1e} of the largest")
     return added
 
 
-def _print_equation(found: formulas.Equation, form: Form, words: Words) -> Json:
+def _print_equation(found: "formulas.Equation", form: Form, words: Words) -> Json:
     mark = _COMMENT[form]
     words.say()
     for line in found.words:

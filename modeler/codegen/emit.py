@@ -31,7 +31,7 @@ from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_fil
 from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.symbols import symbol_lines
-from modeler.codegen.targets import OF_PRECISION, Target
+from modeler.codegen.targets import OF_PRECISION, TILES, Target
 from modeler.codegen.vectors import stored_states, vectors_text
 from modeler.core import manifest
 from modeler.core.errors import EmitError, Precision
@@ -393,7 +393,7 @@ def _module(
         "signature": "",
         "blocks": blocks,
         "places": places,
-        "tile": _tile(spec, functions, places, target),
+        "tile": _tile(spec, functions, places),
     }
     spec = dataclasses.replace(spec, code=manifest.code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
@@ -401,13 +401,13 @@ def _module(
 
 
 def _tile(
-    spec: ModuleSpec, functions: Sequence[CFunction], places: dict[str, str], target: Target
+    spec: ModuleSpec, functions: Sequence[CFunction], places: dict[str, str]
 ) -> Tile | ClosingTile | None:
     if not spec.tile_sources:
         return None
     if spec.closure is not None:
-        return closing_tile_of(functions, places, len(spec.base))
-    return tile_of(functions, places, spec.nonzeros)
+        return closing_tile_of(functions, places, len(spec.base), TILES[spec.precision])
+    return tile_of(functions, places, spec.nonzeros, TILES[spec.precision])
 
 
 def _fitted_unit(

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from modeler.codegen.block import make_block
 from modeler.codegen.elimination import Elimination
 from modeler.codegen.functions import CFunction, name_lines
-from modeler.codegen.targets import TILE
+from modeler.codegen.targets import Target
 from modeler.core.json import entries
 from modeler.derivation import BaseParameters, Expr, Graph, SymbolicModel
 
@@ -227,7 +227,7 @@ _PARTS = ("closure", "residual", "factor", "solve", "coupling", "turned", "sprea
 
 
 def closing_tile_of(
-    functions: Iterable[CFunction], places: Mapping[str, str], columns: int
+    functions: Iterable[CFunction], places: Mapping[str, str], columns: int, target: Target
 ) -> ClosingTile | None:
     """The tile of a robot with loops; None where it has no regressor.
 
@@ -235,6 +235,7 @@ def closing_tile_of(
         functions: of the module.
         places: C text of every symbol of the graph.
         columns: how many the base regressor has.
+        target: of the precision's `TILES`.
     """
     found = {f.role: f for f in functions if f.internal}
     if "tree_rows" not in found:
@@ -248,14 +249,14 @@ def closing_tile_of(
         block = make_block(
             [(f"MODELER_PUT({entries.index(at)})" if rows else f"{out}[{at}]", value)
              for at, value in f.entries],
-            places, target=TILE,
+            places, target=target,
         )  # fmt: skip
         symbols |= block.symbols
         inputs = tuple(argument.name for argument in f.inputs)
         read = {symbol.partition("[")[0] for symbol in block.symbols}
         written = {at for at, _ in f.entries}
         zeros = () if rows else tuple(
-            f"{out}[{at}] = modeler_lanes_spread(0.0);"
+            f"{out}[{at}] = modeler_lanes_spread(0);"
             for at in range(f.output.size) if at not in written
         )  # fmt: skip
         unread = tuple(f"(void){name};" for name in inputs if name not in read)
@@ -265,14 +266,16 @@ def closing_tile_of(
 
 
 def tile_of(
-    functions: Iterable[CFunction], places: Mapping[str, str], nonzeros: Sequence[tuple[int, int]]
-) -> Tile | None:
+    functions: Iterable[CFunction], places: Mapping[str, str],
+    nonzeros: Sequence[tuple[int, int]], target: Target,
+) -> Tile | None:  # fmt: skip
     """The tile of a module; None where it has no function of the entries: with loops.
 
     Args:
         functions: of the module.
         places: C text of every symbol of the graph.
         nonzeros: (joint, column) of the entries.
+        target: of the precision's `TILES`.
     """
     function = next((f for f in functions if f.role == ENTRIES), None)
     if function is None or not function.entries:
@@ -284,7 +287,7 @@ def tile_of(
     outputs = [(f"MODELER_PUT({index})", value) for index, value in ordered]
     # `q[3]` of all lanes is the variable q_3.
     lanes = {s: re.sub(r"^(q|qd|qdd|s)\[(\d+)\]$", r"\1_\2", at) for s, at in places.items()}
-    block = make_block(outputs, lanes, target=TILE)
+    block = make_block(outputs, lanes, target=target)
     lengths = {argument.name: argument.shape[0] for argument in function.inputs}
     loads: dict[str, list[str]] = {}
     for name, length in lengths.items():

@@ -111,6 +111,7 @@ def diagnose(
         other = dataclasses.replace(data, observation=coarser(held, compiled))
         del held
     beyond = _other_band(data, model, mending)
+    mending = LogRepair(logs, compiled.spec)  # pieces and spectra have served
     limit = 0 if any(fault.certain for fault in doubted) else most
 
     def searched(data: SearchData, other: SearchData | None, given: Sequence[Step] = ()) -> Search:

@@ -322,8 +322,8 @@ def _sentences(
     if robot.raised > 0.0:
         light = problem.observation.joints[robot.lightest].name
         said.append(
-            f"the fitted inertia matrix is not positive definite in {percent(robot.raised)} of "
-            f"the postures, most at joint {light}: it was raised for the simulation; record "
+            "the fitted inertia matrix is nearly singular or not positive definite in "
+            f"{percent(robot.raised)} of the postures, most at joint {light}: it was raised for the simulation; record "
             "more motion, or leave out parameters that are not essential"
         )
     return said

@@ -337,18 +337,18 @@ def _sum(a: Along, b: Along) -> Along:
 
 def _triads(model: SymbolicModel) -> dict[tuple[int, int], tuple[int, str]]:
     """{(row, -1 for frame 0; axis): (sign, how the unit vector is written)}."""
-    given, found = model.robot.terms.get("triads", {}), {}
+    given: Any = model.robot.terms.get("triads", {})
+    found = {}
     for k, name in enumerate(["0", *(row.joint.name for row in model.geometry.rows)], -1):
-        axes = [f"{letter}{name}" for letter in "xyz"]
-        if isinstance(given, dict) and name in given:
-            axes = given[name]
-        listed = "".join(f"{axis}," for axis in axes) if isinstance(axes, list) else ""
-        if not re.fullmatch(r"(-?[A-Za-z]+\w+,){3}", listed):
+        axes = given.get(name) if isinstance(given, dict) else given
+        listed = axes if isinstance(axes, list) else [] if axes else [f"{x}_{name}" for x in "xyz"]
+        written = [re.fullmatch(r"(-?)([A-Za-z]+?)_?(\d\w*|(?<=_)\w+)", str(x)) for x in listed]
+        read = [match.groups() for match in written if match is not None]
+        if len(read) != len(listed) or len(read) != 3:
             raise RobotError(
                 f"robot {model.robot.name}, [terms], triads, {name}: got {axes!r}; expected three "
                 'axes such as ["a3", "-a2", "a1"]'
             )
-        for i, axis in enumerate(axes):
-            written = re.sub(r"-?([A-Za-z]+)_?", r"\1_", axis, count=1)
-            found[k, i] = (-1 if axis[0] == "-" else 1, written)
+        for i, (sign, letter, index) in enumerate(read):
+            found[k, i] = (-1 if sign else 1, f"{letter}_{index}")
     return found

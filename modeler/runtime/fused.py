@@ -48,6 +48,11 @@ class NonzeroPattern:
         counts = [len(own) for own in self.columns]
         return np.repeat(np.arange(len(counts), dtype=np.intc), counts)
 
+    @cached_property
+    def spans(self) -> list[slice]:
+        """Of each joint, from its first column to its last; all others are 0."""
+        return [slice(own[0], own[-1] + 1) if own.size else slice(0) for own in self.columns]
+
     def parts(self, packed: np.ndarray) -> list[np.ndarray]:
         """The square triangle of each joint, views."""
         ends = np.cumsum([size * size for size in self.sizes])

@@ -1,5 +1,6 @@
-"""Links that must not meet: distances beside coal's, motions that keep them, between samples too."""
+"""Links that must not meet: distances beside coal's, motions that keep them at all times."""
 
+import dataclasses
 import json
 
 import coal
@@ -18,17 +19,20 @@ from modeler.excitation.search import Wish, excite
 from modeler.report.robot_skeleton import poses, skeleton_of
 from modeler.robot import read_robot, robot_from_text
 
-CAPSULES = {"0": (0.11, (0, 0, 0), (0, 0, 0.3)), "2": (0.06, (0, 0, 0), (0.42, 0, 0)),
-            "3": (0.05, (0, 0, 0), (0, -0.36, 0)), "5": (0.06, (0, 0, -0.04), (0, 0, 0.04)),
-            "6": (0.03, (0, 0, 0.05), (0, 0, 0.24))}  # fmt: skip
-FLOOR = (0.0, 0.0, 1.0, -0.1)
+CAPSULES = {
+    "0": (0.1, (0, 0, -0.5), (0, 0, -0.05)),
+    "1": (0.09, (0, 0, -0.05), (0, 0, 0.05)),
+    "2": (0.05, (0, 0, 0), (0.4, 0, 0)),
+    "3": (0.06, (0.1, 0, 0), (0.42, 0, 0)),
+}
+FLOOR = (0.0, 0.0, 2.0, -1.0)
 
 
 def arm_text() -> str:
-    """The PUMA with a long tool over a floor."""
+    """The demonstration arm over a floor."""
     rows = [[row, radius, *one, *other] for row, (radius, one, other) in CAPSULES.items()]
     head = '"row", "radius", "x0", "y0", "z0", "x1", "y1", "z1"'
-    return read_robot("puma560").text + (
+    return read_robot("demo-arm").text + (
         f"\n[capsules]\ncolumns = [{head}]\nrows = {json.dumps(rows)}\n"
         f"planes = {{floor = {list(FLOOR)}}}\n"
     )
@@ -67,7 +71,7 @@ def oracle(robot, q) -> dict[tuple[str, str], float]:
     for i, (a, (one, r)) in enumerate(placed.items()):
         for b, (other, s) in list(placed.items())[i + 1 :]:
             found[a, b] = coal_distance(one, other, r, s)
-        found[a, "floor"] = one[:, 2].min() - FLOOR[3] - r
+        found[a, "floor"] = one[:, 2].min() - FLOOR[3] / FLOOR[2] - r
     return found
 
 
@@ -91,8 +95,8 @@ def test_distances_are_coals_for_capsules_that_cross_touch_and_are_parallel():
 def test_pairs_that_share_a_joint_or_always_touch_are_left_out_and_told(arm):
     _, _, bounds = arm
     pairs = [set(bounds.clearance.solids.who(k)) for k in range(len(bounds.clearance.solids.pairs))]
-    assert {"base", "6"} in pairs and {"6", "floor"} in pairs and {"2", "6"} in pairs
-    assert {"2", "3"} not in pairs and {"5", "6"} not in pairs and {"base", "floor"} not in pairs
+    told = [{"base", "3"}, {"1", "3"}, {"1", "floor"}, {"2", "floor"}, {"3", "floor"}]
+    assert sorted(map(sorted, pairs)) == sorted(map(sorted, told))
     out = {frozenset(pair[:2]): pair[2] for pair in bounds.clearance.left_out}
     assert out[frozenset({"base", "2"})] == "in 100 % of postures"
 
@@ -100,11 +104,11 @@ def test_pairs_that_share_a_joint_or_always_touch_are_left_out_and_told(arm):
 def test_the_slope_of_distances_is_their_derivative(arm):
     _, compiled, bounds = arm
     limits, rng = posture_of(compiled, bounds), np.random.default_rng()
-    q = bounds.middle + bounds.half * rng.uniform(-0.8, 0.8, (40, 6))
+    q = bounds.middle + bounds.half * rng.uniform(-0.8, 0.8, (40, 3))
     q = q[limits.shares(q).max(axis=1) < 1.0]
     pull = rng.normal(size=limits.shares(q).shape)
     found, h = limits.pulled_back(q, pull), 1e-6
-    for j, way in enumerate(h * np.eye(6)):
+    for j, way in enumerate(h * np.eye(3)):
         told = ((limits.shares(q + way) - limits.shares(q - way)) * pull).sum(axis=1) / (2 * h)
         assert np.allclose(found[:, j], told, rtol=1e-3, atol=1e-5)
 
@@ -112,13 +116,14 @@ def test_the_slope_of_distances_is_their_derivative(arm):
 @pytest.mark.parametrize("family", ["fourier", "bspline", "trapezoid"])
 def test_a_motion_keeps_links_apart_at_all_times_and_costs_little(arm, family, tmp_path):
     robot, compiled, bounds = arm
-    motion = excite(compiled, bounds, Wish(8.0, 5, starts=1, family=family, time_limit=6.0))
-    fine = motion.series.at(np.linspace(0.0, 8.0, 401)).motion(motion.x)[0]
+    motion = excite(compiled, bounds, Wish(6.0, 3, "condition", 1, family=family))
+    fine = motion.series.at(np.linspace(0.0, 6.0, 201)).motion(motion.x)[0]
     seen = [oracle(robot, q) for q in fine]
     kept = {bounds.clearance.solids.who(k) for k in range(len(bounds.clearance.solids.pairs))}
     least = min(each[pair] for each in seen for pair in kept)
-    assert 0.01 <= motion.nearest.bound <= motion.nearest.distance <= least + 1e-9
-    assert least < motion.nearest.distance + 0.01
+    assert 0.01 <= motion.nearest.bound <= least + 1e-9
+    assert motion.nearest.bound > motion.nearest.distance - 2e-4
+    assert motion.nearest.distance - 2e-4 < least < motion.nearest.distance + 0.01
     at = oracle(robot, np.array(list(motion.nearest.posture.values())))
     assert at[motion.nearest.pair] == pytest.approx(motion.nearest.distance, abs=1e-6)
     assert motion.quality.condition < motion.random[0]
@@ -137,8 +142,8 @@ def test_what_comes_near_between_samples_is_seen(arm):
         at, deep = rng.uniform(1.0, 9.0), rng.uniform(0.3, 0.6)
 
         def path(t, at=at, deep=deep):
-            q = np.tile([0.0, -0.6, 1.5, 0.1, 0.2, 0.1], (len(t), 1))
-            q[:, 1] += deep * np.exp(-(((t - at) / 0.03) ** 2)) + 0.1 * np.sin(t)
+            q = np.tile([0.0, 0.1, 0.4], (len(t), 1))
+            q[:, 1] -= deep * np.exp(-(((t - at) / 0.03) ** 2)) + 0.1 * np.sin(t)
             return q
 
         near = nearest(compiled, solids, path, 10.0)
@@ -151,9 +156,9 @@ def test_what_comes_near_between_samples_is_seen(arm):
 def test_the_command_checks_a_motion_and_draws_the_nearest_two(arm, tmp_path, capsys):
     (tmp_path / "arm.toml").write_text(arm_text())
     t = np.linspace(0.0, 4.0, 401)
-    columns = {"time": t} | {f"q{j}": 0.0 * t for j in "123456"}
-    columns["q3"] = 1.0 + 0.9 * np.sin(t) ** 2  # the forearm folds onto the upper arm
-    columns["q2"] = -0.4 + 0.2 * np.sin(t)
+    columns = {"time": t} | {f"q{j}": 0.0 * t for j in "123"}
+    columns["q3"] = 1.5 + 0.9 * np.sin(t) ** 2  # the forearm folds back to the column
+    columns["q2"] = 0.2 + 0.2 * np.sin(t)
     place, page = tmp_path / "fold.csv", tmp_path / "fold.html"
     place.write_text(csv_text(columns))
     words = ["excite", str(tmp_path / "arm.toml"), "--check", str(place)]
@@ -174,7 +179,7 @@ def test_loops_are_kept_clear_too():
     found = read_robot("five-bar")
     compiled = compile_model(generate(derive(found)))
     bounds = bounds_of(found, compiled, {}, {}, 0.02)
-    motion = excite(compiled, bounds, Wish(6.0, 4, starts=1, time_limit=5.0))
+    motion = excite(compiled, bounds, Wish(6.0, 3, starts=1, time_limit=1.0))
     assert motion.nearest.bound >= 0.02 and len(motion.nearest.posture) > len(bounds.joints)
 
 
@@ -192,17 +197,15 @@ def test_loops_are_kept_clear_too():
 )
 def test_one_line_for_capsules_that_cannot_be(text, told):
     with pytest.raises(RobotError) as caught:
-        robot_from_text(f"{read_robot('puma560').text}\n[capsules]\n{text}\n", "a.toml")
+        robot_from_text(f"{read_robot('demo-arm').text}\n[capsules]\n{text}\n", "a.toml")
     assert told in str(caught.value) and "\n" not in str(caught.value)
 
 
 def test_a_margin_below_zero_or_one_that_leaves_no_room_is_refused(arm):
-    robot, compiled, bounds = arm
+    robot, compiled, _ = arm
     with pytest.raises(DataError, match="clearance: got -1 m; expected 0 or more"):
         bounds_of(robot, compiled, {}, {}, -1.0)
-    narrow = {"2": (0.0, 0.4, 1, 5), "3": (1.7, 1.9, 1, 5), "5": (-0.1, 0.1, 1, 5)}
-    tight = bounds_of(robot, compiled, narrow, {}, 0.01)
-    far = bounds_of(robot, compiled, {}, {}, 0.6)
+    bounds = bounds_of(robot, compiled, {}, {})
+    far = dataclasses.replace(bounds, clearance=dataclasses.replace(bounds.clearance, margin=0.8))
     with pytest.raises(DataError, match="no posture was found"):
         excite(compiled, far, Wish(4.0, 3, starts=1))
-    assert tight.clearance.margin == 0.01
