@@ -36,6 +36,7 @@ ROBOT = "orthoglide-2012"
 SECONDS, RATE, NOISE = 15.0, 400.0, 0.02
 LIMITS = Limits(0.02, 0.32, 0.8, 8.0)
 JOINTS = ("11", "12", "13")
+SHOWN = 5.0  # s, of figure 3
 FELT = 2.0
 """Times what the model of the loaded robot leaves, that the model without the load leaves."""
 BAR, SLIDE, PLATFORM = 0.2, 1.0, 0.75
@@ -165,9 +166,10 @@ def _figure_3(compiled: CompiledModel, found: GainFit, log: Log, mass: float) ->
             judged(FELT * a < b, Outcome.HOLDS), f"{FELT:g} times as much without")
         for joint, a, b in zip(JOINTS, own, bare, strict=True)
     ]  # fmt: skip
+    shown = observation.time < SHOWN
     panels = [
         (Panel(f"Motor {joint}", "time, s", "force, N", tuple(
-            Curve(name, observation.time, tau[:, j], style)
+            Curve(name, observation.time[shown], tau[shown, j], style)
             for (name, tau), style in zip(efforts.items(), _STYLES, strict=True)
         )),)
         for j, joint in enumerate(JOINTS)
