@@ -5,6 +5,7 @@ from benchmarks import (
     callgrind,
     control,
     cortex,
+    fleets,
     folder,
     least_squares,
     loops,
@@ -26,6 +27,7 @@ LINES = (
     *least_squares.LINES,
     *loops.LINES,
     *streams.LINES,
+    *fleets.LINES,
     *pictures.LINES,
     *answers.LINES,
 )
