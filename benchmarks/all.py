@@ -3,6 +3,7 @@
 from benchmarks import (
     answers,
     callgrind,
+    casadi_c,
     control,
     cortex,
     fleets,
@@ -14,11 +15,14 @@ from benchmarks import (
     regressor,
     start,
     streams,
+    tiles,
 )
 
 LINES = (
     *start.LINES,
     *regressor.LINES,
+    *casadi_c.LINES,
+    *tiles.LINES,
     *control.LINES,
     *callgrind.LINES,
     *cortex.LINES,

@@ -219,7 +219,7 @@ class Pictures(OutputFolder):
 class PictureFolder(Pictures):
     """Of the pictures of a comparison."""
 
-    writes = ("overview.*", "joint_*_time.*", "joint_*_residual.*", "joint_*_free_run.*")
+    writes = ("overview.*", "load.*", "joint_*_time.*", "joint_*_residual.*", "joint_*_free_run.*")
 
 
 class LogPictures(Pictures):

@@ -11,7 +11,9 @@ from .chunk import (
     Chunk as Chunk,
     chunks as chunks,
     chunks_between as chunks_between,
+    SPREAD as SPREAD,
     read_part as read_part,
+    read_spread as read_spread,
     window as window,
 )
 from .log import (

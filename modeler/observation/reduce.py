@@ -45,10 +45,8 @@ def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
         rows = places[(places >= own.start) & (places < own.stop)] - own.start
         if is_unfiltered(part):
             found.append(observation.regressor(part.segment, part.rows.centres[rows]))
-            continue
-        for block, columns in part.blocks(partial(observation.regressor, part.segment)):
-            inside = rows[(rows >= block.start) & (rows < block.stop)]
-            found.append(columns[inside - block.start])
+        elif rows.size:
+            found.append(part.at(rows, partial(observation.regressor, part.segment)))
     return np.concatenate(found)
 
 

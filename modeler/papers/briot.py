@@ -12,6 +12,7 @@ import numpy as np
 
 from modeler.codegen import derive, generate
 from modeler.core.builtin import builtin_text
+from modeler.core.table import percent
 from modeler.estimation import GainFit, Payload, identify_gains, identify_with_payloads
 from modeler.observation import Log, observe
 from modeler.papers.methods import (
@@ -33,6 +34,8 @@ ROBOT = "orthoglide-2012"
 SECONDS, RATE, NOISE = 15.0, 400.0, 0.02
 LIMITS = Limits(0.02, 0.32, 0.8, 8.0)
 JOINTS = ("11", "12", "13")
+FELT = 2.0
+"""Times what the model of the loaded robot leaves, that the model without the load leaves."""
 BAR, SLIDE, PLATFORM = 0.2, 1.0, 0.75
 """kg: a bar with its centre in the middle, a slide of legs 1 and 2, the platform."""
 
@@ -73,7 +76,8 @@ def briot_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodT
         _weighed(compiled, bare, other, dict.fromkeys(JOINTS, maker)),
         _weighed(compiled, bare, other, found.gains),
     ]
-    return [_table_3(table, found), _second_load(paper, cases)]
+    figure = _figure_3(compiled, found, loaded, mass)
+    return [_table_3(table, found), figure, _second_load(paper, cases)]
 
 
 def _machine(robot: Robot, table: Mapping[str, tuple[float, ...]], names: list[str]) -> Robot:
@@ -130,6 +134,30 @@ def _table_3(table: Mapping[str, tuple[float, ...]], found: GainFit) -> MethodTa
     outcome = judged(last[0] > 2 * last[1], Outcome.DERIVED)
     rows.append(Row("s[-2]/s[-1]", "-", f"{last[0] / last[1]:.4g}", outcome, why))
     return MethodTable("Table 3: drive gains, slides and motors", SETTING, tuple(rows))
+
+
+def _figure_3(compiled: CompiledModel, found: GainFit, log: Log, mass: float) -> MethodTable:
+    """Efforts of the loaded run by the gains that were found, rebuilt with the load and without."""
+    tau = log.tau * np.array([found.gains[joint] for joint in JOINTS])
+    observation = observe(compiled, [replace(log, tau=tau)])
+    load = compiled.base_parameters([mass * (p.name == "M6") for p in compiled.spec.standard])
+
+    def left(beta: np.ndarray) -> np.ndarray:
+        model = observation.filtered(
+            lambda s, w: compiled.inverse_dynamics(s.q[w], s.qd[w], s.qdd[w], beta)[:, :, None]
+        )
+        off = np.where(observation.used, observation.torque - model[:, :, 0], 0.0)
+        size = np.where(observation.used, observation.torque, 0.0)
+        return np.asarray(np.linalg.norm(off, axis=0) / np.linalg.norm(size, axis=0))
+
+    errors = left(found.result.beta + load), left(found.result.beta)
+    rows = [
+        Row(f"motor {joint}", '"well simulated"', f"{percent(own)}; without load {percent(bare)}",
+            judged(FELT * own < bare, Outcome.HOLDS), f"{FELT:g} times as much without")
+        for joint, own, bare in zip(JOINTS, *errors, strict=True)
+    ]  # fmt: skip
+    title = f"Figure 3: efforts with the load of {mass:g} kg, what the model leaves"
+    return MethodTable(title, SETTING[1:], tuple(rows))
 
 
 _SET = ("M11", "M12", "M13", "Ia1", "Fv1", "Fs1")
