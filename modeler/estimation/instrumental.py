@@ -200,7 +200,7 @@ def didim_robust(problem: Problem) -> Estimate:
 
 
 def didim_consistent(problem: Problem) -> Estimate:
-    """`didim` whose steps are machines that could be built: each of them can be simulated."""
+    """`didim` whose steps are machines that could be built: their inertia matrices are such."""
     return didim(problem, "didim-consistent", buildable)
 
 
