@@ -1,4 +1,4 @@
-"""The base regressor beside CasADi's C of the same expressions: same terms, same flags, interleaved.
+"""The base regressor beside CasADi's C of the same expressions: same terms, same flags, in turn.
 
 Our own graph goes through `casadi.CodeGenerator`, so what differs is how it is written: sines and
 cosines, the order of statements, the stores.
@@ -21,13 +21,13 @@ _PEER = """
 #include <stddef.h>
 static int nothing;
 void *peer_model(const char *path);
-double peer_regressor(void *model, const double *q, const double *qd, const double *qdd, double *to);
+double peer_regressor(void *model, const double *q, const double *qd, const double *qdd, double *a);
 void *peer_model(const char *path) {{ (void)path; return &nothing; }}
-double peer_regressor(void *model, const double *q, const double *qd, const double *qdd, double *to)
+double peer_regressor(void *model, const double *q, const double *qd, const double *qdd, double *a)
 {{
     static double out[{size}], w[{work} + 1];
     const double *arg[{inputs}] = {{q, qd, qdd}};
-    double *res[{outputs}] = {{to ? to : out}};
+    double *res[{outputs}] = {{a ? a : out}};
     (void)model;
     base_regressor(arg, res, NULL, w, 0);
     return res[0][0];

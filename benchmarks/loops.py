@@ -108,9 +108,11 @@ def _keys() -> tuple[Key, ...]:
         if name not in OPEN:
             keys += [
                 Key(f"loops_tile_us.{name}", "us", f"{what} samples before, 8 at once."),
-                ratio(f"loops_scalar_over_tile.{name}",
-                      f"One after another from the sample before, over 8 at once, {name}.",
-                      *((3.0, 5.0) if name in MUST else ())),
+                ratio(
+                    f"loops_scalar_over_tile.{name}",
+                    f"One after another from the sample before, over 8 at once, {name}.",
+                    *((3.0, 5.0) if name in MUST else ()),
+                ),
             ]
     return tuple(keys)
 

@@ -104,9 +104,7 @@ def band_search(
     return BandSearch(found, other, seen, shares[0], findings)
 
 
-def _systematic(
-    state: State, left: Sequence[np.ndarray], tick: Tick
-) -> Callable[[int], float]:
+def _systematic(state: State, left: Sequence[np.ndarray], tick: Tick) -> Callable[[int], float]:
     """Systematic share of what is left on a joint of some logs; it takes long."""
 
     @cache

@@ -322,8 +322,10 @@ def _blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock, ...]:
         parts = [weights[slice(*own)] for weights, own in zip(filters, ends, strict=True)]
         stop = max(int(part.indices.max(initial=start)) for part in parts) + 1
         made = [
-            csr_array((p.data, *map(np.int32, (p.indices - start, p.indptr))),
-                      shape=(p.shape[0], stop - start))
+            csr_array(
+                (p.data, *map(np.int32, (p.indices - start, p.indptr))),
+                shape=(p.shape[0], stop - start),
+            )
             for p in parts
         ]
         found.append(RowBlock(slice(start, stop), tuple(made)))

@@ -236,7 +236,8 @@ def checked_out(out: np.ndarray, shape: tuple[int, int], columns: bool = False) 
     whole = out.flags.c_contiguous or (columns and out.flags.f_contiguous)
     if out.dtype != np.float64 or not whole or not out.flags.writeable:
         raise ShapeError(
-            f"out: got type {out.dtype}, expected a writeable C-contiguous float64 array; "
+            f"out: got type {out.dtype}, expected a writeable C-contiguous"
+            f"{' (or Fortran-contiguous)' * columns} float64 array; "
             f"make one with np.empty({shape})"
         )
     return out

@@ -94,7 +94,7 @@ class CompiledModel(Batches, Presented):
 
     def observation(
         self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None, s: Any = None,
-        order: Literal["C", "F"] = "C",
+        *, order: Literal["C", "F"] = "C",
     ) -> np.ndarray:  # fmt: skip
         """W, (n*joints, c): y = W beta with y = tau.reshape(-1), joint after joint in each sample.
 
