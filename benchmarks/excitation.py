@@ -1,11 +1,12 @@
 """The condition number of exciting motions: ours beside two usual ways, same robot, limits, time.
 
-Run from the top of the checkout: `python -m benchmarks.excitation [ROBOT...]`. All minimise the
-condition number of W with columns of length one over the same Fourier series, with the same
-compiled regressor. The peers are what is mostly done: SLSQP with limits sampled as constraints and
-gradients by differences of the whole objective, from a random motion (as fmincon is used), and
-differential evolution, a genetic search, of motions that are drawn back into their limits. Each
-peer gets `PATIENCE` times the processor seconds that ours took.
+Run from the top of the checkout: `python -m benchmarks.excitation [ROBOT...]`, or with
+`--families` first: Fourier series beside B-splines and trapezoids, without and with a clearance.
+All minimise the condition number of W with columns of length one over the same Fourier series, with
+the same compiled regressor. The peers are what is mostly done: SLSQP with limits sampled as
+constraints and gradients by differences of the whole objective, from a random motion (as fmincon is
+used), and differential evolution, a genetic search, of motions that are drawn back into their
+limits. Each peer gets `PATIENCE` times the processor seconds that ours took.
 """
 
 import sys
@@ -15,6 +16,7 @@ import numpy as np
 from scipy.optimize import differential_evolution, minimize
 
 from modeler.api import compile_model, derive, generate
+from modeler.api.motion import bounds_of as motion_bounds
 from modeler.cli.motion import bounds_of
 from modeler.excitation import (
     Task,
@@ -25,9 +27,13 @@ from modeler.excitation import (
     random_motion,
     task_of,
 )
+from modeler.excitation.families import FAMILIES
 from modeler.robot import Robot, read_robot, robot_from_text, with_effects
 
 ROBOTS = ("scara", "ur10e", "tx40", "panda")
+FIVE = (*ROBOTS, "rx90")
+"""Of `--families` and of benchmarks.collisions."""
+
 PATIENCE = 4.0
 _EFFECTS = dict.fromkeys(["rotor_inertia", "viscous", "coulomb"], "all")
 _CONSTRAINED = 8  # every so manieth sample is a constraint of SLSQP
@@ -128,5 +134,29 @@ def main(names: list[str]) -> None:
         )
 
 
+def families(names: list[str]) -> None:
+    """Families beside each other, and what a clearance of 10 mm costs: same starts and seed."""
+    print(
+        f"{'robot':<10}" + "".join(f"{f:>10}{'cpu s':>8}{'clear':>8}{'cpu s':>8}" for f in FAMILIES)
+    )
+    for name in names:
+        robot = with_losses(read_robot(name))
+        compiled = compile_model(generate(derive(robot)))
+        both = [motion_bounds(robot, compiled, {}, {}, margin) for margin in (None, 0.01)]
+        cells = []
+        for family in FAMILIES:
+            for bounds, wide in zip(both, (10, 8), strict=True):
+                harmonics = default_harmonics(bounds, 10.0)
+                wish = Wish(10.0, harmonics, "condition", starts=3, family=family)
+                begun = time.process_time()
+                found = excite(compiled, bounds, wish)
+                seconds = time.process_time() - begun
+                cells.append(f"{found.quality.condition:>{wide}.3g}{seconds:>8.1f}")
+        print(f"{name:<10}" + "".join(cells), flush=True)
+
+
 if __name__ == "__main__":
-    main(sys.argv[1:] or list(ROBOTS))
+    if sys.argv[1:2] == ["--families"]:
+        families(sys.argv[2:] or list(FIVE))
+    else:
+        main(sys.argv[1:] or list(ROBOTS))

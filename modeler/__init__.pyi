@@ -29,6 +29,7 @@ from .api import (
     add as add,
     at_home as at_home,
     auto as auto,
+    check_motion as check_motion,
     compare as compare,
     compile_model as compile_model,
     contest as contest,

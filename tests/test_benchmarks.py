@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import __main__ as front
+from benchmarks import __main__ as front, equal
 from benchmarks.all import LINES
 from benchmarks.line import Key, Line, Missing
 from benchmarks.markdown import markdown
@@ -73,3 +73,19 @@ def test_a_line_that_cannot_be_measured_says_why_and_stops_no_other() -> None:
 def test_an_unknown_key_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert front.main(["--only", "nothing_like_it"]) == 1
     assert "no line matches nothing_like_it; see --list" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("after", "same"),
+    [({"x": [1e3, 1e-8], "seconds": 2.0, "name": "Fs2"}, True),
+     ({"x": [1e3, 2e-6], "seconds": 1.0, "name": "Fs2"}, False),
+     ({"x": [1e3 + 2e-6, 0.0], "seconds": 1.0, "name": "Fs2"}, False),
+     ({"x": [1e3], "seconds": 1.0, "name": "Fs2"}, False),
+     ({"x": [1e3, 0.0], "seconds": 1.0, "name": "Fv2"}, False),
+     ({"x": [1e3, 0.0], "seconds": 1.0}, False),
+     ("no answer, status 1", False)],
+)  # fmt: skip
+def test_answers_of_two_checkouts_are_held_against_each_other(after: object, same: bool) -> None:
+    before = {"fit.emps": {"x": [1e3, 0.0], "seconds": 1.0, "name": "Fs2"}}
+    assert equal.told(before, {"fit.emps": after}) == (not same)
+    assert equal.told(before, {}) == 1

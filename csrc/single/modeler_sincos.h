@@ -10,7 +10,11 @@
 
 #include <math.h>
 
-static inline void modeler_sincos(float x, float *sine, float *cosine)
+#ifndef MODELER_INTO_CLONES /* of modeler_runtime.h */
+#define MODELER_INTO_CLONES
+#endif
+
+static inline MODELER_INTO_CLONES void modeler_sincos(float x, float *sine, float *cosine)
 {
     /* pi/2 = PART_1 + PART_2 + PART_3; the first two have 8 bits and n has 16, so n*PART is exact,
      * and so are the differences from x. */

@@ -25,6 +25,7 @@ from .model import (
     open_robot as open_robot,
 )
 from .motion import (
+    check_motion as check_motion,
     excite as excite,
     forecast as forecast,
     simulate as simulate,

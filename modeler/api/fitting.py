@@ -21,8 +21,12 @@ from modeler.observation import Doubt, Log, Observation, Processing, check_apart
 from modeler.robot import Robot, joint_directions, near, robot_from_text, with_drive_gains
 from modeler.runtime import CompiledModel
 
-WITHOUT_LOADS = ("iv", "iv-direct", "didim", "consistent", TWO_STEPS)
+WITH_LOADS = ("weighted", "ordinary", "robust", "ridge")
+WITHOUT_LOADS = (*(m for m in ABOUT if m not in WITH_LOADS), TWO_STEPS)
 """Methods that know no loads."""
+
+BUILDABLE = tuple(method for method, about in ABOUT.items() if about.buildable)
+"""Methods that end in all standard parameters."""
 
 OF_WINDOWS = ("weighted", "ordinary")
 """Methods of the energy model."""

@@ -10,12 +10,15 @@ from typing import Any
 import numpy as np
 
 from modeler import excitation, simulation
-from modeler.api.workflow import compile_model, derive, generate, recompile
+from modeler.api.clearance import USUAL, nearest_along, with_clearance
+from modeler.api.fitting import processing_of
+from modeler.api.log_maps import Mapped
+from modeler.api.workflow import Logs, compile_model, derive, generate, listed, read_logs, recompile
 from modeler.core.errors import DataError
 from modeler.effects import effect_named
 from modeler.estimation import FitResult, IdentifiedModel, identify
 from modeler.numerics.filters import BANDWIDTH
-from modeler.observation import Log, observe
+from modeler.observation import Log, Observation, Processing, check_apart, observe
 from modeler.robot import Limits, Robot, near, robot_from_text
 from modeler.runtime import CompiledModel
 from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
@@ -47,11 +50,12 @@ class Subject:
     cutoff: float = 0.0
 
     def search(
-        self, bounds: excitation.Bounds, wish: excitation.Wish, progress: Progress = _no_progress
-    ) -> excitation.Exciting:
+        self, bounds: excitation.Bounds, wish: excitation.Wish, progress: Progress = _no_progress,
+        known: excitation.Known | None = None,
+    ) -> excitation.Exciting:  # fmt: skip
         """The motion that tells its parameters apart."""
         return excitation.excite(
-            self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress
+            self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress, known
         )
 
     def check_forecast(self, where: str = "") -> None:
@@ -64,6 +68,11 @@ class Subject:
 
     def forecast(self, motion: excitation.Exciting, rate: float, encoders: "Encoders") -> FitResult:
         """What a fit would say of a log of a motion; see `forecast`."""
+        log = self.forecast_log(motion, rate, encoders)
+        return identify(observe(self.compiled, [log]), "weighted", self.compiled)
+
+    def forecast_log(self, motion: excitation.Exciting, rate: float, encoders: "Encoders") -> Log:
+        """The log of a motion that is to be expected."""
         self.check_forecast()
         assert self.sigma is not None and self.beta is not None
         spec, moves = self.compiled.spec, motion.sampled(rate)
@@ -76,12 +85,11 @@ class Subject:
         driven = [joint.actuated for joint in spec.joints]
         tau = self.compiled.inverse_dynamics(q, qd, qdd, self.beta, read)
         tau = tau + driven * self.sigma * np.sqrt(power) * rng.normal(size=q.shape)
-        log = Log(
+        return Log(
             "forecast", tuple(names), moves["time"],
             encoders.read(q, [joint.unit for joint in spec.joints], rng), tau,
             extra={"temperature": np.zeros(len(q))},
         )  # fmt: skip
-        return identify(observe(self.compiled, [log]), "weighted", self.compiled)
 
 
 @dataclass(frozen=True)
@@ -90,20 +98,20 @@ class Encoders:
 
     Attributes:
         counts: per turn of a revolute joint; 0: exact.
-        noise: standard deviation of white noise besides, rad or m.
+        noise: standard deviation of white noise besides, rad or m; (J,) if joints differ.
     """
 
     counts: int = 0
-    noise: float = 0.0
+    noise: Any = 0.0
 
     def read(self, q: np.ndarray, units: Sequence[str], rng: np.random.Generator) -> np.ndarray:
         """(n, J) positions as they are logged of exact ones (n, J)."""
-        if self.counts < 0 or not 0.0 <= self.noise < math.inf:
+        noise = np.asarray(self.noise, dtype=float)
+        if self.counts < 0 or not np.all((noise >= 0.0) & np.isfinite(noise)):
             raise DataError(
-                f"encoders of {self.counts} counts and noise {self.noise:g}: expected neither "
-                "below 0"
+                f"encoders of {self.counts} counts and noise {self.noise}: expected neither below 0"
             )
-        seen = q + self.noise * rng.normal(size=q.shape)
+        seen = q + noise * rng.normal(size=q.shape)
         step = np.array([2.0 * np.pi if unit == "rad" else 0.0 for unit in units])
         step = step / self.counts if self.counts else np.zeros(len(units))
         return np.where(step > 0.0, np.round(seen / np.where(step > 0.0, step, 1.0)) * step, seen)
@@ -130,11 +138,83 @@ def subject_of(thing: Robot | IdentifiedModel) -> Subject:
     return Subject(robot, recompile(thing), sigma if known else None, kept, thing.beta, cutoff)
 
 
+@dataclass(frozen=True, eq=False)
+class Recorded:
+    """Logs that there are, and what their fit says.
+
+    Attributes:
+        subject: the robot, with the noise and values of that fit.
+        logs: as read.
+        observation, fit: of them.
+        processing: that a fit of more logs begins with.
+    """
+
+    subject: Subject
+    logs: list[Log]
+    observation: Observation
+    fit: FitResult
+    processing: Processing
+
+    @property
+    def known(self) -> excitation.Known:
+        """Their information W'S^-1 W, as a triangle, and how many rows a second has."""
+        seen = self.observation
+        sigma = np.array([joint.sigma for joint in self.fit.joints])[seen.row_joint]
+        used = sigma > 0.0
+        steps = np.diff(seen.time)[np.diff(seen.segment) == 0]
+        R = np.asarray(np.linalg.qr(seen.W[used] / sigma[used, None], mode="r"))
+        return excitation.Known(R, 1.0 / float(np.median(steps)))
+
+    def extended(
+        self, motion: excitation.Exciting, rate: float, encoders: Encoders
+    ) -> excitation.Exciting:
+        """The motion, with what its log adds: by the fit of these logs and of a forecast of it."""
+        compiled = self.subject.compiled
+        if encoders == Encoders():  # as those of the logs
+            told = self.observation.report.bands.noise
+            seen = {n.joint: n.deviation for n in told if n.of == "positions"}
+            noise = [seen.get(joint.name, 0.0) for joint in compiled.spec.joints]
+            encoders = Encoders(0, np.array(noise))
+        log = self.subject.forecast_log(motion, rate, encoders)
+        both = identify(observe(compiled, [*self.logs, log], self.processing), "weighted", compiled)
+        now, then = self.fit.parameters, both.parameters
+        gain = excitation.Gain(
+            tuple(p.name for p in now), tuple(p.unit for p in now),
+            tuple(p.sigma for p in now), tuple(p.sigma for p in then),
+            tuple(log.name for log in self.logs),
+            (self.fit.condition_scaled, both.condition_scaled),
+        )  # fmt: skip
+        return dataclasses.replace(motion, gain=gain)
+
+
+def recorded(subject: Subject, logs: Logs, mapping: Mapped = ()) -> Recorded:
+    """The logs of a robot, fitted as `modeler fit` does by itself: all parameters, weighted.
+
+    Raises:
+        DataError: a log cannot be read or fitted, or rows are given twice.
+    """
+    compiled, read = subject.compiled, read_logs(subject.compiled, listed(logs), mapping)
+    check_apart(read)
+    processing = processing_of(subject.robot.fit)
+    observation = observe(compiled, read, processing)
+    fit = identify(observation, "weighted", compiled)
+    sigma = np.array([joint.sigma for joint in fit.joints])
+    subject = dataclasses.replace(
+        subject, sigma=np.where(sigma > 0.0, sigma, sigma.max()), kept=None, beta=fit.beta,
+        cutoff=fit.processing.parallel_cutoff or 0.0,
+    )  # fmt: skip
+    return Recorded(subject, read, observation, fit, processing)
+
+
 def excite(
     thing: Robot | IdentifiedModel,
+    logs: Logs = (),
     *,
+    mapping: Mapped = (),
+    rate: float = 1000.0,
     limits: Mapping[str, Sequence[float]] | None = None,
     boxes: Mapping[str, Sequence[float]] | None = None,
+    clearance: float | None = None,
     progress: Progress = _no_progress,
     **wish: Any,
 ) -> excitation.Exciting:
@@ -145,9 +225,15 @@ def excite(
 
     Args:
         thing: a robot, or a model: then weighted as its fit, essential parameters only.
+        logs: that there are: the motion adds most to what they tell, and its `gain` says what; all
+            parameters, and criterion "information" unless another one is asked for.
+        mapping: whose column of the logs is which, over [log] of the robot file.
+        rate: samples of the next log per second.
         limits: joint -> lower, upper, speed, acceleration and, if wanted, torque, SI; in place of
             those of the robot file.
         boxes: frame -> x0, x1, y0, y1, z0, z1 in frame 0, m, that its origin stays in.
+        clearance: m that links keep from each other and from planes; None: 0.01 if the robot file
+            has [capsules], else they are not looked at.
         progress: called with the share done, 0 to 1.
         wish: of `excite.search.Wish`: duration [s], harmonics, criterion, starts, seed ...
 
@@ -156,8 +242,13 @@ def excite(
         RobotError: an empty range.
     """
     subject = subject_of(thing)
-    bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {})
-    return subject.search(bounds, _wish(bounds, wish), progress)
+    bounds = bounds_of(subject.robot, subject.compiled, limits or {}, boxes or {}, clearance)
+    if not listed(logs):
+        return subject.search(bounds, _wish(bounds, wish), progress)
+    there = recorded(subject, logs, mapping)
+    asked = _wish(bounds, {"criterion": "information", **wish})
+    motion = there.subject.search(bounds, asked, progress, there.known)
+    return there.extended(motion, rate, Encoders())
 
 
 def forecast(
@@ -274,6 +365,7 @@ def bounds_of(
     compiled: CompiledModel,
     limits: Mapping[str, Sequence[float]],
     boxes: Mapping[str, Sequence[float]],
+    clearance: float | None = None,
 ) -> excitation.Bounds:
     """The limits of the robot file, with those that are given in their place.
 
@@ -282,6 +374,7 @@ def bounds_of(
         compiled: the same.
         limits: as of `excite`.
         boxes: as of `excite`.
+        clearance: as of `excite`.
 
     Raises:
         DataError: another number of values, or no number; a joint or frame that is not there.
@@ -315,7 +408,7 @@ def bounds_of(
         name: _checked("boxes", name, given, moving, (6,), "x0, x1, y0, y1, z0, z1")
         for name, given in boxes.items()
     }
-    return excitation.Bounds(
+    bounds = excitation.Bounds(
         tuple(coordinates), lower, upper, speed, acceleration,
         torque=np.array([torques.get(name, np.inf) for name in coordinates]),
         boxes=tuple(
@@ -324,6 +417,7 @@ def bounds_of(
         ),
         passive=tuple(passive), home=home,
     )  # fmt: skip
+    return with_clearance(robot, compiled, bounds, clearance)
 
 
 def _checked(
@@ -339,6 +433,31 @@ def _checked(
     if len(values) not in counts or any(math.isnan(value) for value in values):
         raise DataError(f"{what} of {name}: got {given}; expected {form}, numbers in SI units")
     return values
+
+
+def check_motion(
+    robot: Robot, motion: str | Path, *, clearance: float = USUAL
+) -> excitation.Nearest | None:
+    """Where a motion brings two links, or a link and a plane, closest to each other.
+
+    >>> check_motion(robot, "mon.parquet") is None  # its two links share a joint
+    True
+
+    Args:
+        robot: its [capsules] are what links fill; without, as `modeler excite` takes them.
+        motion: file of a motion or log, .csv or .parquet; commanded positions, if it has them.
+        clearance: m; pairs that are nearer in nearly all postures are left out.
+
+    Returns:
+        None if no two are left to look at.
+
+    Raises:
+        DataError: the file has no motion of this robot.
+    """
+    compiled = compile_model(generate(derive(robot)))
+    bounds = bounds_of(robot, compiled, {}, {}, clearance)
+    assert bounds.clearance is not None
+    return nearest_along(compiled, bounds.clearance, motion)
 
 
 # Measurements by simulation.

@@ -69,12 +69,18 @@ _DERIVE = Command(
             flag("--closed-form",
                  "M(q), Christoffel coefficients and gravity; of loops J_t and J_p too"),
             flag("--regressor", "every base column, that of friction too"),
+            flag("--blocks",
+                 "of parallel robots: the regressor in blocks of platform, motors and legs, with "
+                 "the Jacobian of each leg and of the robot (Guegan, Khalil, Lemoine 2003)"),
+            flag("--energy",
+                 "velocities and energy functions h of every link: H = h xi, the energy model"),
+            flag("--kane", "Kane's form: velocities, tangent vectors beta, momenta, forces"),
             flag("--expanded",
                  "with --closed-form: sums of monomials instead of named quantities; with --terms: "
                  "all coefficients, those that follow from others too"),
             flag("--nonzero",
-                 "with --closed-form and --regressor: leave out base parameters that are 0 at the "
-                 "values of [parameters]"),
+                 "with --closed-form, --regressor and --blocks: leave out base parameters that are "
+                 "0 at the values of [parameters]"),
         )),
         flag("--cut-loops", "cut the loops: the tree, as counted leg by leg"),
         value("--coefficients-out", "FILE.md", places.Output, "write the page of the coefficients"),
@@ -229,6 +235,10 @@ _PROCESSING = Group(
     ),
 )  # fmt: skip
 
+_PAYLOAD_LINK = value(
+    "--payload-link", "J", places.Word, "the link that carries it; default: the last"
+)
+
 _LOAD = Group(
     "load", "some of the logs carry a load on a link",
     (
@@ -238,7 +248,7 @@ _LOAD = Group(
         flag("--payload-moved",
              "it was taken off between the loaded logs: the same mass, but its own centre and "
              "inertia in each"),
-        value("--payload-link", "J", places.Word, "the link that carries it; default: the last"),
+        _PAYLOAD_LINK,
     ),
 )  # fmt: skip
 
@@ -317,6 +327,13 @@ _COMPARE = Command(
               f"{LOGS}; before them perhaps further models, which are set beside the first",
               nargs="+"),
         MAP, *page(places.PageOrFolder), pictures(places.PictureFolder),
+        Group("load", "that the robot carries in these logs", (
+            value("--payload-mass", "KG", float,
+                  "its mass: the model of the robot with it, beside that without"),
+            value("--payload-centre", "X,Y,Z", places.Word,
+                  "where its mass is, m, in the frame of the link; default: the origin"),
+            _PAYLOAD_LINK,
+        )),
         flag("--essential",
              "predict with the reduced model of the fit: its essential parameters, all others 0"),
         flag("--run-embedded-c",
@@ -401,8 +418,9 @@ _EXCITE = Command(
     "a motion within limits that tells the parameters apart",
     "Finds a motion of ROBOT within its [limits] along which the parameters are well told apart, "
     "and writes it as a table for a controller or `modeler simulate --motion`. Of a MODEL: its "
-    "essential parameters, its torque noise. With --between: the motion that tells two effects "
-    "apart. With --choose: the best of motions that there are.",
+    "essential parameters, its torque noise. With --from: what to record next, beside logs that "
+    "there are. With --between: the motion that tells two effects apart. With --choose: the best "
+    "of motions that there are. With --check: do links run into each other along a motion?",
     "modeler excite panda --duration 10 --out motion.csv --picture motion.png",
     (
         value("robot", "ROBOT|MODEL", places.RobotOrModel, ROBOT_OR_MODEL),
@@ -410,7 +428,12 @@ _EXCITE = Command(
         value("--out", "MOTION", places.NewLog,
               "motion to write, .csv or .parquet: time, q, qd and qdd of every joint"),
         value("--picture", "FILE", places.Output, "draw it against its limits: .png, .svg or .pdf"),
+        value("--report", "PAGE", places.Output,
+              "page of the robot where two links come nearest, with its capsules"),
         Group("the motion", None, (
+            choice("--family", ("fourier", "bspline", "trapezoid"),
+                   "fourier: periodic; bspline: quintic; trapezoid: moves from place to place, "
+                   "speed a trapezoid, jerk limited (default %(default)s)", "fourier"),
             value("--duration", "S", float, "seconds, from rest to rest", default=10.0),
             value("--laps", "N", int, "times that this motion is driven in MOTION", default=1),
             value("--rate", "HZ", float, "samples per second of MOTION", default=200.0),
@@ -419,14 +442,18 @@ _EXCITE = Command(
                      "need values of the parameters"),
             repeated("--box", "FRAME=X0,X1,Y0,Y1,Z0,Z1", places.Word,
                      "where the origin of a frame must stay, m, in frame 0; may be repeated"),
+            value("--clearance", "M", float,
+                  "that links keep from each other and from planes, m; default: 0.01 if the robot "
+                  "file has [capsules], else links are not looked at"),
         )),
         Group("the search", None, (
             choice("--objective", ("both", "condition", "information"),
                    "condition: the condition number, columns of length one; information: log det "
-                   "of the information matrix; both: the sum of their logarithms (default "
-                   "%(default)s)", "both"),
+                   "of the information matrix; both: the sum of their logarithms (default: both; "
+                   "with --from: information, of logs and motion together)", None),
             value("--harmonics", "N", int,
-                  "of the Fourier series; default: 5 to 10, by the limits"),
+                  "of the series; other families have as many coefficients, 2 N - 1 a joint; "
+                  "default: 5 to 10, by the limits"),
             value("--starts", "N", int, "searches, from the best of 50 random motions", default=6),
             value("--seed", "N", int, "of the random motions", default=0),
             value("--time-limit", "S", float, "take the best after so many seconds"),
@@ -441,7 +468,11 @@ _EXCITE = Command(
                   "make what the first effect alone explains large, and the second: of a MODEL"),
             value("--choose", "N", int, "take N of the motions of --from; takes no --out"),
             several("--from", "LOG", places.MotionFile,
-                    "logs or motions to choose from", dest="candidates"),
+                    "logs that there are: the motion adds to what they tell; with --choose: logs "
+                    "or motions to choose from", dest="candidates"),
+            value("--check", "MOTION", places.MotionFile,
+                  "say how near links come along this motion or log; status 1 if nearer than "
+                  "--clearance; takes no --out"),
         )),
     ),
     "write what was found for machines",
@@ -541,8 +572,10 @@ _REPRODUCE = Command(
     "beside ours. Exit status 1 if a line differs unexpectedly.",
     "modeler reproduce guegan-2003 --section methods",
     (
-        value("paper", "PAPER", places.Word, f"one of {', '.join(paper_names())}"),
+        value("paper", "PAPER", places.Word,
+              f"one of {', '.join(paper_names())}, or a robot of theirs"),
         choice("--section", ("print", "methods"), "what is printed, or methods; default: both"),
+        pictures(),
     ),
     "write the lines for machines",
 )  # fmt: skip

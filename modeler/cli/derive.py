@@ -20,12 +20,13 @@ from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import ALSO, Also, DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.core.formula import latex_text
-from modeler.core.manifest import FunctionSpec
 from modeler.derivation import LinkColumn, SymbolicModel, random_states, regressor_values, relations
 from modeler.robot import Robot
 
 if TYPE_CHECKING:
+    from modeler.core.manifest import FunctionSpec
     from modeler.estimation import IdentifiedModel
+    from modeler.formulas import CoefficientTable, function_sheet
 
 # Words around printed formulas: as they are, as comments of LaTeX, or as a whole document.
 
@@ -106,8 +107,10 @@ def check_request(args: argparse.Namespace) -> None:
     Raises:
         ModelerError: they stand without what they change.
     """
-    if args.nonzero and not (args.closed_form or args.regressor):
-        raise ModelerError("--nonzero changes nothing by itself; add --closed-form or --regressor")
+    if args.nonzero and not (args.closed_form or args.regressor or args.blocks):
+        raise ModelerError(
+            "--nonzero changes nothing by itself; add --closed-form, --regressor or --blocks"
+        )
     if args.expanded and not (args.closed_form or args.terms):
         raise ModelerError("--expanded changes nothing by itself; add --closed-form or --terms")
     if args.document and args.format != "latex":
@@ -127,6 +130,11 @@ def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
             "whose loops, if any, follow linear relations; leave out --terms, "
             "--coefficients-out and --expanded, or ask for --closed-form, which has J_t and J_p"
         )
+    if looped and args.kane:
+        raise ModelerError(
+            f"{derivation.robot.name}: --kane is written for robots without loops; leave it out, "
+            "or add --cut-loops"
+        )
 
 
 MANY = 200
@@ -134,13 +142,14 @@ MANY = 200
 PAGE = 40
 """Coefficients that are listed unasked."""
 
-_SHEETS: dict[Form, Callable[[formulas.function_sheet.Sheet, Words], str]] = {
+_SHEETS: "dict[Form, Callable[[function_sheet.Sheet, Words], str]]" = {
     "text": lambda sheet, _: "\n".join(formulas.function_sheet.sheet_lines(sheet)),
     "latex": lambda sheet, words: formulas.function_sheet.sheet_latex(sheet, words.heading),
     "markdown": lambda sheet, _: formulas.function_sheet.sheet_markdown(sheet),
 }
 _WIDTH = 96
 _COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
+_FORMS = ("closed_form", "regressor", "blocks", "energy", "kane")
 
 
 def run_derive(args: argparse.Namespace) -> Json:
@@ -246,7 +255,7 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
     model, base = derivation.model, derivation.base
     if args.nonzero:
         base = formulas.nonzero_base(model, base)
-    added: Json = {}
+    added: Json = _by_link(args, model, words)
     if args.closed_form and args.expanded:
         words.say()
         closed = formulas.closed_form(model, base)
@@ -257,17 +266,13 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
     asked = {"closed_form": motion, "regressor": args.regressor}
     if any(asked.values()):
         found = formulas.equation_of(model, base, motion=motion, columns=args.regressor)
-        mark = _COMMENT[args.format]
-        words.say()
-        for line in found.words:
-            indent = mark + "  " if mark != "* " else "  "
-            words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
-        words.say()
-        words.formulas(_SHEETS[args.format](found.sheet, words))
-        told = {"equation": list(found.words), **formulas.function_sheet.sheet_json(found.sheet)}
+        told = _print_equation(found, args.format, words)
         added |= {key: told for key, wanted in asked.items() if wanted}
+    if args.blocks:
+        added["blocks"] = _print_equation(formulas.block_form(model, base), args.format, words)
     few = len(model.robot.coordinates) <= FEW_JOINTS and model.closure is None
-    unasked = few and args.format == "text" and not (args.closed_form or args.regressor)
+    asked_else = any(vars(args)[key] for key in _FORMS)
+    unasked = few and args.format == "text" and not asked_else
     wanted = unasked if args.terms is None else args.terms
     if wanted:
         _print_coefficients(args, derivation, words)
@@ -275,6 +280,32 @@ def print_closed_forms(args: argparse.Namespace, derivation: Derivation, words: 
         write_atomically(Path(args.coefficients_out), formulas.terms_report(model, derivation.base))
         words.say(f"written: {args.coefficients_out}")
     return added
+
+
+def _by_link(args: argparse.Namespace, model: SymbolicModel, words: Words) -> Json:
+    """Energy functions and Kane's form, each with its difference from the derivation."""
+    added: Json = {}
+    for key, form, what in (
+        ("energy", "energy_functions", "d/dt h against the power of the torques"),
+        ("kane", "kane_form", "torques of Kane's form against Newton-Euler"),
+    ):
+        if vars(args)[key]:
+            states = random_states(model, 50, np.random.default_rng(1985))
+            found, off = getattr(formulas, form)(model, states)
+            added[key] = _print_equation(found, args.format, words) | {"difference": off}
+            words.say(f"\n{what}: {off:.1e} of the largest")
+    return added
+
+
+def _print_equation(found: "formulas.Equation", form: Form, words: Words) -> Json:
+    mark = _COMMENT[form]
+    words.say()
+    for line in found.words:
+        indent = mark + "  " if mark != "* " else "  "
+        words.say(textwrap.fill(mark + line, _WIDTH, subsequent_indent=indent))
+    words.say()
+    words.formulas(_SHEETS[form](found.sheet, words))
+    return {"equation": list(found.words), **formulas.function_sheet.sheet_json(found.sheet)}
 
 
 def _print_coefficients(args: argparse.Namespace, derivation: Derivation, words: Words) -> None:
@@ -307,7 +338,7 @@ def _print_coefficients(args: argparse.Namespace, derivation: Derivation, words:
         words.say(line)
 
 
-def _facts(table: formulas.coefficients.CoefficientTable) -> list[str]:
+def _facts(table: "CoefficientTable") -> list[str]:
     """How many coefficients, what they tell, and what follows from what."""
     first = [coefficient.function[0] for coefficient in table.coefficients]
     counts = {"PG": first.count("g"), "PJ": first.count("J"), "PS": first.count("S")}
@@ -395,7 +426,7 @@ def _model(args: argparse.Namespace) -> "IdentifiedModel | None":
     return load_model(args.robot)
 
 
-def _function_line(function: FunctionSpec) -> str:
+def _function_line(function: "FunctionSpec") -> str:
     return (
         f"{function.name}: {function.equation} ({function.additions} additions, "
         f"{function.multiplications} multiplications)"

@@ -83,7 +83,7 @@ def _check_options(args: argparse.Namespace) -> None:
          "--method weighted or ordinary"),
         (energy and args.payload_log,
          "--payload-log: the energy model takes logs without load; leave out --model energy"),
-        (args.robot_out is not None and method not in ("consistent", GAIN_METHOD),
+        (args.robot_out is not None and method not in (*fitting.BUILDABLE, GAIN_METHOD),
          f"--robot-out: --method {method} ends in base parameters, of which many machines have "
          "the same; use --method consistent, which ends in all standard parameters, or "
          f"{GAIN_METHOD}, which finds drive gains"),

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import modeler.api.motion as motions
 from modeler import excitation, simulation
+from modeler.api.clearance import USUAL, nearest_along
 from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import robot_of
 from modeler.core.builtin import MOTIONS
@@ -27,15 +28,30 @@ def run_excite(args: argparse.Namespace) -> Json:
     encoders = motions.Encoders(args.encoder_counts or 0, args.position_noise or 0.0)
     if encoders != motions.Encoders():
         subject.check_forecast("--encoder-counts, --position-noise: ")
-    bounds = bounds_of(subject.robot, subject.compiled, args.limit, args.box)
+    margin = args.clearance
+    if margin is None and args.check is not None:
+        margin = USUAL
+    bounds = bounds_of(subject.robot, subject.compiled, args.limit, args.box, margin)
+    if args.report is not None and not (bounds.clearance and len(bounds.clearance.solids.pairs)):
+        raise DataError(
+            "--report: no two links are looked at; expected --clearance, or [capsules] of the robot "
+            "file, and links that may meet"
+        )
     if args.choose is not None:
         return _choose(args, subject)
+    if args.check is not None:
+        return _check(args, subject, bounds)
+    there = None
+    if args.candidates:
+        with working("fitting the logs that there are"):
+            there = motions.recorded(subject, args.candidates)
+        subject = there.subject
     harmonics = args.harmonics
     if harmonics is None:
         harmonics = excitation.default_harmonics(bounds, args.duration)
     wish = excitation.Wish(
-        args.duration, harmonics,
-        args.objective, args.starts, args.seed, args.time_limit, args.laps,
+        args.duration, harmonics, args.objective or ("information" if there else "both"),
+        args.starts, args.seed, args.time_limit, args.laps, args.family,
     )  # fmt: skip
     extra: dict[str, Json] = {}
     with progress(f"looking for a motion of {subject.robot.name}") as bar:
@@ -44,9 +60,11 @@ def run_excite(args: argparse.Namespace) -> Json:
             motion, apart = excitation.tell_apart(subject.compiled, bounds, wish, question, bar)
             lines, extra = [*apart.lines(), *motion.lines()[2:]], {"between": apart.to_json()}
         else:
-            motion = subject.search(bounds, wish, bar)
+            motion = subject.search(bounds, wish, bar, there.known if there else None)
+            if there is not None:
+                motion = there.extended(motion, args.rate, encoders)
             lines = motion.lines()
-    if subject.sigma is not None:
+    if there is None and subject.sigma is not None:
         with working("forecasting sigmas"):
             told, extra["forecast"] = forecast_line(subject, motion, args.rate, encoders)
         lines.append(told)
@@ -59,6 +77,7 @@ def run_excite(args: argparse.Namespace) -> Json:
     )
     write_atomically(Path(args.out), table)
     say(f"written: {args.out}, {len(columns['time'])} samples, {motion.seconds:.1f} s of search")
+    _draw_nearest(args, subject.robot, bounds, motion.nearest)
     if args.picture is not None:
         with working("drawing"):
             drawn = excitation.picture(
@@ -67,6 +86,35 @@ def run_excite(args: argparse.Namespace) -> Json:
         write_atomically(Path(args.picture), drawn)
         say(f"written: {args.picture}")
     return motion.to_json() | {"effects": [u.effect for u in subject.robot.effects]} | extra
+
+
+def _check(args: argparse.Namespace, subject: motions.Subject, bounds: excitation.Bounds) -> Json:
+    """Do links keep their distance along the motion of a file?"""
+    kept = bounds.clearance
+    assert kept is not None
+    with working(f"looking at {args.check}"):
+        near = nearest_along(subject.compiled, kept, args.check)
+    say(f"{args.check}: {kept.line(near)}")
+    _draw_nearest(args, subject.robot, bounds, near)
+    if near is not None and near.bound < kept.margin:
+        raise DataError(
+            f"{args.check}, {near.time:.4g} s: {near.pair[0]} and {near.pair[1]} are "
+            f"{1e3 * near.distance:.1f} mm apart; expected {1e3 * kept.margin:g} mm or more; take "
+            "another motion, or a smaller --clearance"
+        )
+    return {"robot": subject.robot.name, "clearance": kept.to_json(near)}
+
+
+def _draw_nearest(
+    args: argparse.Namespace, robot: Robot, bounds: excitation.Bounds,
+    near: excitation.Nearest | None,
+) -> None:  # fmt: skip
+    """The page of the robot where two come nearest, if it is wanted and there are two."""
+    if args.report is not None and near is not None:
+        from modeler.report import nearest_html  # which takes long to load
+
+        write_atomically(Path(args.report), nearest_html(robot, bounds, near))
+        say(f"written: {args.report}")
 
 
 def forecast_line(
@@ -102,18 +150,20 @@ _NAMED = 3
 
 def _check_usage(args: argparse.Namespace) -> None:
     """Before any long work."""
-    if args.choose is None and args.out is None:
+    if args.choose is None and args.check is None and args.out is None:
         raise DataError("--out: missing; expected the file of the motion, .csv or .parquet")
-    if (args.choose is None) != (not args.candidates):
-        raise DataError("--choose and --from go together: --choose 2 --from a.csv b.csv c.csv")
+    if args.choose is not None and not args.candidates:
+        raise DataError("--choose needs --from: --choose 2 --from a.csv b.csv c.csv")
+    if args.candidates and args.choose is None and args.between is not None:
+        raise DataError("--between: got it with --from, which adds to its logs; leave one out")
     names = ("out", "picture", "between", "encoder_counts", "position_noise")
-    for name in names if args.choose is not None else ():
+    for name in names if args.choose is not None or args.check is not None else ():
         if getattr(args, name) is not None:
             option = f"--{name.replace('_', '-')}"
-            raise DataError(
-                f"{option}: got it with --choose, which names motions of --from and writes none; "
-                f"leave {option} out"
-            )
+            other = "--check, which looks at a motion and writes none"
+            if args.choose is not None:
+                other = "--choose, which names motions of --from and writes none"
+            raise DataError(f"{option}: got it with {other}; leave {option} out")
     if args.out is not None:
         simulation.check_suffix(Path(args.out))
     if args.picture is not None:
@@ -141,8 +191,9 @@ def _subject(args: argparse.Namespace) -> motions.Subject:
 
 
 def bounds_of(
-    robot: Robot, compiled: CompiledModel, limits: Sequence[str], boxes: Sequence[str]
-) -> excitation.Bounds:
+    robot: Robot, compiled: CompiledModel, limits: Sequence[str], boxes: Sequence[str],
+    clearance: float | None = None,
+) -> excitation.Bounds:  # fmt: skip
     """The limits of the robot file, with those of the command line in their place.
 
     Raises:
@@ -155,6 +206,7 @@ def bounds_of(
         robot, compiled,
         dict(_assigned("--limit", text, moving, (4, 5), form) for text in limits),
         dict(_assigned("--box", text, moving, (6,), "X0,X1,Y0,Y1,Z0,Z1") for text in boxes),
+        clearance,
     )  # fmt: skip
 
 

@@ -79,7 +79,8 @@ def on_one_line(message: str) -> str:
 
 
 Method = Literal[
-    "weighted", "ordinary", "robust", "ridge", "iv", "iv-direct", "didim", "consistent",
+    "weighted", "ordinary", "robust", "ridge", "iv", "iv-direct", "didim", "didim-robust",
+    "consistent", "iv-consistent", "iv-direct-consistent", "didim-consistent",
 ]  # fmt: skip
 """Estimators; `core.estimators` says what each is."""
 

@@ -26,10 +26,24 @@ class About:
     avoid: str
     motion: str
 
+    @property
+    def buildable(self) -> bool:
+        """True of those that end in all standard parameters, of a machine that could be built."""
+        return self.id.endswith("consistent")
+
 
 _EXACT = (
     "the motion is exact below the chosen cut-offs, where its noise is less torque than that of "
     "the drives; what rows near reversals say otherwise is in sigma"
+)
+
+_LIKE_DIDIM = (
+    "the measured motion enters by its start and its differences from the simulated one alone; "
+    "the same cut-offs apply"
+)
+_HIDES = (
+    "it hides a missing effect in the nearest machine; look at the doubts of {} first, and keep to "
+    "{} where its machine is one"
 )
 
 _EVERY = (
@@ -99,8 +113,17 @@ _EVERY = (
         "Gautier, Janot and Vandanjon 2013, IEEE TCST 21(2)",
         "where the controller of the log is not known and none comes near its motion: what they "
         "differ by goes into the values; sigma is raised by as much",
-        "the measured motion enters by its start and its differences from the simulated one alone; "
-        "the same cut-offs apply",
+        _LIKE_DIDIM,
+    ),
+    About(
+        "didim-robust",
+        "direct and inverse model identification, reweighted",
+        "sum_i psi(r_i / sigma_j) w_i(q_s) / sigma_j = 0, r = y - W(q_s) beta, psi of robust, "
+        "q_s(beta) simulated in closed loop",
+        "Gautier, Janot and Vandanjon 2013, IEEE TCST 21(2); Huber 1964; Holland and Welsch 1977",
+        "where didim or robust is the wrong one: an unknown controller, an effect that the model "
+        "lacks",
+        _LIKE_DIDIM,
     ),
     About(
         "consistent",
@@ -112,6 +135,33 @@ _EVERY = (
         "to see what is wrong: it hides a missing effect in the nearest machine; look at the "
         "doubts of weighted first",
         _EXACT,
+    ),
+    About(
+        "iv-consistent",
+        "physically consistent instrumental variables, commanded motion",
+        "min 1/2 |Q_z^T S^-1/2 (W K chi - y)|^2 + sum_j gamma_j D(P_j, P0_j), Q_z of the "
+        "instruments of iv, bounds of consistent",
+        "iv and consistent; Hansen 1982, Econometrica 50(4)",
+        "where iv is the wrong one; " + _HIDES.format("iv", "iv"),
+        "as iv",
+    ),
+    About(
+        "iv-direct-consistent",
+        "physically consistent instrumental variables, simulated motion",
+        "min 1/2 |Q_z^T S^-1/2 (W K chi - y)|^2 + sum_j gamma_j D(P_j, P0_j), Q_z of the "
+        "instruments of iv-direct, simulated with machines that could be built",
+        "iv-direct and consistent; Hansen 1982, Econometrica 50(4)",
+        "where iv-direct is the wrong one; " + _HIDES.format("iv-direct", "iv-direct"),
+        "as iv-direct",
+    ),
+    About(
+        "didim-consistent",
+        "physically consistent direct and inverse model identification",
+        "min 1/2 sum_j |y_j - W_j(q_s) K chi|^2 / sigma_j^2 + sum_j gamma_j D(P_j, P0_j), q_s(chi) "
+        "simulated in closed loop with machines that could be built",
+        "didim and consistent",
+        "where didim is the wrong one; " + _HIDES.format("didim", "didim"),
+        _LIKE_DIDIM,
     ),
 )
 ABOUT: dict[Method, About] = {cast(Method, about.id): about for about in _EVERY}

@@ -52,6 +52,7 @@ from .geometry import (
     quarter_turns as quarter_turns,
 )
 from .graph import (
+    OPERATIONS as OPERATIONS,
     Arithmetic as Arithmetic,
     Expr as Expr,
     Graph as Graph,

@@ -27,7 +27,6 @@ from modeler.derivation.field import (
     Matrix,
     null_space,
     row_reduce,
-    times,
     with_square,
 )
 from modeler.derivation.geometry import Geometry, GeometryRow
@@ -52,7 +51,7 @@ def _dot(a: Sequence[Element], b: Sequence[Element], zero: Element) -> Element:
     total = zero
     for x, y in zip(a, b, strict=True):
         if x and y:
-            total = total + times(x, y)
+            total = total + x * y
     return total
 
 

@@ -13,7 +13,7 @@ IJRR 33(6)). Convex: solved by cvxpy with Clarabel.
 import contextlib
 import dataclasses
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -55,6 +55,8 @@ class Consistent:
         beta: (c,) K chi.
         covariance: (c, c) of beta, from the curvature of what is minimised: the reference counts
             as knowledge, a bound that holds does not.
+        held: links that would be no bodies without their bound; in `covariance` they have none,
+            and no reference.
         rise: by how much the weighted squares are above their least, in variances of a row.
         bodies: by link, the pseudo-inertia, SI.
         at_bound: friction and rotor inertias that are 0.
@@ -63,6 +65,7 @@ class Consistent:
     chi: np.ndarray
     beta: np.ndarray
     covariance: np.ndarray
+    held: tuple[str, ...]
     rise: float
     bodies: Mapping[str, np.ndarray]
     at_bound: tuple[str, ...]
@@ -89,12 +92,13 @@ def consistent(
     roots, others = problem.answer()
     bodies = {name: root @ root.T for name, root in roots.items()}
     chi = problem.chi(bodies, others)
-    curvature = problem.covariance(roots)
+    held = problem.held(roots, chi)
+    curvature = problem.covariance(roots, held)
     beta = machine.K @ chi
     best = np.linalg.lstsq(R, z, rcond=None)[0]
     rise = float(np.sum((R @ beta - z) ** 2) - np.sum((R @ best - z) ** 2))
     return Consistent(
-        chi, beta, machine.K @ curvature @ machine.K.T, rise, bodies, problem.at_zero(others)
+        chi, beta, machine.K @ curvature @ machine.K.T, held, rise, bodies, problem.at_zero(others)
     )
 
 
@@ -202,23 +206,36 @@ class _Problem:
         zero = {self.others[i] for i in np.flatnonzero(others <= size)}
         return tuple(name for name, place in self.machine.positive.items() if place in zero)
 
-    def covariance(self, roots: Mapping[str, np.ndarray]) -> np.ndarray:
+    def moves(self, roots: Mapping[str, np.ndarray]) -> np.ndarray:
+        """(m, others + 10 links) of chi: by the scales of others, then P = root (1 + .) root'."""
+        unknowns = self.A.shape[1]
+        moves = [np.eye(unknowns)[:, self.others] * self.scale]
+        for name, own in self.machine.links.items():
+            move = np.zeros((unknowns, len(_BASIS)))
+            move[own] = parameters_of((roots[name] @ _BASIS @ roots[name].T).transpose(1, 2, 0))
+            moves.append(move)
+        return np.hstack(moves)
+
+    def held(self, roots: Mapping[str, np.ndarray], chi: np.ndarray) -> tuple[str, ...]:
+        """Links that leave their bound on the shortest way to the least squares of the rows."""
+        T = self.moves(roots)
+        step = np.linalg.lstsq(self.A @ T, self.z - self.A @ chi, rcond=1e-12)[0]
+        turns = step[len(self.others) :].reshape(-1, len(_BASIS)) @ _BASIS.reshape(-1, 16)
+        least = np.linalg.eigvalsh(np.eye(4) + turns.reshape(-1, 4, 4))[:, 0]
+        return tuple(name for name, own in zip(self.machine.links, least, strict=True) if own < 0.0)
+
+    def covariance(self, roots: Mapping[str, np.ndarray], held: Sequence[str]) -> np.ndarray:
         """(m, m) inverse of the curvature.
 
         Around X = 1 the curvature of -log det X is the identity in an orthonormal basis of the
-        symmetric matrices.
+        symmetric matrices. Along a bound it is endless, and says nothing of how far the truth is
+        from it: links that are held have none.
         """
-        unknowns = self.A.shape[1]
-        moves, stiffness = [np.eye(unknowns)[:, self.others] * self.scale], [0.0 * self.scale]
-        for name, root in roots.items():
-            move = np.zeros((unknowns, len(_BASIS)))
-            moved = root @ _BASIS @ root.T
-            move[self.machine.links[name]] = parameters_of(moved.transpose(1, 2, 0))
-            moves.append(move)
-            stiffness.append(np.full(len(_BASIS), self.gamma[name]))
-        T = np.hstack(moves)
-        root = np.vstack([self.A @ T, np.diag(np.sqrt(np.hstack(stiffness)))])
-        spread = T @ np.linalg.pinv(root, rcond=1e-12)
+        roots = {name: self.reference[name] if name in held else roots[name] for name in roots}
+        stiffness = [0.0 if name in held else self.gamma[name] for name in roots]
+        T = self.moves(roots)
+        root = np.hstack([0.0 * self.scale, np.repeat(stiffness, len(_BASIS))]) ** 0.5
+        spread = T @ np.linalg.pinv(np.vstack([self.A @ T, np.diag(root)]), rcond=1e-12)
         return np.asarray(spread @ spread.T)
 
 
@@ -249,28 +266,45 @@ _LEAST = 1e-6  # a plate or a rod of a drawing is given so much thickness, relat
 
 
 def buildable(problem: Problem) -> Estimate:
-    """The machine that fits best, weighted as `least_squares` weights.
+    """The machine that fits best, weighted as `least_squares` weights; see `as_buildable`."""
+    return as_buildable(problem, least_squares(problem.data, "weighted"), "consistent")
+
+
+def as_buildable(problem: Problem, start: Estimate, method: str) -> Estimate:
+    """The machine nearest to an estimate in the metric of its own equations.
+
+    Of R beta = z, the triangle whose least squares `start` is: those of the weighted rows, or what
+    instruments make of them, whose R^T R is the inverse of its covariance as well (Hansen 1982,
+    Econometrica 50(4): moments with their best weights).
 
     Links of which the robot file states all ten parameters are references: a guide, that the data
     overrule. What the data cannot tell has a value here, which follows from the bounds and the
     references, but no sigma.
 
+    Args:
+        problem: beta in the units of its columns, y N m or N.
+        start: the estimate without bounds.
+        method: for the refusals.
+
     Raises:
         DataError: no compiled robot, or loads beside it; the solver finds no answer.
     """
-    model = problem.robot("consistent")
-    start = least_squares(problem.data, "weighted")
+    model = problem.robot(method)
     machine = machine_of(model.spec)
     known = references(model.spec)
-    found = consistent(machine, problem.data.whole(start.sigma), known)
+    whole = problem.data.whole(start.sigma) if start.whole is None else start.whole
+    found = consistent(machine, whole, known)
     told = np.isin(np.arange(len(found.beta)), start.rank.kept)
+    # d beta = C R^T R d start, with C the covariance: what moves the start moves this along.
+    follows = found.covariance @ whole[:, :-1].T @ whole[:, :-1]
     return dataclasses.replace(
         start,
         beta=found.beta,
         covariance=found.covariance * np.outer(told, told),
         rank=Rank(start.rank.kept, (), start.rank.last_kept, start.rank.first_dropped),
         standard=dict(zip(machine.names, found.chi.tolist(), strict=True)),
-        sentences=tuple(_sentences(model.spec, found, start, known)),
+        sentences=(*start.sentences, *_sentences(model.spec, found, start, known)),
+        pull=None if start.pull is None else start.pull @ (follows * told[:, None]).T,
     )
 
 
@@ -301,6 +335,11 @@ def _sentences(
             f"squares, where its {degrees} values would raise it by {degrees} if they were wrong "
             "by one sigma each: these logs hold something that the model does not; see the doubts "
             "of --method weighted"
+        )
+    if found.held:
+        said.append(
+            f"link {', '.join(found.held)}: at the bound of what can be built, which noise or a "
+            "missing effect would cross; the sigmas of such a link are those without the bound"
         )
     # Of the parameters at 0: which the data would have below it, and which they do not tell.
     sums = [[term.parameter for term in base.terms] for base in spec.base]

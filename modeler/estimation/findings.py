@@ -14,14 +14,14 @@ itself, a fault that raises the sum by no more is one that these logs cannot sho
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import chain, combinations
+from itertools import combinations
 
 import numpy as np
 
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
 from modeler.observation import Doubt, Observation, ThinnedRows, Turn, clocks, thinned, turns, zero
-from modeler.runtime import CompiledModel
+from modeler.runtime import CompiledModel, mapped
 
 HALF = 0.5
 """Share of its error that a fault, undone, leaves of a joint: physics that a model lacks
@@ -270,11 +270,9 @@ def _by_prediction(
 
 def _explained(seen: Evidence) -> Hypothesis | None:
     """The hypothesis that explains most, with those that do as well in its words."""
-    found = [
-        (score, one)
-        for one in chain(_torques(seen), _motions(seen))
-        if (score := _lowered(seen, one)) >= one.least
-    ]
+    tried = [*_torques(seen), *_motions(seen)]
+    scores = mapped(partial(_lowered, seen), tried)
+    found = [(score, one) for score, one in zip(scores, tried, strict=True) if score >= one.least]
     if not found:
         return None
     most = max(score for score, _ in found)
@@ -397,8 +395,7 @@ def _motions(seen: Evidence) -> Iterator[Hypothesis]:
     """Positions in other units, reversed, exchanged, from another zero; what comes late."""
     tried = [*clocks(seen.observation)] if seen.grave else []
     tried += turns(seen.observation, zeros_only=not seen.grave) if seen.tree else []
-    for turn in tried:
-        turned = _turned(seen, turn)
+    for turn, turned in zip(tried, mapped(partial(_turned, seen), tried), strict=True):
         if turned is not None:
             yield Hypothesis(Doubt(turn.line, True), turned)
     if seen.judge.beta is None:
@@ -452,8 +449,9 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
     Gauss and Newton.
     """
     step = float(np.median([part.segment.step for part in seen.observation.stretches]))
-    for channel in _channels(seen):
-        shift, data = _best_shift(seen, channel.columns)
+    channels = _channels(seen)
+    shifts = mapped(partial(_best_shift, seen), [channel.columns for channel in channels])
+    for channel, (shift, data) in zip(channels, shifts, strict=True):
         way, back = ("late", "early") if channel.sign * shift > 0.0 else ("early", "late")
         line = (
             f"{channel.what} {1e3 * abs(shift):.0f} ms {way}, by a fit at other times (or "

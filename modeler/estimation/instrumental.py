@@ -8,8 +8,10 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.table import percent
+from modeler.estimation.consistent import as_buildable, buildable
 from modeler.estimation.direct_model import ControlLoop, DirectModel
 from modeler.estimation.least_squares import Estimate, Problem, least_sigma, least_squares, placed
+from modeler.estimation.robust import robust
 from modeler.numerics.least_squares import column_lengths, compress, independent_columns, triangle
 
 # Instrumental variables: what the noise of the measured motion cannot bias.
@@ -114,7 +116,7 @@ _WORSE = 1.5  # error along the logged motion over that of the start, from which
 _NEAR = 0.1  # step, in standard deviations, at which the simulation need not be repeated
 
 
-def iv(problem: Problem) -> Estimate:
+def iv(problem: Problem, method: str = "iv") -> Estimate:
     """Instruments by the inverse model: the regressor along the commanded motion.
 
     Noise of the encoders is in W and not in what was commanded; see `with_instruments`.
@@ -123,15 +125,20 @@ def iv(problem: Problem) -> Estimate:
         DataError: a log without commanded positions.
     """
     observation = problem.observation
-    robot = DirectModel(problem.robot("iv"), observation)
+    robot = DirectModel(problem.robot(method), observation)
     for segment in robot.segments:
         if segment.commanded is None:
             raise DataError(
-                f'{observation.logs[segment.run]}: method "iv" needs commanded positions; got no '
-                f"complete columns qc{observation.joints[0].name} ...; log those of all joints, "
-                'or use method "weighted" or "iv-direct"'
+                f'{observation.logs[segment.run]}: method "{method}" needs commanded positions; '
+                f"got no complete columns qc{observation.joints[0].name} ...; log those of all "
+                'joints, or use method "weighted" or "iv-direct"'
             )
-    return with_instruments(problem, robot.columns(robot.references), "iv")
+    return with_instruments(problem, robot.columns(robot.references), method)
+
+
+def iv_consistent(problem: Problem) -> Estimate:
+    """The machine that could be built nearest to `iv`, in the metric of its own equations."""
+    return as_buildable(problem, iv(problem, "iv-consistent"), "iv-consistent")
 
 
 def iv_direct(problem: Problem) -> Estimate:
@@ -143,42 +150,80 @@ def iv_direct(problem: Problem) -> Estimate:
     Raises:
         DataError: a joint without a motor, or a fit that cannot be simulated.
     """
-    return _repeated(problem, "iv-direct", lambda Z: with_instruments(problem, Z, "iv-direct"))
+    method = "iv-direct"
+    return _repeated(problem, method, _weighted, lambda Z: with_instruments(problem, Z, method))
 
 
-def didim(problem: Problem) -> Estimate:
+def iv_direct_consistent(problem: Problem) -> Estimate:
+    """The same, and every machine that is simulated could be built."""
+    method = "iv-direct-consistent"
+
+    def estimate(Z: np.ndarray) -> Estimate:
+        return as_buildable(problem, with_instruments(problem, Z, method), method)
+
+    return _repeated(problem, method, buildable, estimate)
+
+
+def _weighted(problem: Problem) -> Estimate:
+    return least_squares(problem.data, "weighted")
+
+
+def didim(
+    problem: Problem, method: str = "didim", solve: Callable[[Problem], Estimate] = _weighted
+) -> Estimate:
     """min sum_j |y_j - W_j(q_s(beta)) beta|^2 / sigma_j^2, q_s the simulated motion.
 
     Gauss-Newton: q_s hardly depends on beta, as the controller holds the motion, so each step is
-    the weighted fit of the measured torque to the columns along the last simulated motion
-    (Gautier, Janot and Vandanjon 2013). The logged motion is used to choose the controller, and the
-    rows, alone; and for the covariance: d d^T is added to it, d = P (W(q_s) - W(q)) beta with P the
-    pseudo-inverse of the fit. By d the values move if the logged motion is right and the simulated
-    one is not, as where the controller of the log is another one.
+    the fit of the measured torque to the columns along the last simulated motion (Gautier, Janot
+    and Vandanjon 2013): the weighted one, or that of another law. The logged motion is used to
+    choose the controller, and the rows, alone; and for the covariance: d d^T is added to it,
+    d = P (W(q_s) - W(q)) beta with P the pull of the fit. By d the values move if the logged motion
+    is right and the simulated one is not, as where the controller of the log is another one.
+
+    Args:
+        problem: beta in the units of its columns, y N m or N.
+        method: for the refusals.
+        solve: each step, and the fit along the logged motion from which they start.
 
     Raises:
         DataError: a joint without a motor, or a fit that cannot be simulated.
     """
-    return _repeated(problem, "didim", lambda W: _along(problem, W))
+    return _repeated(problem, method, solve, lambda W: _along(problem, W, solve))
 
 
-def _along(problem: Problem, W: np.ndarray) -> Estimate:
-    """The weighted fit of the torques to columns along another motion."""
+def didim_robust(problem: Problem) -> Estimate:
+    """`didim` whose steps are `robust` fits: rows that do not fit lose their say in each of them.
+
+    A push or a spike is in the torques and not in the simulated motion.
+    """
+    return didim(problem, "didim-robust", robust)
+
+
+def didim_consistent(problem: Problem) -> Estimate:
+    """`didim` whose steps are machines that could be built: each of them can be simulated."""
+    return didim(problem, "didim-consistent", buildable)
+
+
+def _along(problem: Problem, W: np.ndarray, solve: Callable[[Problem], Estimate]) -> Estimate:
+    """The fit of the torques to columns along another motion."""
     counted, free = problem.counted, np.flatnonzero(problem.data.free)
     data = compress(
         W[counted], problem.y[counted], problem.joint[counted],
         len(problem.data.rows), problem.names, free.tolist(),
     )  # fmt: skip
-    found = least_squares(data, "weighted")
-    weight = np.where(counted, 1.0 / found.sigma[problem.joint] ** 2, 0.0)
-    pull = (W @ found.covariance) * weight[:, None]
-    shift = pull.T @ ((W - problem.W) @ found.beta)
+    found = solve(dataclasses.replace(problem, given=W, data=data))
+    pull = found.pull
+    if pull is None:
+        pull = np.where(counted[:, None], W @ found.covariance, 0.0)
+        pull /= found.sigma[problem.joint][:, None] ** 2
+    weight = 1.0 if found.weight is None else found.weight
+    shift = pull.T @ (weight * ((W - problem.W) @ found.beta))
     return dataclasses.replace(
         found,
         covariance=found.covariance + np.outer(shift, shift),
         pull=pull,
-        residual=problem.y - W @ found.beta,
-        whole=data.whole(found.sigma),
+        residual=problem.y - W @ found.beta if found.residual is None else found.residual,
+        whole=data.whole(found.sigma) if found.whole is None else found.whole,
     )
 
 
@@ -190,9 +235,12 @@ def _misfit(problem: Problem, start: Estimate, W: np.ndarray, beta: np.ndarray) 
 
 
 def _repeated(
-    problem: Problem, method: str, estimate: Callable[[np.ndarray], Estimate]
+    problem: Problem,
+    method: str,
+    first: Callable[[Problem], Estimate],
+    estimate: Callable[[np.ndarray], Estimate],
 ) -> Estimate:
-    """Simulate, estimate, until the step is small beside the standard deviations."""
+    """Simulate, estimate, from the first on, until the step is small beside the sigmas."""
     model = problem.robot(method)
     idle = [joint.name for joint in model.spec.joints if not joint.actuated]
     if idle:
@@ -201,7 +249,7 @@ def _repeated(
             "motor a joint, so that a controller can hold the robot; use another method"
         )
     robot = DirectModel(model, problem.observation)
-    start = least_squares(problem.data, "weighted")
+    start = first(problem)
     beta, settled = start.beta, False
 
     def chosen() -> ControlLoop:
@@ -274,8 +322,8 @@ def _sentences(
     if robot.raised > 0.0:
         light = problem.observation.joints[robot.lightest].name
         said.append(
-            f"the fitted inertia matrix is not positive definite in {percent(robot.raised)} of "
-            f"the postures, most at joint {light}: it was raised for the simulation; record "
-            "more motion, or leave out parameters that are not essential"
+            "the fitted inertia matrix is nearly singular or not positive definite in "
+            f"{percent(robot.raised)} of the postures, most at joint {light}: it was raised for "
+            "the simulation; record more motion, or leave out parameters that are not essential"
         )
     return said

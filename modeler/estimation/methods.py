@@ -6,7 +6,15 @@ from dataclasses import dataclass
 from modeler.core.errors import DataError, Method
 from modeler.core.estimators import ABOUT, About
 from modeler.estimation.consistent import buildable
-from modeler.estimation.instrumental import didim, iv, iv_direct
+from modeler.estimation.instrumental import (
+    didim,
+    didim_consistent,
+    didim_robust,
+    iv,
+    iv_consistent,
+    iv_direct,
+    iv_direct_consistent,
+)
 from modeler.estimation.least_squares import Estimate, Problem, least_squares, ordinary
 from modeler.estimation.ridge import ridge
 from modeler.estimation.robust import robust
@@ -39,14 +47,16 @@ class Estimator:
     @property
     def takes_prior(self) -> bool:
         """False of those that have one of their own: what a robot file states would be a second."""
-        return self.about.id not in ("ridge", "consistent")
+        return not (self.about.buildable or self.about.id == "ridge")
 
 
 _EVERYTHING, _FEW = tuple(_REFUSALS), ("weighted", "ordinary")
 _ESTIMATES: dict[Method, Callable[[Problem], Estimate]] = {
     "weighted": lambda problem: least_squares(problem.data, "weighted"),
     "ordinary": ordinary, "robust": robust, "ridge": ridge, "iv": iv, "iv-direct": iv_direct,
-    "didim": didim, "consistent": buildable,
+    "didim": didim, "didim-robust": didim_robust, "consistent": buildable,
+    "iv-consistent": iv_consistent, "iv-direct-consistent": iv_direct_consistent,
+    "didim-consistent": didim_consistent,
 }  # fmt: skip
 METHODS: dict[Method, Estimator] = {
     id: Estimator(ABOUT[id], estimate, _EVERYTHING if id in _FEW else ("rows",))

@@ -1,7 +1,17 @@
-from .criterion import condition as condition, signals as signals
+from .clearance import (
+    BASE as BASE,
+    SAMPLES as SAMPLES,
+    Clearance as Clearance,
+    Nearest as Nearest,
+    Solids as Solids,
+    nearest as nearest,
+    without_neighbours as without_neighbours,
+)
+from .criterion import Known as Known, condition as condition, signals as signals
 from .motion import Bounds as Bounds, Box as Box
 from .result import (
     Exciting as Exciting,
+    Gain as Gain,
     check_kind as check_kind,
     csv_text as csv_text,
     motion_table as motion_table,

@@ -202,6 +202,32 @@ CRITERIA: dict[str, Criterion] = {
 """By the name that a user gives."""
 
 
+@dataclass(frozen=True, eq=False)
+class Known:
+    """What logs tell already, in the weights of their fit.
+
+    Attributes:
+        triangle: (r, c) R, R^T R = W^T S^-1 W of their rows.
+        rate: rows of each joint that a second of a log gives.
+    """
+
+    triangle: np.ndarray
+    rate: float
+
+    def beside(self, criterion: Criterion, each: float) -> Criterion:
+        """The criterion of all rows: R, and those of a motion, `each` of which stands for so many.
+
+        Of the information that is a sum: W'S^-1 W of the logs, and that of the motion.
+        """
+
+        def value(W: np.ndarray) -> tuple[float, np.ndarray]:
+            size = np.sqrt(each)
+            found, pull = criterion(np.vstack([size * W, self.triangle]))
+            return found, size * pull[: len(W)]
+
+        return value
+
+
 def condition(W: np.ndarray, scaled: bool = True) -> float:
     """cond(W), with columns of length one if `scaled`."""
     lengths = np.linalg.norm(W, axis=0) if scaled else np.ones(W.shape[1])

@@ -13,10 +13,14 @@ import pyarrow.parquet as pq
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.core.result import Presented
+from modeler.core.table import aligned
+from modeler.excitation.clearance import Nearest
 from modeler.excitation.criterion import signals
-from modeler.excitation.motion import Bounds, Series, series
+from modeler.excitation.families import Series, coefficients_json
+from modeler.excitation.motion import Bounds
 from modeler.runtime import CompiledModel
 
+_TOLD = 12  # parameters of a gain, for people
 _DIGITS = 13  # after the point: rest is 0, not a rounding of it
 
 
@@ -57,6 +61,53 @@ class Used(Brief):
 
 
 @dataclass(frozen=True, eq=False)
+class Gain(Brief):
+    """What a log of a motion adds to logs that there are.
+
+    Attributes:
+        names, units: (c,) of the base parameters.
+        before: their sigmas by the logs that there are; None: those do not tell.
+        after: those to expect of these logs and the next one, by the rules of the same fit.
+        logs: names of the logs that there are.
+        condition: of their rows, and with those of the next one; columns of length one.
+    """
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    before: tuple[float | None, ...]
+    after: tuple[float | None, ...]
+    logs: tuple[str, ...]
+    condition: tuple[float, float]
+
+    def lines(self) -> list[str]:
+        """Lines of text: what gains most, first."""
+        rows = []
+        for name, unit, a, b in zip(self.names, self.units, self.before, self.after, strict=True):
+            cells = ["not told" if value is None else f"{value:.3g}" for value in (a, b)]
+            gain = a / b if a and b else np.inf if b else 1.0
+            rows.append((gain, (name, *cells, unit, f"/ {gain:.3g}" if a and b else "")))
+        rows.sort(key=lambda row: -row[0])
+        head, shown = ("parameter", "sigma before", "expected after", "unit", ""), rows[:_TOLD]
+        table = aligned([head, *(cells for _, cells in shown)], (0, 3))
+        return [
+            f"beside {', '.join(self.logs)}: condition number with columns of length one "
+            "{:.4g} before, {:.4g} with it; it sharpens".format(*self.condition),
+            *(line.rstrip() for line in table),
+            *([f"and {len(rows) - _TOLD} others, less"] if len(rows) > _TOLD else []),
+        ]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        sigmas = zip(self.names, self.before, self.after, strict=True)
+        first, then = (c if np.isfinite(c) else None for c in self.condition)
+        return {
+            "logs": list(self.logs),
+            "condition_scaled": {"before": first, "after": then},
+            "sigmas": {name: {"before": a, "after": b} for name, a, b in sigmas},
+        }
+
+
+@dataclass(frozen=True, eq=False)
 class Exciting(Presented):
     """A motion that excites a robot.
 
@@ -75,6 +126,8 @@ class Exciting(Presented):
         beta: (c,) for torques; None where unknown.
         ended_early: True if the time limit ended the search.
         seconds: that it took.
+        nearest: where links come closest; None where they are not looked at.
+        gain: what it adds to logs; None without.
     """
 
     robot: str
@@ -91,6 +144,8 @@ class Exciting(Presented):
     beta: np.ndarray | None
     ended_early: bool
     seconds: float
+    nearest: Nearest | None = None
+    gain: Gain | None = None
 
     def sampled(self, rate: float) -> dict[str, np.ndarray]:
         """Columns by name: time, q, qd and qdd of every joint, from rest to rest."""
@@ -99,9 +154,8 @@ class Exciting(Presented):
         times = np.arange(count) / rate
         # The last sample is at or just after the end, where the robot rests.
         place = np.where(times >= laps * period, 0.0, np.mod(times, period))
-        here = series(period, self.series.harmonics, place)
-        columns = {"time": times}
-        for prefix, values in zip(("q", "qd", "qdd"), here.motion(self.x), strict=True):
+        here, columns = self.series.at(place).motion(self.x), {"time": times}
+        for prefix, values in zip(("q", "qd", "qdd"), here, strict=True):
             for j, name in enumerate(self.bounds.joints):
                 columns[f"{prefix}{name}"] = np.round(values[:, j], _DIGITS) + 0.0
         return columns
@@ -133,9 +187,11 @@ class Exciting(Presented):
                 f"joints that follow turn at most {2.0 * u.loops:.3g} times as fast as at home, of "
                 "2 allowed: near a singular posture they would be infinitely fast"
             )
+        if b.clearance is not None:
+            lines.append(b.clearance.line(self.nearest))
         if self.ended_early:
             lines.append("the time limit ended the search: another run may find another motion")
-        return lines
+        return [*lines, *(self.gain.lines() if self.gain else [])]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -164,8 +220,10 @@ class Exciting(Presented):
             "boxes": [vars(box) for box in b.boxes],
             "posture_share": u.posture,
             "singular_share": u.loops,
+            "clearance": None if b.clearance is None else b.clearance.to_json(self.nearest),
             "ended_early": self.ended_early,
-            "series": {"period": self.series.duration, "coefficients": _waves(self)},
+            "next": None if self.gain is None else self.gain.to_json(),
+            "series": coefficients_json(self.series, self.x, b.joints),
         }
 
 
@@ -197,23 +255,6 @@ def _of(limit: float, used: float | None, least: bool = False) -> dict[str, floa
 
 def _pair(low: float, high: float) -> str:
     return f"{low:.3g} to {high:.3g}"
-
-
-def _waves(motion: Exciting) -> dict[str, Any]:
-    """{joint: {"constant", "cos", "sin"}} of q(t) = constant + sum cos_k cos(k w t) + ..."""
-    K, T = motion.series.harmonics, motion.series.duration
-    count = 4 * K
-    even = series(T, K, np.arange(count) * (T / count))
-    q = even.values @ motion.x.T
-    spectrum = np.fft.rfft(q, axis=0) / count
-    return {
-        name: {
-            "constant": float(spectrum[0, j].real),
-            "cos": [float(2.0 * spectrum[k, j].real) for k in range(1, K + 1)],
-            "sin": [float(-2.0 * spectrum[k, j].imag) for k in range(1, K + 1)],
-        }
-        for j, name in enumerate(motion.bounds.joints)
-    }
 
 
 # A picture of a motion against its limits.
@@ -282,7 +323,7 @@ def picture(motion: Exciting, compiled: CompiledModel, kind: str) -> bytes:
 def _panels(motion: Exciting, compiled: CompiledModel) -> list[tuple[str, np.ndarray]]:
     b = motion.bounds
     time = np.linspace(0.0, motion.series.duration, _SAMPLES)
-    q, qd, qdd = series(motion.series.duration, motion.series.harmonics, time).motion(motion.x)
+    q, qd, qdd = motion.series.at(time).motion(motion.x)
     panels = [
         ("position: -1 and 1 are the ends of the range", (q - b.middle) / b.half),
         ("speed, share of its limit", qd / b.speed),

@@ -13,8 +13,10 @@ from typing import TypeVar
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.excitation.criterion import CRITERIA, columns_of, condition, log_det
-from modeler.excitation.motion import DENSE, Bounds, Series, check_bounds, posture_of, series
+from modeler.excitation.clearance import nearest
+from modeler.excitation.criterion import CRITERIA, Known, columns_of, condition, log_det
+from modeler.excitation.families import DENSE, FAMILIES, series
+from modeler.excitation.motion import Bounds, check_bounds, posture_of
 from modeler.excitation.result import Exciting, Quality, Used
 from modeler.excitation.task import Task, Walled
 from modeler.numerics.optimize import Landscape, descend
@@ -30,6 +32,7 @@ _SETTLED = 5e-4  # of the criterion, in ten steps
 _DENSE_LOOPS = 16  # samples per period of the highest harmonic, where loops are closed for each
 _FINER = 10  # times as many samples for the last check
 _NEARLY = 0.999  # of the limits, at these samples
+_DRAWN = 0.995  # of the size, as often as links come too near between them
 _INWARD = 20  # steps of a tenth towards rest, where smooth dry friction breaks a limit of torque
 
 _FULL = 0.95  # of the limits, of random motions
@@ -43,13 +46,14 @@ class Wish:
 
     Attributes:
         duration: of the motion, s.
-        harmonics: of the series.
+        harmonics: K of the series; other families have as many coefficients, 2 K - 1.
         criterion: "both", "condition" or "information".
         starts: of the search.
         seed: another one gives another motion.
         time_limit: s, after which the best so far is taken; None: it ends by itself.
             What is begun is ended: one random motion at least, one slope, the last check.
         laps: times that the motion is driven, one after the other.
+        family: "fourier", "bspline" or "trapezoid".
     """
 
     duration: float = 10.0
@@ -59,6 +63,7 @@ class Wish:
     seed: int = 0
     time_limit: float | None = None
     laps: int = 1
+    family: str = "fourier"
 
 
 def excite(
@@ -69,12 +74,13 @@ def excite(
     kept: np.ndarray | None = None,
     beta: np.ndarray | None = None,
     progress: Callable[[float], None] = lambda share: None,
+    known: Known | None = None,
 ) -> Exciting:
     """A motion within limits along which parameters are well told apart.
 
     Minimises log cond(W) with columns of length one (Gautier and Khalil 1992), or the mean log
     sigma of the parameters, -log det(W^T W) / (2 c) (Swevers et al. 1997), or their sum, over
-    Fourier series of all joints. The limits are barriers, which fall in three stages.
+    motions of a family, all joints alike. The limits are barriers, which fall in three stages.
 
     Args:
         compiled: the robot.
@@ -84,12 +90,13 @@ def excite(
         kept: (k,) columns that matter; None: all.
         beta: (c,) base parameters, where torques are limited.
         progress: called with the share done.
+        known: what logs tell already; the motion adds to it.
 
     Raises:
         DataError: limits that no motion keeps to, a bad wish, too few rows.
     """
     on = Deadline(wish.time_limit)
-    task = task_of(compiled, bounds, wish, sigma, kept, beta)
+    task = task_of(compiled, bounds, wish, sigma, kept, beta, known)
     drawn = drawn_motions(task, np.random.default_rng([wish.seed, 7]), on)
 
     def value(x: np.ndarray) -> float:  # dry friction as it is
@@ -146,19 +153,29 @@ def finished(
     """The result of a search, beside the random motions that it began with.
 
     Ranges, speeds and accelerations hold between the samples by `Series.room`; torques, boxes and
-    loops are looked at ten times as densely, and the motion is drawn in until they hold there.
+    loops are looked at ten times as densely, and the motion is drawn in until they hold there;
+    distances of links hold at all times, by `nearest`.
     """
     early = not on()
     x = task.drawn_in(x, finer(task))
+    clearance, near = task.bounds.clearance, None
+    while clearance is not None and len(clearance.solids.pairs):
+        near = nearest(
+            task.columns.compiled, clearance.solids,
+            lambda t, x=x: task.series.at(t).motion(x)[0], wish.duration,  # type: ignore[misc]
+        )  # fmt: skip
+        if near.bound >= clearance.margin:
+            break
+        x = task.still + _DRAWN * (x - task.still)
     spec = task.columns.compiled.spec
     conditions = sorted(q.condition for _, q in drawn)
     return Exciting(
         robot=spec.robot, bounds=task.bounds, wish=dataclasses.asdict(wish),
-        series=series(wish.duration, wish.harmonics), x=x, quality=quality(task, x),
+        series=task.series, x=x, quality=quality(task, x),
         drawn=len(drawn), random=(conditions[0], conditions[len(drawn) // 2]),
         random_log_det=max(q.log_det for _, q in drawn), used=used(task, x),
         columns=tuple(spec.base[k].name for k in task.kept), beta=task.beta,
-        ended_early=early, seconds=on.spent(),
+        ended_early=early, seconds=on.spent(), nearest=near,
     )  # fmt: skip
 
 
@@ -169,6 +186,7 @@ def task_of(
     sigma: np.ndarray | None,
     kept: np.ndarray | None,
     beta: np.ndarray | None,
+    known: Known | None = None,
 ) -> Task:
     """The search of a wish."""
     _check_wish(wish)
@@ -182,9 +200,13 @@ def task_of(
             "MODEL, or a robot file with all [parameters]"
         )
     dense = DENSE if compiled.spec.closure is None else _DENSE_LOOPS
+    motion = series(wish.duration, wish.harmonics, None, dense, wish.family)
+    criterion = CRITERIA[wish.criterion]
+    if known is not None:
+        each = wish.laps * wish.duration * known.rate / len(motion.time)
+        criterion = known.beside(criterion, each)
     return Task(
-        columns, bounds, series(wish.duration, wish.harmonics, dense=dense),
-        CRITERIA[wish.criterion],
+        columns, bounds, motion, criterion,
         np.ones(len(bounds.joints)) if sigma is None else 1.0 / sigma,
         kept, posture_of(compiled, bounds), beta,
     )  # fmt: skip
@@ -193,6 +215,8 @@ def task_of(
 def _check_wish(wish: Wish) -> None:
     if wish.criterion not in CRITERIA:
         raise DataError(f"criterion: got {wish.criterion}; expected one of {', '.join(CRITERIA)}")
+    if wish.family not in FAMILIES:
+        raise DataError(f"family: got {wish.family}; expected one of {', '.join(FAMILIES)}")
     if not (math.isfinite(wish.duration) and 0.0 < wish.duration <= 3600.0):
         raise DataError(f"duration: got {wish.duration:g} s; expected more than 0, at most 3600")
     ranges = (("harmonics", 2, 40), ("starts", 1, RANDOM), ("seed", 0, 2**63), ("laps", 1, 1000))
@@ -248,9 +272,7 @@ def quality(task: Task, x: np.ndarray) -> Quality:
 
 def finer(task: Task) -> Task:
     """The same with ten times the samples, and nearly all of the limits."""
-    old: Series = task.series
-    finely = series(old.duration, old.harmonics, dense=_FINER * len(old.time) // old.harmonics)
-    return dataclasses.replace(task, series=finely, share=_NEARLY)
+    return dataclasses.replace(task, series=task.series.finer(_FINER), share=_NEARLY)
 
 
 def used(task: Task, x: np.ndarray) -> Used:

@@ -7,7 +7,8 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.excitation.criterion import NEAR_REST, Criterion, MotionColumns
-from modeler.excitation.motion import Bounds, PostureLimits, Series
+from modeler.excitation.families import Series
+from modeler.excitation.motion import Bounds, PostureLimits
 from modeler.numerics.optimize import evolve
 
 _POSTURES = 200  # drawn, to rest in
@@ -114,7 +115,7 @@ class Task:
             told = ", ".join(f"q{j} = {q:.3g}" for j, q in zip(b.joints, x[:, 0], strict=True))
             raise DataError(
                 f"{self.columns.compiled.spec.robot}: no posture was found in which limits of "
-                f"torques and boxes leave room to move, not even slowly; {told} takes "
+                f"torques, boxes and clearance leave room to move, not even slowly; {told} takes "
                 f"{self._load(place):.3g} times what they allow; expected wider ones"
             )
         return x

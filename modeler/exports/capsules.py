@@ -1,12 +1,12 @@
 """Links as capsules: what is drawn of them, and what they would weigh of plastic or metal."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.exports.linkage import BASE, poses
-from modeler.robot import Inertial, Robot, about_origin, together
+from modeler.exports.linkage import BASE, poses, row_pose
+from modeler.robot import Inertial, Pose, Robot, about_origin, together
 
 DENSITY = 1000.0
 """kg/m3 of a link of which nothing is known."""
@@ -18,29 +18,37 @@ _SHORT = 0.02  # of the middle length: frames that are nearer stand at one place
 
 @dataclass(frozen=True, eq=False)
 class Capsule:
-    """Points that are no farther than `radius` from the way from the frame's origin to `end`."""
+    """Points that are no farther than `radius` from the way from `start` to `end`, in a frame."""
 
     end: np.ndarray
     radius: float
+    start: np.ndarray = field(default_factory=lambda: np.zeros(3))
+
+    @property
+    def way(self) -> np.ndarray:
+        """(3,) from start to end, m."""
+        return self.end - self.start
 
     @property
     def length(self) -> float:
         """Of the way, m; 0 of a ball."""
-        return float(np.linalg.norm(self.end))
+        return float(np.linalg.norm(self.way))
 
     def inertial(self) -> Inertial:
         """Of a cylinder of the length of the whole, of `DENSITY`."""
         long, r = self.length + 2.0 * self.radius, self.radius
         mass = DENSITY * np.pi * r**2 * long
-        along = self.end / self.length if self.length else np.array([0.0, 0.0, 1.0])
+        along = self.way / self.length if self.length else np.array([0.0, 0.0, 1.0])
         across = mass * (3.0 * r**2 + long**2) / 12.0
         spin = 0.5 * mass * r**2
         inertia = across * np.eye(3) + (spin - across) * np.outer(along, along)
-        return Inertial(mass, 0.5 * self.end, inertia)
+        return Inertial(mass, 0.5 * (self.start + self.end), inertia)
 
 
 def capsules(robot: Robot, q: Mapping[str, float]) -> dict[str, tuple[Capsule, ...]]:
-    """By row, from its origin to those of the rows after it; a ball where there are none.
+    """By row: those of the robot file, else from its origin to those of the rows after it.
+
+    A ball where there are none; as thick as 0.12 of the middle length where no radius is stated.
 
     Args:
         robot: its table.
@@ -48,6 +56,8 @@ def capsules(robot: Robot, q: Mapping[str, float]) -> dict[str, tuple[Capsule, .
     """
     at, ends = poses(robot, q), dict[str, list[np.ndarray]]()
     for joint in robot.joints:
+        if joint.name in robot.platform or joint.name in robot.motors:
+            continue  # which is carried by nothing, and which carries nothing
         there = at[joint.antecedent].inverse().place(at[joint.name].position)
         ends.setdefault(joint.antecedent, []).append(there)
     lengths = [float(np.linalg.norm(end)) for own in ends.values() for end in own]
@@ -57,7 +67,14 @@ def capsules(robot: Robot, q: Mapping[str, float]) -> dict[str, tuple[Capsule, .
     for row in (BASE, *(joint.name for joint in robot.joints)):
         far = {tuple(np.rint(end / (_SHORT * middle))): end for end in ends.get(row, [])}.values()
         long = [end for end in far if np.linalg.norm(end) > _SHORT * middle]
-        found[row] = tuple(Capsule(end, _THICK * middle) for end in long or [np.zeros(3)])
+        stated = [capsule for capsule in robot.capsules if capsule.row == row]
+        radius = stated[0].radius if stated else _THICK * middle
+        found[row] = tuple(Capsule(end, radius) for end in long or [np.zeros(3)])
+        if stated and stated[0].ends is not None:
+            found[row] = tuple(
+                Capsule(np.array(own.ends[1]), own.radius, np.array(own.ends[0]))
+                for own in stated if own.ends is not None
+            )  # fmt: skip
     return found
 
 
@@ -69,3 +86,28 @@ def weights(robot: Robot, q: Mapping[str, float]) -> dict[str, np.ndarray]:
         assert whole is not None
         found[row] = about_origin(whole)
     return found
+
+
+def capsules_on_links(robot: Robot, q: Mapping[str, float]) -> list[tuple[str, str, Capsule]]:
+    """Every body's capsules: its row, the moving row that carries it (or the base), the shape.
+
+    The shape is in the frame of the row that carries it. Where the robot file has [capsules], rows
+    that are not among them have none.
+
+    Args:
+        robot: its table.
+        q: posture in which lengths are taken.
+    """
+    symbols, places = robot.symbol_values(), {BASE: (BASE, Pose())}
+    for joint in robot.joints:
+        on, pose = places[joint.antecedent]
+        fixed = (on, pose if joint.moves else pose @ row_pose(joint, symbols))
+        places[joint.name] = (joint.name, Pose()) if joint.moves else fixed
+    none = {*robot.platform[:-1], *robot.motors}
+    if robot.capsules:
+        none |= places.keys() - {capsule.row for capsule in robot.capsules}
+    return [
+        (row, on, Capsule(pose.place(own.end), own.radius, pose.place(own.start)))
+        for row, shapes in capsules(robot, q).items() if row not in none
+        for own in shapes for on, pose in [places[row]]
+    ]  # fmt: skip

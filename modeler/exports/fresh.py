@@ -200,7 +200,8 @@ def _limits(physics: Physics, row: Joint) -> dict[str, float]:
 
 def _along(capsule: Capsule) -> Pose:
     """The middle of a capsule, z along it."""
-    return Pose(0.5 * capsule.end, _upright(-capsule.end).T if capsule.length else np.eye(3))
+    middle = 0.5 * (capsule.start + capsule.end)
+    return Pose(middle, _upright(-capsule.way).T if capsule.length else np.eye(3))
 
 
 # URDF.
@@ -246,7 +247,7 @@ def _visuals(capsule: Capsule) -> Iterator[ET.Element]:
     def shape(pose: Pose, tag: str, **sizes: float) -> ET.Element:
         return _node("visual", _origin(pose), _node("geometry", _node(tag, **sizes)))
 
-    yield shape(Pose(), "sphere", radius=capsule.radius)
+    yield shape(Pose(capsule.start), "sphere", radius=capsule.radius)
     if capsule.length:
         yield shape(Pose(capsule.end), "sphere", radius=capsule.radius)
         sizes = {"radius": capsule.radius, "length": capsule.length}
@@ -278,8 +279,11 @@ def _mjcf(physics: Physics, parts: list[Part], names: Names) -> ET.Element:
         body.append(_node("joint", name=part.joint, type=kind, axis=part.axis, **more))
         for capsule in part.drawn:
             shape: dict[str, str | Number] = {"type": "sphere", "size": capsule.radius}
+            if capsule.start.any():
+                shape["pos"] = capsule.start
             if capsule.length:
-                shape |= {"type": "capsule", "fromto": np.array([0.0, 0.0, 0.0, *capsule.end])}
+                way = np.concatenate([capsule.start, capsule.end])
+                shape = {"type": "capsule", "size": capsule.radius, "fromto": way}
             body.append(_node("geom", **shape, mass=0.0, contype="0", conaffinity="0"))
         if part.leaders:
             _follow(part, zero, equality, tendons)

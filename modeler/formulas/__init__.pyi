@@ -4,6 +4,7 @@ from . import (
     render as render,
     values as values,
 )
+from .by_link import energy_functions as energy_functions, kane_form as kane_form
 from .cad import (
     CadComparison as CadComparison,
     KnownAgainstFit as KnownAgainstFit,
@@ -15,7 +16,8 @@ from .coefficients import (
     CoefficientTable as CoefficientTable,
     coefficient_table as coefficient_table,
 )
-from .function_sheet import sheet_lines as sheet_lines
+from .function_sheet import SheetWriter as SheetWriter, sheet_lines as sheet_lines
+from .leg_blocks import LegBlock as LegBlock, block_form as block_form, leg_blocks as leg_blocks
 from .physical_system import PhysicalSystem as PhysicalSystem, physical_system as physical_system
 from .print_checks import (
     check_independent as check_independent,
@@ -26,6 +28,7 @@ from .print_checks import (
 from .print_report import check_friction as check_friction, terms_report as terms_report
 from .printed import Print as Print
 from .regressor_form import (
+    Equation as Equation,
     equation_of as equation_of,
     nonzero_base as nonzero_base,
     regressor_form as regressor_form,

@@ -7,6 +7,7 @@ equal functions, so that c3*s2 + s3*c2 is sin(q2 + q3) wherever that angle is am
 """
 
 import re
+import sys
 import textwrap
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -25,6 +26,9 @@ ONCE = 40
 """Characters up to which a quantity that is read once is written where it is read."""
 UNNAMED = 14
 """Characters from which a quantity without a proposed name, read more than once, gets one."""
+
+VECTOR = "vector:"
+"""Begins the symbols of unit vectors."""
 
 ATOMS = ("num", "pi", "sym", "sin", "cos")
 
@@ -72,8 +76,15 @@ class Sheet:
 class SheetWriter:
     """Collects proposals and results; `finished` decides which names stay."""
 
-    def __init__(self, graph: Graph, letters: Mapping[str, str], halves: bool = False) -> None:
+    def __init__(
+        self,
+        graph: Graph,
+        letters: Mapping[str, str],
+        halves: bool = False,
+        abbreviate: bool = True,
+    ) -> None:
         self.graph, self.halves = graph, halves
+        self._unnamed = UNNAMED if abbreviate else sys.maxsize
         self.letters = dict(letters)
         self._taken = set(self.letters.values())
         self._own: set[str] = set()
@@ -91,18 +102,24 @@ class SheetWriter:
         if node not in self._first and not self._is_atom(node):
             self._add(name, value, False)
 
-    def result(self, name: str, value: Expr) -> None:
-        """A quantity that is asked for; zeros are left out."""
-        if value.ref:
-            self._add(name, value, True)
+    def result(self, name: str, value: Expr, read: bool = True) -> None:
+        """A quantity that is asked for; zeros are left out.
 
-    def _add(self, name: str, value: Expr, result: bool) -> None:
+        Args:
+            name: of the quantity.
+            value: of the quantity.
+            read: False if no other formula is to be written by its name.
+        """
+        if value.ref:
+            self._add(name, value, True, read)
+
+    def _add(self, name: str, value: Expr, result: bool, read: bool = True) -> None:
         while name in self._taken:
             name += "_"
         self._taken.add(name)
         definition = Definition(self._section, name, value.ref, result)
         self._lines.append(definition)
-        if not self._is_atom(abs(value.ref)):
+        if read and not self._is_atom(abs(value.ref)):
             self._first.setdefault(abs(value.ref), definition)
 
     def finished(self) -> Sheet:
@@ -147,7 +164,7 @@ class SheetWriter:
             if self._is_atom(node):
                 continue
             proposed = self._first.get(node)
-            if proposed is None and edges[node] > 1 and length[node] > UNNAMED:
+            if proposed is None and edges[node] > 1 and length[node] > self._unnamed:
                 proposed = Definition("", self._own_name(), node, False)
                 self._first[node] = proposed
             least = SHORT if edges[node] > 1 else ONCE
@@ -292,7 +309,7 @@ Factor = tuple[int, str, int]
 """(where it stands in a product, text, node of a sum in brackets or 0)."""
 Term = tuple[Fraction, tuple[Factor, ...]]
 
-_LETTER, _NAMED, _TRIG, _BRACKET = range(4)
+_LETTER, _NAMED, _TRIG, _BRACKET, _UNIT = range(5)
 _LATEX_NAMES = (
     (r"qdd(\w+)", r"\\ddot{q}_{\1}"),
     (r"qd(\w+)", r"\\dot{q}_{\1}"),
@@ -301,9 +318,14 @@ _LATEX_NAMES = (
     (r"wd([xyz])_(\w+)", r"\\dot{\\omega}_{\1,\2}"),
     (r"vd([xyz])_(\w+)", r"\\dot{v}_{\1,\2}"),
     (r"([Ug])([xyz]+)_(\w+)", r"\1_{\2,\3}"),
-    (r"J([pt])(\w+)_(\w+)", r"J^{\1}_{\2,\3}"),
+    (r"J(\w+)inv_(\w+)_(\w+)", r"J^{-1}_{\1;\2,\3}"),
+    (r"([WD])(P|[mL]\w+)_(\w+)_(\w+)", r"\1^{\2}_{\3,\4}"),
+    (r"J([pt])_?(\w+)_(\w+)", r"J^{\1}_{\2,\3}"),
     (r"J([A-Z][A-Za-z0-9]*)_([A-Za-z0-9]+)", r"J_{\1,\2}"),
     (r"S([A-Z][A-Za-z0-9]*)_([A-Za-z0-9]+)_([A-Za-z0-9]+)", r"S_{\1,\2,\3}"),
+    (r"h([A-Z]+)_(\w+)", r"h_{\1,\2}"),
+    (r"vCM(\w+)", r"\\mathbf{v}^{CM\1}"),
+    (r"omega([A-Z]\w*)", r"\\boldsymbol{\\omega}^{\1}"),
     (r"([Jgbe])([A-Z][A-Za-z0-9]*)", r"\1_{\2}"),
 )
 """Names of speeds and of vectors, by frame."""
@@ -354,8 +376,12 @@ class SheetPrinter:
     def sum(self, ref: int, opened: int = 0) -> str:
         """The value; the node `opened` is written out even if it has a name."""
         terms = _collected(self._cancelled(self._terms(ref, Fraction(1), opened)))
-        kept = [(number, self._product(factors)) for number, factors in terms.values() if number]
-        kept.sort(key=lambda term: (term[0] < 0, not term[1]))
+        units, kept = dict[str, str](), list[tuple[Fraction, str]]()
+        for number, factors in terms.values():
+            if number:
+                kept.append((number, self._product(factors)))
+                units[kept[-1][1]] = next((f[1] for f in factors if f[0] == _UNIT), "")
+        kept.sort(key=lambda term: (units[term[1]], term[0] < 0, not term[1]))
         return signed_sum(kept, self.style)
 
     def _cancelled(self, terms: list[Term]) -> list[Term]:
@@ -406,6 +432,8 @@ class SheetPrinter:
         if found.op == "add":
             return Fraction(1), [(_BRACKET, self.style.bracket(self.sum(node, opened)), node)]
         rank = _LETTER if found.static else _TRIG if node in self.sheet.trig else _NAMED
+        if found.op == "sym" and found.args[0].startswith(VECTOR):
+            rank = _UNIT
         return Fraction(1), [(rank, self._atom(node), 0)]
 
     def _quotient(self, above: int, below: int) -> tuple[Fraction, list[Factor]]:
@@ -431,7 +459,10 @@ class SheetPrinter:
     def _atom(self, node: int) -> str:
         found = self.sheet.graph.nodes[node]
         if found.op == "sym":
-            return self.letter(self.sheet.letters.get(found.args[0], found.args[0]))
+            letter = self.sheet.letters.get(found.args[0], found.args[0])
+            if self.style.latex and found.args[0].startswith(VECTOR):
+                return re.sub("(.+?)_(.*)", r"\\mathbf{\1}_{\2}", letter)
+            return self.letter(letter)
         if node in self.sheet.trig:
             return self.trig(self.sheet.trig[node])
         if found.op == "pi":

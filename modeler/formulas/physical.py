@@ -3,6 +3,7 @@
 import random
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import sympy
 from sympy.polys.domains import QQ
@@ -77,7 +78,7 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
     static = [str(symbol) for symbol in algebra.static_ring.symbols]
     bodies = {column.row for column in model.columns if isinstance(column, LinkColumn)}
     links = {
-        joint.name: _link(model, joint)
+        joint.name: physical_link(model, joint)
         for row, joint in enumerate(model.robot.joints)
         if row in bodies
     }
@@ -108,7 +109,7 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
         if isinstance(column, LinkColumn):
             if column.row not in tables:
                 name = model.robot.joints[column.row].name
-                tables[column.row] = _at_origin(links[name], name, read)
+                tables[column.row] = at_origin(links[name], name, read)
             standard[place] = tables[column.row][column.prefix]
         elif in_block(column, EnergyBlock.KINETIC):
             standard[place] = read(parse(column.name), column.name)
@@ -129,7 +130,8 @@ def physical_parameters(model: SymbolicModel, algebra: TrigRing) -> PhysicalPara
     )
 
 
-def _link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
+def physical_link(model: SymbolicModel, joint: Joint) -> PhysicalLink:
+    """The letters of a link."""
     found = model.robot.physical.get(joint.name)
     if found is not None:
         return found
@@ -160,9 +162,10 @@ def _lengths(algebra: TrigRing) -> list[str]:
     return [name for name in found if name not in gravity]
 
 
-def _at_origin(
-    link: PhysicalLink, joint: str, read: Callable[[Expression, str], Poly]
-) -> dict[str, Poly]:
+def at_origin(
+    link: PhysicalLink, joint: str, read: Callable[[Expression, str], Any]
+) -> dict[str, Any]:
+    """Standard parameters of a link by Huygens and Steiner; `read` takes entries to any algebra."""
     m = read(link.mass, joint)
     x, y, z = (read(entry, joint) for entry in link.centre)
     names = ("XX", "XY", "XZ", "YY", "YZ", "ZZ")

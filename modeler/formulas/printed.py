@@ -23,7 +23,8 @@ from modeler.core.errors import RobotError
 from modeler.core.expression import Expression, ExpressionError, parse
 from modeler.robot import Robot
 
-_KEYS = ("source", "keep_sine_squares", "missing", "monomials", "printed", "example", "twin")
+_KEYS = ("source", "keep_sine_squares", "missing", "monomials", "printed", "example", "twin",
+         "triads")  # fmt: skip
 _COUPLING = ("motor_from_joint", "coulomb", "speed")
 _PRINTED = (
     "count",

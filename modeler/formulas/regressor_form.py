@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 from modeler.core.errors import DerivationError, RobotError
 from modeler.core.formula import Formulas
@@ -52,7 +53,7 @@ from modeler.formulas.ring import TrigRing, poly_value
 # four equations are inverted by cofactors, so that only singular postures divide by 0.
 
 
-_SOLVED = 4
+SOLVED = 4
 """Equations up to which a block is inverted by cofactors."""
 
 Matrix = list[list[Expr]]
@@ -76,16 +77,16 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> list[str]:
     assert closure is not None
     names = [joint.name for joint in model.robot.free]
     given = closure.platform or closure.given
-    blocks = _blocks(closure, given, len(names))
+    blocks = connected(closure, given, len(names))
     _write_closure(closure, names, writer)
     spheres = _write_spheres(model, closure, writer)
     rates: dict[int, dict[int, Expr]] = {p: {p: model.graph.constant(1)} for p in given}
     bias: dict[int, Expr] = {}
     letter = "L" if closure.platform else "Jt"
     for block in blocks:
-        if len(block[1]) <= _SOLVED:
+        if len(block[1]) <= SOLVED:
             _write_block(closure, block, given, names, letter, writer, rates, bias)
-    complete = all(len(unknown) <= _SOLVED for _, unknown in blocks)
+    complete = all(len(unknown) <= SOLVED for _, unknown in blocks)
     if closure.platform and complete:
         complete = _write_platform(model, closure, names, writer, rates, bias)
     elif complete:
@@ -93,7 +94,7 @@ def write_loops(model: SymbolicModel, writer: SheetWriter) -> list[str]:
     return _words(model, closure, complete, spheres)
 
 
-def _blocks(closure: Closure, given: Sequence[int], count: int) -> list[Block]:
+def connected(closure: Closure, given: Sequence[int], count: int) -> list[Block]:
     """Connected equations, in the order of their unknowns."""
     unknown = [k for k in range(count) if k not in given]
     found: list[tuple[set[int], set[int]]] = []
@@ -159,46 +160,50 @@ def _write_block(
     told = ", ".join(names[k] for k in unknown)
     writer.section(f"speeds of {told} by those of {', '.join(names[k] for k in given)}")
     B = [[closure.jacobian[r][k] for k in unknown] for r in equations]
-    inverse = _inverse(B, f"D{names[unknown[0]]}", writer)
+    inverse = inverse_matrix(B, f"D{names[unknown[0]]}", writer)
     for u, line in zip(unknown, inverse, strict=True):
         rates[u] = {}
         for p in given:
-            value = -_along(line, [closure.jacobian[r][p] for r in equations])
+            value = -along_row(line, [closure.jacobian[r][p] for r in equations])
             if not value.is_zero:
                 rates[u][p] = value
                 writer.result(f"{letter}{names[u]}_{names[p]}", value)
-        bias[u] = -_along(line, [closure.drift[r] for r in equations])
+        bias[u] = -along_row(line, [closure.drift[r] for r in equations])
 
 
-def _along(a: Sequence[Expr], b: Sequence[Expr]) -> Expr:
+def along_row(a: Sequence[Any], b: Sequence[Any]) -> Any:
+    """sum_k a_k b_k, of expressions or of other elements of a field."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y
     return total
 
 
-def _inverse(B: Matrix, name: str, writer: SheetWriter) -> Matrix:
+def inverse_matrix(B: Matrix, name: str, writer: SheetWriter) -> Matrix:
     """The inverse by cofactors over the determinant, which gets the name."""
     n = len(B)
     if n == 1:
         return [[1 / B[0][0]]]
-    cofactors = [[_cofactor(B, i, j) for j in range(n)] for i in range(n)]
-    determinant = _along(B[0], cofactors[0])
+    cofactors = [[cofactor(B, i, j) for j in range(n)] for i in range(n)]
+    determinant = along_row(B[0], cofactors[0])
     writer.propose(name, determinant)
     return [[cofactors[j][i] / determinant for j in range(n)] for i in range(n)]
 
 
-def _cofactor(B: Matrix, i: int, j: int) -> Expr:
+def cofactor(B: Sequence[Sequence[Any]], i: int, j: int) -> Any:
+    """The signed minor of B without row i and column j; 1 of a matrix of one entry."""
+    if len(B) == 1:
+        return 1
     rest = [[x for k, x in enumerate(line) if k != j] for r, line in enumerate(B) if r != i]
     minor = _determinant(rest)
     return minor if (i + j) % 2 == 0 else -minor
 
 
-def _determinant(B: Matrix) -> Expr:
+def _determinant(B: Sequence[Sequence[Any]]) -> Any:
     """By the first row; the graph shares minors."""
     if len(B) == 1:
         return B[0][0]
-    return _along(B[0], [_cofactor(B, 0, j) for j in range(len(B))])
+    return along_row(B[0], [cofactor(B, 0, j) for j in range(len(B))])
 
 
 def _write_platform(
@@ -208,26 +213,26 @@ def _write_platform(
     """J_p, J_t and the bias, if the inverse of K is worth printing."""
     given, motors = closure.platform, closure.given
     assert given is not None
-    if len(motors) > _SOLVED:
+    if len(motors) > SOLVED:
         return False
     zero = model.graph.constant(0)
     writer.section("J_p, inverse of the motors' rows of L")
     K = [[rates[a].get(p, zero) for p in given] for a in motors]
-    inverse = _inverse(K, "Dp", writer)
+    inverse = inverse_matrix(K, "Dp", writer)
     for p, line in zip(given, inverse, strict=True):
         for a, value in zip(motors, line, strict=True):
             writer.result(f"Jp{names[p]}_{names[a]}", value)
     offsets = [bias.get(a, zero) for a in motors]
     for p, line in zip(given, inverse, strict=True):
-        bias[p] = -_along(line, offsets)
+        bias[p] = -along_row(line, offsets)
     writer.section("J_t of the legs' passive joints")
     passive = [k for k in rates if k not in given and k not in motors]
     for u in passive:
         row = [rates[u].get(p, zero) for p in given]
         for i, a in enumerate(motors):
-            value = _along(row, [line[i] for line in inverse])
+            value = along_row(row, [line[i] for line in inverse])
             writer.result(f"Jt{names[u]}_{names[a]}", value)
-        bias[u] = bias[u] + _along(row, [bias[p] for p in given])
+        bias[u] = bias[u] + along_row(row, [bias[p] for p in given])
     _write_bias(closure.solved, names, bias, writer)
     return True
 
@@ -355,7 +360,7 @@ def write_columns(model: SymbolicModel, base: BaseParameters, writer: SheetWrite
 
     With loops they are the opened tree's, and `write_loops` says how its variables are tied.
     """
-    _propose_motion(model, writer)
+    propose_motion(model, writer)
     names = [joint.name for joint in model.robot.free]
     for parameter in base.parameters:
         writer.section(f"column of {parameter.name}")
@@ -365,7 +370,7 @@ def write_columns(model: SymbolicModel, base: BaseParameters, writer: SheetWrite
                 writer.result(f"phi{name}_{parameter.name}", value)
 
 
-def _propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:
+def propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:
     """Names of the recursion's quantities, link after link."""
     geometry = model.geometry
     moved = model.link_motions(model.inputs("qd"), model.inputs("qdd"))

@@ -102,7 +102,12 @@ class ThinnedRows:
         if nearest is not None:
             q = np.ascontiguousarray(q[nearest])
         values = of(q, qd, qdd, self.read)
-        return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
+        out = np.zeros((self.means[0].shape[0], *values.shape[1:]))
+        spans = compiled.pattern.spans
+        for j, mean in enumerate(self.means):
+            own = (slice(None), j, spans[j]) if values.ndim == 3 else (slice(None), j)
+            out[own] = mean @ values[own]
+        return out
 
 
 def _torque(

@@ -83,7 +83,8 @@ def with_stretch(
         return state
     if is_unfiltered(part):
         return regressor.triangles(part, keep, state)
-    for rows, columns in part.blocks(partial(regressor, part.segment), _ADDED):
+    spans = regressor.pattern.spans
+    for rows, columns in part.blocks(partial(regressor, part.segment), _ADDED, spans):
         used = np.ascontiguousarray(keep[rows])
         state = of_rows(state.pattern, columns, torque[rows], used, state)
     return state

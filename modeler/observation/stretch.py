@@ -52,11 +52,20 @@ class Stretch(Brief):
         return np.concatenate([values for _, values in self.blocks(evaluate)])
 
     def blocks(
-        self, evaluate: Callable[[slice], np.ndarray], samples: int = _BLOCK
+        self,
+        evaluate: Callable[[slice], np.ndarray],
+        samples: int = _BLOCK,
+        spans: Sequence[slice] | None = None,
     ) -> Iterator[tuple[slice, np.ndarray]]:
-        """The same, about so many samples at a time: which rows, and their values."""
+        """The same, about so many samples at a time: which rows, and their values.
+
+        Args:
+            evaluate: as of `filtered`.
+            samples: of a block.
+            spans: of each joint, the columns that are not 0; None: all.
+        """
         for part, window, rows in self.parts(samples):
-            yield rows, self._means(part, evaluate(window), window, self.used[rows])
+            yield rows, self._means(part, evaluate(window), window, self.used[rows], spans)
 
     def at(self, rows: np.ndarray, evaluate: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
         """(m, joints, ...) the same of some rows (m,), of the samples (b,) that they reach."""
@@ -81,13 +90,15 @@ class Stretch(Brief):
             yield self.rows.part(rows, window), window, rows
 
     def _means(
-        self, part: RowFilter, values: np.ndarray, window: slice | np.ndarray, used: np.ndarray
-    ) -> np.ndarray:
+        self, part: RowFilter, values: np.ndarray, window: slice | np.ndarray, used: np.ndarray,
+        spans: Sequence[slice] | None = None,
+    ) -> np.ndarray:  # fmt: skip
         """Means over usable samples where the row counts, over all whole samples elsewhere."""
-        result = np.empty((len(used), *values.shape[1:]))
+        result = np.zeros((len(used), *values.shape[1:]))
         for j in range(values.shape[1]):
-            result[:, j] = part.means(
-                values[:, j], self.usable[window, j], used[:, j], self.segment.whole[window]
+            own = (slice(None), j) if spans is None else (slice(None), j, spans[j])
+            result[own] = part.means(
+                values[own], self.usable[window, j], used[:, j], self.segment.whole[window]
             )
         return result
 

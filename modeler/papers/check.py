@@ -38,6 +38,7 @@ class Line:
         verdict: how they stand to each other.
         slip: one of `modeler.papers.paper.SLIPS` where the print is known to differ, or "".
         why: reason of a difference, or a remark.
+        corrected: how it should read, which holds; "" if nothing is stated.
     """
 
     robot: str
@@ -47,6 +48,7 @@ class Line:
     verdict: LineVerdict
     slip: str
     why: str
+    corrected: str = ""
 
 
 def check_paper(paper: Paper, derived: Robots) -> list[Line]:
@@ -77,6 +79,10 @@ def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> Line:
             raise QuotationError("the numbers are not those that were read from the paper")
         found = READINGS[line.check](paper, line, derived)
         equal, exact = same(found, line)
+        if equal and line.corrected:
+            right = replace(line, quote=line.corrected, difference="")
+            if not same(READINGS[line.check](paper, right, derived), right)[0]:
+                raise QuotationError(f"the corrected form does not hold: {line.corrected}")
     except (QuotationError, ExpressionError, RobotError) as error:
         return _line(line, str(error), LineVerdict.DIFFERENT)
     return _line(line, found.text, _verdict(line, equal, exact, found.weak))
@@ -100,7 +106,7 @@ def _line(line: PrintedLine, derived: str, verdict: LineVerdict) -> Line:
     leg = line.legs[0] if len(line.legs) == 1 else ""
     place = line.place + (f", i = {leg}" if leg else "")
     printed = "; ".join((line.text, *line.given))
-    return Line(line.robot, place, printed, derived, verdict, line.slip, line.why)
+    return Line(line.robot, place, printed, derived, verdict, line.slip, line.why, line.corrected)
 
 
 def seal_of(line: PrintedLine) -> str:

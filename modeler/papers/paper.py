@@ -19,14 +19,28 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import sympy
 
 from modeler.core.builtin import paper_names
 from modeler.core.errors import RobotError
 from modeler.core.expression import parse
 from modeler.core.json import built
-from modeler.derivation import BaseParameters, SymbolicModel, base_parameters, derive_model
-from modeler.formulas import CoefficientTable, coefficient_table
+from modeler.derivation import (
+    BaseParameters,
+    SymbolicModel,
+    base_parameters,
+    derive_model,
+    random_states,
+)
+from modeler.formulas import (
+    CoefficientTable,
+    Equation,
+    coefficient_table,
+    energy_functions,
+    function_sheet,
+    kane_form,
+)
 from modeler.papers.quotation import (
     Amount,
     Monomial,
@@ -64,6 +78,7 @@ class PrintedLine:
         legs: what stands for i; one line each.
         gives: what is derived, one expression per number, or the expression of a set.
         difference: derived minus printed, in our names; "" if they are to be the same.
+        corrected: the quotation as it should read, which must hold.
         slip: one of `SLIPS`, where there is a difference.
         why: reason of the difference, or a remark.
         of: "M13R = Off13/g - Off13R/g": what a left side is that the robot does not have, in base
@@ -83,6 +98,7 @@ class PrintedLine:
     legs: tuple[str, ...] = ("",)
     gives: tuple[str, ...] = ()
     difference: str = ""
+    corrected: str = ""
     slip: str = ""
     why: str = ""
     of: str = ""
@@ -134,14 +150,16 @@ class Paper:
 
 
 def read_paper(name: str) -> Paper:
-    """The paper of that name.
+    """The paper of that name, or that derives the robot of that name.
 
     Raises:
         RobotError: there is none; lists those there are.
     """
-    if name not in paper_names():
-        raise RobotError(f'there is no paper "{name}"; expected one of {", ".join(paper_names())}')
-    document = tomllib.loads((_FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
+    texts = {paper: (_FOLDER / f"{paper}.toml").read_text("utf-8") for paper in paper_names()}
+    name = next((paper for paper in texts if f'\nrobot = "{name}"\n' in texts[paper]), name)
+    if name not in texts:
+        raise RobotError(f'there is no paper "{name}"; expected one of {", ".join(texts)}')
+    document = tomllib.loads(texts[name])
     lines = []
     for entry in document["line"]:
         # One line, or one for each of `quotes`: quotation -> its seal, or "" without one.
@@ -229,6 +247,19 @@ class DerivedPaper:
     def table(self) -> CoefficientTable:
         """Coefficients of the closed form."""
         return coefficient_table(self.model, self.base)
+
+    @cached_property
+    def kane(self) -> Mapping[str, str]:
+        """Formulas of Kane's form, by name."""
+        sheet = function_sheet.sheet_json(self.forms["kane"][0].sheet)
+        return {each["name"]: each["formula"] for each in sheet["definitions"]}
+
+    @cached_property
+    def forms(self) -> Mapping[str, tuple[Equation, float]]:
+        """Energy functions, and without loops Kane's form, with how far each is from the model."""
+        states = random_states(self.model, 20, np.random.default_rng(2000))
+        found = {"energy": energy_functions(self.model, states)}
+        return found if self.robot.loops else found | {"kane": kane_form(self.model, states)}
 
     @cached_property
     def tied(self) -> Mapping[str, Sum]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 import sympy
 
 from modeler.derivation import GeometryRow, base_poses, pose, poses
@@ -235,15 +236,71 @@ def _vector(name: str) -> sympy.Matrix:
 
 _PARAMETERS = sympy.symbols(" ".join(ELEMENTS))
 _XX, _XY, _XZ, _YY, _YZ, _ZZ, *_MS, _M = _PARAMETERS
-_W, _V, _G, _P = (_vector(name) for name in "wvgP")
+_W, _V, _G, _P, _R, _S = (_vector(name) for name in "wvgPrS")
+_AXES = sympy.Matrix.hstack(*(_vector(name) for name in "sna"))
 _INERTIA = sympy.Matrix([[_XX, _XY, _XZ], [_XY, _YY, _YZ], [_XZ, _YZ, _ZZ]])
-_ENERGY = sympy.expand(
-    (_W.T * _INERTIA * _W)[0] / 2 + _M * _V.dot(_V) / 2 + sympy.Matrix(_MS).dot(_V.cross(_W))
-)
-_AXES = [_vector(name) for name in "sna"]
-_HEIGHT = -sympy.expand(
-    _G.dot(_M * _P + sum((m * axis for m, axis in zip(_MS, _AXES, strict=True)), sympy.zeros(3, 1)))
-)
+_MOMENTS = {(0, 0, 0): _M, (1, 0, 0): _MS[0], (0, 1, 0): _MS[1], (0, 0, 1): _MS[2]}
+_MOMENTS |= {(1, 1, 0): -_XY, (1, 0, 1): -_XZ, (0, 1, 1): -_YZ}
+_MOMENTS |= {(2, 0, 0): _YY + _ZZ - _XX, (0, 2, 0): _XX + _ZZ - _YY, (0, 0, 2): _XX + _YY - _ZZ}
+
+
+def _integral(density: sympy.Expr) -> sympy.Expr:
+    """Over the masses of a body at r in its frame: J is int |r|^2 - r r' dm, MS int r dm."""
+    found = sympy.Integer(0)
+    for powers, factor in sympy.Poly(sympy.expand(density), *_R).terms():
+        found += factor * _MOMENTS[powers] / (2 if 2 in powers else 1)
+    return sympy.expand(found)
+
+
+_SPEED = _V + _W.cross(_R)
+_ENERGY = _integral(_SPEED.dot(_SPEED) / 2)
+_HEIGHT = -_integral(_G.dot(_P + _AXES * _R))
+
+
+def _evaluated(text: str, names: Mapping[str, Any]) -> Any:
+    """The value of `omegak^T Jk omegak + ...`: letters by `names`, side by side or with x."""
+    known: dict[str, Any] = {"cross": lambda a, b: a.cross(b)}
+    for k, word in enumerate(sorted(names, key=len, reverse=True)):
+        text, known[f"n{k}"] = text.replace(word, f" n{k} "), names[word]
+    text = re.sub(r"(n\d+) +x +(n\d+)", r"cross(\1, \2)", text.translate({91: "(", 93: ")"}))
+    text = re.sub(r"(?<=[\w)])\s+(?=[\w(])", "*", text.strip())
+    try:
+        return evaluate(text, known)
+    except (SyntaxError, TypeError, ValueError) as error:  # of shapes that do not fit, too
+        raise QuotationError(f'"{text}" cannot be read: {error}') from error
+
+
+def _body_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`1/2 [omegak^T Jk omegak + ...]`: `gives` "E" or "U" of a body, from those of its masses."""
+    own = {"E": _ENERGY, "U": _HEIGHT.subs(dict(zip(_MS, _M * _S, strict=True)))}[line.gives[0]]
+    names = {"omegak^T": _W.T, "omegak": _W, "Jk": _INERTIA, "Mk": _M, "Vk^T": _V.T, "Vk": _V}
+    names |= {"MSk^T": sympy.Matrix(_MS).T, "^0g^T": _G.T, "^0Pk": _P, "^0Ak": _AXES, "^kSk": _S}
+    printed, derived = (sum_of(sympy.expand(x)) for x in (_evaluated(line.text, names)[0], own))
+    return Compared(printed, derived, sum_text(derived))
+
+
+def _recursion_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`^kRk-1 ^k-1omegak-1 + barsigmak qdk ^kak`: "angular" or "linear" velocity of link k.
+
+    Of T_k = T_k-1 A(q) comes T_k^-1 T_k' = A^-1 (T_k-1^-1 T_k-1') A + A^-1 A'; sigma is 0 where q
+    turns and 1 where it slides, and what is linear in sigma is found from the two.
+    """
+    qd, sigma, alpha, d, theta, r = sympy.symbols("qd sigma alpha d theta r")
+    R = sympy.rot_axis1(-alpha) * sympy.rot_axis3(-theta)
+    P, last = sympy.Matrix([d, 0, 0]) + R[:, 2] * r, sympy.Matrix([[0, 0, 0, 1]])
+    A, back = R.row_join(P).col_join(last), R.T.row_join(-R.T * P).col_join(last)
+    before = _W.hat().row_join(_V).col_join(0 * last)
+    turned, slid = (back * (before * A + A.diff(moved) * qd) for moved in (theta, r))
+    twist = turned + (slid - turned) * sigma
+    own = {"angular": [twist[2, 1], twist[0, 2], twist[1, 0]], "linear": [*twist[:3, 3]]}
+    names = {"^kRk-1": R.T, "^k-1omegak-1": _W, "^komegak-1": R.T * _W, "^k-1Vk-1": _V}
+    names |= {"^k-1Pk": P, "barsigmak": 1 - sigma, "sigmak": sigma, "qdk": qd}
+    names["^kak"] = sympy.Matrix([0, 0, 1])
+    printed, derived = (
+        in_order(sum_of(without_squared_sines(x)) for x in v)
+        for v in (_evaluated(line.text, names), own[line.gives[0]])
+    )
+    return Compared(printed, derived, "A^-1 twist A + A^-1 A' of frames k-1 and k")
 
 
 def _energy_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -268,26 +325,6 @@ def _energy_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared
     return Compared(joined(printed), joined(found), told)
 
 
-def _speed_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
-    """`barsigmak qdk ^kak`: what a joint's own speed adds to `gives`, "angular" or "linear".
-
-    Both kinds of joints are derived from R(q) and P(q); sigma is 0 where one turns and 1 where one
-    slides, and what it adds is along z in frame k, so a sum in sigma is found from the two.
-    """
-    q = sympy.Symbol("q")
-    found = []
-    for theta, r in ((q, 0), (0, q)):
-        turn = sympy.rot_axis3(-theta)
-        spin = turn.T * turn.diff(q)
-        slide = turn.T * sympy.Matrix([0, 0, r]).diff(q)
-        found.append(sympy.simplify(spin[1, 0] if line.gives[0] == "angular" else slide[2]))
-    sigma, speed = sympy.symbols("sigmak qdk")
-    derived = sum_of((found[0] + (found[1] - found[0]) * sigma) * speed * sympy.Symbol("ak"))
-    text = line.text.replace("^kak", "ak").replace("barsigmak", "(1 - sigmak)")
-    printed = read_sum(text, renamer(paper, line))
-    return Compared(printed, derived, sum_text(derived))
-
-
 def _effort_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """`^0Jp^T ^0J1^T DL1`: `gives[2]`, forces at `gives[0]`, as forces at `gives[1]`.
 
@@ -306,6 +343,13 @@ def _effort_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared
     )
     shown = " ".join(f"{name.removesuffix('inv')}^{'-' * name.endswith('inv')}T" for name in wanted)
     return Compared(printed, derived, f"{shown} {what}")
+
+
+def _digits_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`12`: digits that agree, 12 or more, of a form, "energy" or "kane", and the derivation."""
+    off = robots[line.robot].forms[line.gives[0]][1]
+    digits = numbered([min(12, int(-np.log10(off + 1e-16)))])
+    return Compared(numbered(numbers_of(line.text)), digits, f"{off:.0e} of the largest")
 
 
 _COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
@@ -454,7 +498,9 @@ READINGS: Mapping[str, Reading] = {
     "element": _element_reading,
     "column": _column_reading,
     "energy": _energy_reading,
-    "speed": _speed_reading,
+    "body": _body_reading,
+    "recursion": _recursion_reading,
+    "digits": _digits_reading,
     "effort": _effort_reading,
     "closure": _closure_reading,
     "platform": _platform_reading,

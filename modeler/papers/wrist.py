@@ -5,10 +5,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
-from functools import cache
 from typing import Any
-
-import sympy
 
 from modeler.core.expression import Expression, parse
 from modeler.formulas import (
@@ -22,15 +19,17 @@ from modeler.formulas import (
     wrong_functions,
 )
 from modeler.papers.compared import Compared, Reading, Robots, in_order, joined, numbered
-from modeler.papers.paper import (
-    DerivedPaper,
-    Paper,
-    PrintedLine,
-    expression_of,
-    sum_of,
-    without_squared_sines,
+from modeler.papers.paper import DerivedPaper, Paper, PrintedLine
+from modeler.papers.quotation import (
+    Amount,
+    QuotationError,
+    Sum,
+    added,
+    amount,
+    read_sum,
+    replaced,
+    sum_text,
 )
-from modeler.papers.quotation import Amount, QuotationError, Sum, amount, read_sum, sum_text
 
 _PLACES = {"definition": "section 2.2", "function": "section 2.2", "solution": "section 4"}
 
@@ -146,84 +145,29 @@ def _terms(derived: DerivedPaper, function: str) -> list[tuple[str, Sum]]:
     return [(c.name, read_sum(monomial_text(c.exponents, names), str)) for c in found]
 
 
-@cache
-def _triads() -> dict[str, sympy.Matrix]:
-    """Unit vectors a1, ..., c3 along n: a turns about n1, b about a2, c about b1."""
-    q1, q2, q3 = _Q
-    about1, about2 = (lambda q: sympy.rot_axis1(-q)), (lambda q: sympy.rot_axis2(-q))
-    a = about1(q1)
-    b = a * about2(q2)
-    frames = {"n": sympy.eye(3), "a": a, "b": b, "c": b * about1(q3)}
-    return {f"{name}{k + 1}": at[:, k] for name, at in frames.items() for k in range(3)}
+_TERM = re.compile(r"[*\s]*\b(?:([nabc])_?([123])|v\^?(CM)([abc]))$")
 
 
-_Q = sympy.symbols("q1:4")
-_QD = sympy.symbols("qd1:4")
-
-
-@cache
-def _speeds(body: str) -> tuple[sympy.Matrix, sympy.Matrix]:
-    """(velocity of the mass centre, angular velocity) of a body, along n."""
-    axes = _triads()
-    crossing = sympy.Symbol("al1") * axes["a1"]
-    last = crossing + sympy.Symbol("bl1") * axes["b1"]
-    origin = {"a": sympy.zeros(3, 1), "b": crossing, "c": last}
-    own = sum((sympy.Symbol(f"{body}t{k}") * axes[f"{body}{k}"] for k in (1, 2, 3)), origin[body])
-    turn = sympy.Matrix.hstack(*(axes[f"{body}{k}"] for k in (1, 2, 3)))
-    spin = sum((turn.diff(q) * turn.T * qd for q, qd in zip(_Q, _QD, strict=True)), sympy.zeros(3))
-    velocity = own.jacobian(_Q) * sympy.Matrix(_QD)
-    return velocity, sympy.Matrix([spin[2, 1], spin[0, 2], spin[1, 0]])
-
-
-def _along(text: str) -> sympy.Matrix:
-    """`-at3 qd1 a2 + at2 qd1 a3` along n: each term ends with its unit vector."""
-    total, axes = sympy.zeros(3, 1), _triads()
-    angles = {f"{f}{k}": getattr(sympy, g)(q) for f, g in (("s", "sin"), ("c", "cos"))
-              for k, q in enumerate(_Q, 1)}  # fmt: skip
-    depth, terms = 0, [""]
-    for letter in text:
-        depth += {"(": 1, ")": -1}.get(letter, 0)
-        if letter in "+-" and depth == 0:
-            terms.append("")
-        terms[-1] += letter
-    for term in filter(str.strip, terms):
-        factors, _, axis = term.strip().rpartition(" ")
-        if axis not in axes:
+def _along(text: str) -> dict[str, Sum]:
+    """{vector: factor} of `-at3 qd1 a2 + at2 qd1 a3`, whose terms end with unit vectors or vCMa."""
+    found: dict[str, Sum] = {}
+    for term in re.findall(r"[+-]?(?:[^-+()]|\((?:[^()]|\([^()]*\))*\))+", text.strip()):
+        axis = _TERM.search(term.rstrip())
+        if axis is None:
             raise QuotationError(f'"{term}" ends with no unit vector')
+        factors = term[: axis.start()]
         size = read_sum(f"{factors}{' ' if factors[-1:].isalnum() else ' 1'}", str)
-        total += expression_of(size, angles) * axes[axis]
-    return total
+        name = "".join(filter(None, axis.groups()))
+        found[name] = added(found.get(name, {}), size)
+    return found
 
 
-def _vectors(found: sympy.Matrix) -> Sum:
-    return in_order(sum_of(without_squared_sines(x)) for x in found)
-
-
-def _velocity(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
-    """Velocity of the mass centre of body `gives[0]`, or its angular velocity, from positions."""
-    body, _, angular = line.gives[0].partition(" ")
-    derived = _vectors(_speeds(body)[bool(angular)])
-    return Compared(_vectors(_along(line.text)), derived, "the same")
-
-
-def _applied(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
-    """`-am n3; tau1 a1; ...`: force and torque on each body, projected on its speeds.
-
-    The generalised forces of motors between bodies are tau_i; gravity's follow from the height.
-    """
-    cells = [cell.strip() for cell in line.text.split(";")]
-    printed, derived = sympy.zeros(3, 1), sympy.Matrix(sympy.symbols("tau1:4"))
-    down = -sympy.Symbol("g") * _triads()["n3"]
-    for k, body in enumerate("abc"):
-        velocity, angular = _speeds(body)
-        for vector, cell in zip((velocity, angular), cells[2 * k : 2 * k + 2], strict=True):
-            printed += vector.jacobian(_QD).T * _along(cell)
-        derived += velocity.jacobian(_QD).T * sympy.Symbol(f"{body}m") * down
-    text = ", ".join(f"tau{k} - g{k}" for k in (1, 2, 3))
-    given = _vectors(printed)
-    if line.gives:  # the paper's unit of gravity
-        derived = derived.subs(sympy.Symbol("g"), sympy.Integer(line.gives[0]))
-    return Compared(given, _vectors(derived), text)
+def _kane(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """Rows of Kane's form, those of `gives`, along unit vectors, `;` between; with g = 1."""
+    own = [robots[line.robot].kane[name] for name in line.gives]
+    printed, derived = (in_order(joined(_along(x)) for x in v) for v in (line.text.split(";"), own))
+    unit: Sum = {(): Amount(Fraction(1))}
+    return Compared(printed, replaced(derived, {"g": unit}), "; ".join(own))
 
 
 def _indices(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -270,8 +214,8 @@ WRIST_READINGS: Mapping[str, Reading] = {
     "independent": _independent,
     "monomials": _monomials,
     "values": _values,
-    "velocity": _velocity,
-    "applied": _applied,
+    "velocity": _kane,
+    "applied": _kane,
     "indices": _indices,
     "friction": _friction,
 }

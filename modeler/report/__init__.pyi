@@ -22,6 +22,7 @@ from .log import (
     log_page as log_page,
     log_pictures as log_pictures,
 )
+from .nearest_page import nearest_html as nearest_html
 from .page import (
     Origin as Origin,
     Page as Page,

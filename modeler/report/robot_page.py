@@ -2,6 +2,7 @@
 
 import dataclasses
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,14 +17,16 @@ from modeler.core.table import aligned
 from modeler.report.page import render, script_json
 from modeler.report.robot_closing import CLOSED, Gap, Posture, gaps_of, home_posture
 from modeler.report.robot_labels import good_view
-from modeler.report.robot_scene import Point, Scene, scene_of
+from modeler.report.robot_scene import Part, Point, Scene, scene_of
 from modeler.report.robot_skeleton import Skeleton, SkeletonRow, kind_word, poses, skeleton_of
 from modeler.robot import JointKind, Robot, written_letter, written_table
 
 _DIGITS = 7  # of coordinates of drawn points: finer than any screen
 
 
-def page_content(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
+def page_content(
+    skeleton: Skeleton, posture: Posture, further: Sequence[Part] = ()
+) -> dict[str, Any]:
     """What the scripts of the page work on: the table in numbers, loops, ranges, drawn parts."""
     view = good_view(skeleton, posture)
     ranges = [_range(skeleton, posture, k) for k in range(len(skeleton.free))]
@@ -51,7 +54,7 @@ def page_content(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
         "gravity": skeleton.gravity.tolist(),
         "view": view.rotation.tolist(),
         "up": view.up.tolist(),
-        **_parts(scene_of(skeleton, posture)),
+        **_parts(scene_of(skeleton, posture, further)),
     }
 
 
@@ -282,8 +285,8 @@ def _direction(z: np.ndarray) -> str:
     return " ".join(f"{0.0 if abs(x) < 5e-4 else x:.3f}" for x in z)
 
 
-def robot_html(skeleton: Skeleton, posture: Posture) -> str:
-    """The page as text; its security policy forbids any network access."""
+def robot_html(skeleton: Skeleton, posture: Posture, further: Sequence[Part] = ()) -> str:
+    """The page as text, with further parts; its security policy forbids any network access."""
     robot = skeleton.robot
     return render(
         "robot",
@@ -297,7 +300,7 @@ def robot_html(skeleton: Skeleton, posture: Posture) -> str:
         rows=table_rows(robot),
         relations=relations_text(robot),
         step=written_table(robot).step,
-        content=script_json(page_content(skeleton, posture)),
+        content=script_json(page_content(skeleton, posture, further)),
     )
 
 

@@ -161,10 +161,13 @@ class Scene:
 ORIGIN = (0.0, 0.0, 0.0)
 
 
-def scene_of(skeleton: Skeleton, posture: Posture) -> Scene:
-    """The parts of a robot, their sizes chosen for the posture."""
+Part = SceneLine | Face | Dot | Label | Sleeve
+
+
+def scene_of(skeleton: Skeleton, posture: Posture, further: Sequence[Part] = ()) -> Scene:
+    """The parts of a robot, their sizes chosen for the posture, and further ones."""
     maker = _Maker(skeleton, posture)
-    parts = [*maker.base(), *maker.platform(), *maker.loops()]
+    parts = [*further, *maker.base(), *maker.platform(), *maker.loops()]
     for i, row in enumerate(skeleton.rows):
         if not row.virtual:
             parts += [*maker.link(i, row), *maker.joint(i, row)]
@@ -174,9 +177,6 @@ def scene_of(skeleton: Skeleton, posture: Posture) -> Scene:
     kinds = (SceneLine, Face, Dot, Label, Sleeve)
     sorted_: Any = (tuple(part for part in parts if isinstance(part, kind)) for kind in kinds)
     return Scene(maker.radius, *sorted_)
-
-
-Part = SceneLine | Face | Dot | Label | Sleeve
 
 
 class _Maker:

@@ -52,6 +52,7 @@ from .robot import (
     Joint as Joint,
     JointKind as JointKind,
     Limits as Limits,
+    LinkCapsule as LinkCapsule,
     LinkFrame as LinkFrame,
     Loop as Loop,
     PhysicalLink as PhysicalLink,

@@ -40,6 +40,7 @@ from modeler.robot.motors import (
 from modeler.robot.robot import Joint, Robot
 from modeler.robot.robot_text import Converted
 from modeler.robot.sections import (
+    read_capsules,
     read_coupling,
     read_diagnose,
     read_drive_gains,
@@ -58,7 +59,7 @@ _KEYS = (
     "name", "title", "notes", "gravity", "priority", "legs", "shared", "symbols", "mdh",
     "relations", "platform", "loops", "home", "frames", "tool", "links", "effects", "own_effects",
     "coupling", "motors", "parameters", "reference", "drive_gains", "drives", "limits",
-    "physical", "terms", "log", "fit", "diagnose",
+    "physical", "terms", "log", "fit", "diagnose", "capsules",
 )  # fmt: skip
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
@@ -230,7 +231,8 @@ def _with_tables(
         ),
     )
     tool = read_tool(place.at("[tool]", document.get("tool")), robot, values)
-    return dataclasses.replace(robot, tool=tool)
+    capsules, planes = read_capsules(section("capsules"), [j.name for j in robot.joints], values)
+    return dataclasses.replace(robot, tool=tool, capsules=capsules, planes=planes)
 
 
 def _not_found(path: Path) -> str:

@@ -162,6 +162,21 @@ class LinkFrame(Brief):
     on: "LinkFrame | None" = None
 
 
+@dataclass(frozen=True)
+class LinkCapsule:
+    """What a link fills: all that is no farther than `radius` from the way between two points.
+
+    Attributes:
+        row: name of the row whose frame it moves with; "0" for the base.
+        radius: m.
+        ends: of the way, in that frame, m; None: from its origin to the frames after it.
+    """
+
+    row: str
+    radius: float
+    ends: tuple[tuple[float, ...], tuple[float, ...]] | None = None
+
+
 LOOP_KINDS = (
     "rigid", "revolute", "prismatic", "cylindrical", "universal", "spherical", "position", "planar",
 )  # fmt: skip
@@ -238,6 +253,8 @@ class Robot(Presented):
         frames: links of the file that the robot was read from, by name, so that values find their
             way back.
         tool: the frame whose motion a controller commands; None if the file states none.
+        capsules: what links fill, so that they do not run into each other.
+        planes: of the surroundings: name -> normal and offset, free is `normal x > offset`, m.
         notes: source of the table and remarks, for people.
         convention: in whose letters the table was given; `joints` are rows of Khalil's.
         readings: what reading the file decided or left out, for people.
@@ -273,6 +290,8 @@ class Robot(Presented):
     reference: Mapping[str, float] = field(default_factory=dict)
     frames: Mapping[str, LinkFrame] = field(default_factory=dict)
     tool: LinkFrame | None = None
+    capsules: tuple[LinkCapsule, ...] = ()
+    planes: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     notes: str = ""
     convention: str = "khalil"
     readings: tuple[str, ...] = ()

@@ -9,7 +9,7 @@ from modeler.core.expression import Expression
 from modeler.core.manifest import DriveSpec
 from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.cells import joint_sum, name_of, number_at
-from modeler.robot.robot import Joint, Limits, LinkFrame, PhysicalLink, Robot
+from modeler.robot.robot import Joint, Limits, LinkCapsule, LinkFrame, PhysicalLink, Robot
 
 Coupling = dict[str, dict[str, float]]
 _Three = tuple[Expression, Expression, Expression]
@@ -362,32 +362,84 @@ def read_frames(
     if place.value is None:
         return {}
     table = place.checked_table(("columns", "rows"), f"[frames] {_FRAMES}", "", f"write {_FRAMES}")
-    here = place.at("columns", table["columns"])
-    columns = here.entries(_FRAMES)
-    if (
-        {"link", "row"} - {*columns}
-        or {*columns} - {*FRAME_COLUMNS}
-        or len({*columns}) < len(columns)
-    ):
-        raise here.mismatch(f"link, row and any of {listed(FRAME_COLUMNS[2:])}, each once")
     found: dict[str, LinkFrame] = {}
-    for k, entry in enumerate(place.at("rows", table["rows"]).entries(_FRAMES), start=1):
-        line = place.at(f"row {k}", entry)
-        cells = dict(zip(columns, line.entries(_FRAMES, len(columns)), strict=True))
+    lines = _lines(place, table, ("link", "row"), FRAME_COLUMNS, _FRAMES)
+    for k, (line, cells) in enumerate(lines, start=1):
         link = line.at("column link", cells["link"]).text('"hand"')
         spot = place.at(f"row {k} ({shown(link)})")
         if link in found:
             raise spot.error("the link stands there twice; keep one of the rows")
-        row = name_of(cells["row"])
-        if row not in ("0", *rows):
-            raise spot.at("column row", row).mismatch(
-                f'the name of a row, or "0" for the base{near(row, rows)}'
-            )
+        row = _carrier(cells["row"], rows, spot)
         joint = cells.get("joint", "")
         if not isinstance(joint, str):
             raise spot.at("column joint", joint).mismatch('a name, or "" for none')
         found[link] = LinkFrame(row, joint, *_pose_cells(spot, "column ", cells, symbols))
     return found
+
+
+def _lines(
+    place: Place, table: Mapping[str, Any], needed: tuple[str, ...], known: tuple[str, ...],
+    example: str,
+) -> Iterator[tuple[Place, dict[str, Any]]]:  # fmt: skip
+    """The rows of a table with columns, each with its cells by column."""
+    here = place.at("columns", table["columns"])
+    columns = here.entries(example)
+    if {*needed} - {*columns} or {*columns} - {*known} or len({*columns}) < len(columns):
+        rest = listed([name for name in known if name not in needed])
+        raise here.mismatch(f"{' and '.join(needed)} and any of {rest}, each once")
+    for k, entry in enumerate(place.at("rows", table["rows"]).entries(example), start=1):
+        line = place.at(f"row {k}", entry)
+        yield line, dict(zip(columns, line.entries(example, len(columns)), strict=True))
+
+
+def _carrier(name: Any, rows: Collection[str], place: Place) -> str:
+    """A row of the table, or "0"."""
+    row = name_of(name)
+    if row not in ("0", *rows):
+        raise place.at("column row", row).mismatch(
+            f'the name of a row, or "0" for the base{near(row, rows)}'
+        )
+    return str(row)
+
+
+_ENDS = ("x0", "y0", "z0", "x1", "y1", "z1")
+_CAPSULES = 'columns = ["row", "radius"], rows = [["1", 0.05]]'
+
+
+def read_capsules(
+    place: Place, rows: Collection[str], symbols: Mapping[str, float]
+) -> tuple[tuple[LinkCapsule, ...], dict[str, tuple[float, ...]]]:
+    """What links fill, and planes of the surroundings: `[capsules]`.
+
+    Raises:
+        RobotError: columns, names of rows, or numbers are wrong.
+    """
+    table = dict(place.table(f"[capsules] {_CAPSULES}"))
+    planes, found = {}, []
+    flat = place.at("planes", table.pop("planes", {}))
+    for name, here in flat.items("planes = {floor = [0, 0, 1, 0]}"):
+        four = here.entries("[x, y, z, offset], the normal that points to where is room", 4)
+        planes[name] = tuple(number_at(here.holding(cell), symbols, "m") for cell in four)
+        if not any(planes[name][:3]):
+            raise here.error("got the normal (0, 0, 0); expected a direction, such as [0, 0, 1, 0]")
+    given = place.holding(table)
+    if table:
+        given.checked_table(
+            ("columns", "rows"), f"[capsules] {_CAPSULES}", "", f"write {_CAPSULES}"
+        )
+    known = ("row", "radius", *_ENDS)
+    for line, cells in _lines(place, table, known[:2], known, _CAPSULES) if table else ():
+        row = _carrier(cells.pop("row"), rows, line)
+        sizes = {
+            name: number_at(line.at(f"column {name}", cell), symbols, "m")
+            for name, cell in cells.items()
+        }
+        if sizes["radius"] <= 0.0:
+            raise line.at("column radius", cells["radius"]).mismatch("a length above 0, in m")
+        ends = [sizes.get(name, 0.0) for name in _ENDS]
+        both = (tuple(ends[:3]), tuple(ends[3:])) if len(sizes) > 1 else None
+        found.append(LinkCapsule(row, sizes["radius"], both))
+    return tuple(found), planes
 
 
 def _pose_cells(

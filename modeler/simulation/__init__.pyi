@@ -20,6 +20,8 @@ from .settings import (
 from .trajectory import (
     Reference as Reference,
     at_rate as at_rate,
+    curve_of as curve_of,
     motion_limits as motion_limits,
+    point_to_point_reference as point_to_point_reference,
     read_motion as read_motion,
 )

@@ -303,10 +303,15 @@ def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
     return Reference(time - time[0], q, spline.derivative()(time), spline.derivative(2)(time))
 
 
+def curve_of(motion: Reference) -> BPoly:
+    """Polynomials of degree five that meet all that is given: q of times from 0 to the last."""
+    ends = np.stack([motion.q, motion.qd, motion.qdd], axis=1)
+    return BPoly.from_derivatives(motion.time, ends)
+
+
 def at_rate(motion: Reference, rate: float) -> Reference:
     """The motion at other samples: polynomials of degree five that meet all that is given."""
-    ends = np.stack([motion.q, motion.qd, motion.qdd], axis=1)
-    curve = BPoly.from_derivatives(motion.time, ends)
+    curve = curve_of(motion)
     count = int(np.floor(motion.time[-1] * rate + 1e-9)) + 1
     time = np.arange(count) / rate
     at = np.minimum(time, motion.time[-1])

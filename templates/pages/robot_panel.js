@@ -359,8 +359,8 @@ function key() {
     patch.style.background = color;
     return made("li", {}, patch, text);
   }));
-  for (const layer of ["masses", "fixed names", "loop names"]) {
-    const parts = [...robot.dots, ...robot.labels];
+  for (const layer of ["masses", "fixed names", "loop names", "capsules"]) {
+    const parts = [...robot.dots, ...robot.labels, ...robot.faces];
     document.querySelector(`[data-layers="${layer}"]`).parentElement.hidden = !parts.some((p) => p.layer === layer);
   }
 }

@@ -8,7 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler.cli import main
-from modeler.excitation.motion import series
+from modeler.excitation.families import series
 from modeler.excitation.result import csv_text
 from modeler.excitation.search import Wish, random_motion, task_of
 from modeler.simulation import at_rate, read_motion
@@ -183,7 +183,7 @@ EXCITE = ("excite", "demo-arm", "--duration", "3", "--starts", "1")
         (("--rate", "0"), "--rate: got 0"),
         (("--time-limit", "0"), "time limit"),
         (("--picture", "p.bmp"), ".png, .svg or .pdf"),
-        (("--choose", "1"), "go together"),
+        (("--choose", "1"), "needs --from"),
         (("--choose", "1", "--from", "a.csv"), "--out: got it with --choose, which names motions"),
         (("--between", "stribeck@2,spring@2"), "has no values"),
     ],

@@ -8,7 +8,8 @@ import pytest
 from modeler.api.motion import bounds_of, subject_of
 from modeler.core.errors import DataError
 from modeler.excitation.criterion import MotionColumns, condition
-from modeler.excitation.motion import Bounds, series
+from modeler.excitation.families import series
+from modeler.excitation.motion import Bounds
 from modeler.excitation.result import Exciting
 from modeler.excitation.search import Wish, excite, random_motion, task_of
 from modeler.robot.read import robot_from_text

@@ -15,7 +15,7 @@ from modeler.excitation.criterion import (
     log_det,
     lost_information,
 )
-from modeler.excitation.motion import series
+from modeler.excitation.families import series
 from modeler.excitation.search import random_motion
 from modeler.excitation.separate import choose
 from modeler.excitation.task import Walled

@@ -1,0 +1,354 @@
+"""Velocities, energies and momenta link by link, in the forms in which papers write them.
+
+Energy functions (Houda, Amouri, Beji and Malem; Gautier and Khalil 1988): with omega and V of a
+link in its own frame, [s n a] its axes and P its origin in frame 0, its energy is h xi, linear in
+XX XY XZ YY YZ ZZ MX MY MZ M:
+
+    omega_k = R omega_k-1 + bar sigma_k qd_k a,   V_k = R (V_k-1 + omega_k-1 x P) + sigma_k qd_k a
+    E = (omega'J omega + M V'V + 2 MS'(V x omega))/2,   U = -g'(M P + [s n a] MS)
+
+Kane's form (Hanssen, Hovland and Brogardh 2000, section 2): velocities v of mass centres and
+angular velocities, tangent vectors beta = dv/d(qd), momenta p, forces F with the reactions of the
+motors, and (F - dp/dt) . beta = 0.
+"""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from modeler.core.errors import RobotError
+from modeler.core.expression import Expression
+from modeler.derivation import (
+    Expr,
+    LinkColumn,
+    Plan,
+    SymbolicModel,
+    Vector,
+    along,
+    base_poses,
+    cross,
+    dot,
+    in_block,
+    plus,
+    regressor_values,
+    times,
+)
+from modeler.effects import EnergyBlock
+from modeler.formulas.closed_form import fresh_model, function_name, name_vector, written_symbols
+from modeler.formulas.function_sheet import VECTOR, SheetWriter
+from modeler.formulas.physical import at_origin, physical_link
+from modeler.formulas.regressor_form import Equation
+
+States = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+_HALF = Fraction(1, 2)
+_STEP = 1e-30  # of imaginary time: imaginary parts are then exact derivatives
+
+
+def _numbers(
+    model: SymbolicModel, found: Sequence[Expr], states: States, **letters: float
+) -> np.ndarray:
+    """(samples, expressions) at these states, moved on by an imaginary time."""
+    q, qd, qdd = states
+    moved = (("q", q + 1j * _STEP * qd), ("qd", qd + 1j * _STEP * qdd))
+    values: dict[str, Any] = {**model.robot.symbol_values(), **model.geometry.values, **letters}
+    values |= {f"{kind}[{k}]": x[:, k] for kind, x in moved for k in range(q.shape[1])}
+    outputs = Plan(model.graph, found)(values)
+    return np.stack([np.broadcast_to(np.asarray(x, complex), len(q)) for x in outputs], axis=1)
+
+
+# Energy functions.
+
+
+PARAMETERS = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
+"""Of a link, in the order of xi."""
+
+
+def energy_functions(model: SymbolicModel, states: States) -> tuple[Equation, float]:
+    """Velocities of every link by the recursion, and its functions h, in the order of xi.
+
+    And how far d/dt h is from the powers qd'W of the derivation's torques, of the largest power.
+
+    Args:
+        model: any robot; with loops the powers are those of the motors.
+        states: for the difference; closed if the robot has loops.
+    """
+    phi = regressor_values(model, states)
+    moves = range(phi.shape[1]) if model.closure is None else model.closure.given
+    power = np.einsum("njc,nj->nc", phi, states[1][:, [*moves]])
+    model = fresh_model(model)
+    letters = written_symbols(model, {})
+    writer = SheetWriter(model.graph, letters, model.robot.halves, abbreviate=False)
+    links = _write_energies(model, writer)
+    found = np.zeros_like(power)
+    for place, column in enumerate(model.columns):
+        parts = [links[p.row, p.prefix] for p in column.parts if isinstance(p, LinkColumn)]
+        if in_block(column, EnergyBlock.KINETIC):  # a rotor
+            speed = along(model, column.shaft, "qd")
+            parts.append(_HALF * speed * speed)
+            writer.section("energy functions of rotors")
+            writer.result(f"h{column.name}", parts[-1], read=False)
+        if parts:
+            found[:, place] = _numbers(model, parts, states).imag.sum(axis=1) / _STEP
+        else:
+            power[:, place] = 0.0  # friction and the like take energy, they have none
+    words = (
+        "H = sum_k h_k xi_k, xi = (XX XY XZ YY YZ ZZ MX MY MZ M); h = e + u: kinetic energy and "
+        "potential of gravity; Delta H = int (tau less friction and other effects)' qd dt; what "
+        "is not listed is 0, and what is constant has no effect",
+        "omega<i>_<k>, V<i>_<k>: angular velocity of link k and velocity of its origin, in frame "
+        "k; s, n, a, P: its axes and its origin, in frame 0",
+    )
+    off = np.abs(found - power).max() / np.abs(power).max(initial=np.finfo(float).tiny)
+    return Equation(words, writer.finished(), ()), float(off)
+
+
+def _write_energies(model: SymbolicModel, writer: SheetWriter) -> dict[tuple[int, str], Expr]:
+    """{(row, parameter): h}, written with what they need, the platform last."""
+    speeds = _speeds(model, model.of_rows(model.inputs("qd")))
+    placed = base_poses(model.geometry, model.frames, model.algebra)
+    gravity = [model.algebra.static(x) for x in model.geometry.gravity]
+    rows, bodies = model.geometry.rows, _bodies_of(model)
+    found: dict[tuple[int, str], Expr] = {}
+    for k in sorted(range(len(rows)), key=lambda k: rows[k].joint.name in model.robot.platform):
+        name, (w, V), (axes, origin) = rows[k].joint.name, speeds[k], placed[k]
+        for letter, vector in zip("snaP", (*axes, origin), strict=True):
+            writer.section(f"axes and origin of frame {name}, in frame 0")
+            name_vector(writer, f"{letter}{{}}_{name}", vector)
+        writer.section(f"velocities of link {name}, in frame {name}")
+        for (letter, vector), i in product((("omega", w), ("V", V)), range(3)):
+            write = writer.result if k in bodies else writer.propose
+            write(f"{letter}{i + 1}_{name}", vector[i])
+        if k in bodies:
+            u = [-dot(gravity, v) for v in (*axes, origin)]
+            h = [w[i] * w[j] * (_HALF if i == j else 1) for i in range(3) for j in range(i, 3)]
+            h += [*plus(cross(V, w), u[:3]), _HALF * dot(V, V) + u[3]]
+            writer.section(f"energy functions of link {name}")
+            for parameter, value in zip(PARAMETERS, h, strict=True):
+                writer.result(f"h{parameter}_{name}", value, read=False)
+                found[k, parameter] = value
+    return found
+
+
+def _bodies_of(model: SymbolicModel) -> list[int]:
+    """Rows with inertial parameters."""
+    parts = (part for column in model.columns for part in column.parts)
+    return sorted({part.row for part in parts if isinstance(part, LinkColumn)})
+
+
+def _speeds(model: SymbolicModel, qd: Sequence[Expr]) -> list[tuple[Vector, Vector]]:
+    """(omega, V) of every row in its frame."""
+    zero = model.graph.constant(0)
+    found: list[tuple[Vector, Vector]] = []
+    for row, frame in zip(model.geometry.rows, model.frames, strict=True):
+        w, V = ([zero] * 3, [zero] * 3) if row.parent is None else found[row.parent]
+        w, V = frame.to_link(w), frame.to_link(plus(V, cross(w, frame.p)))
+        if row.index is not None:
+            moved = w if row.joint.angular else V
+            moved[2] = moved[2] + qd[row.index] * row.rate
+        found.append((w, V))
+    return found
+
+
+# Kane's form. A vector is kept along the axes of several frames, as papers write it.
+
+
+Along = Mapping[tuple[int, int], Expr]
+"""{(row of the frame, -1 for frame 0; axis): component}."""
+
+
+@dataclass(frozen=True)
+class _Body:
+    """A link with its letters; pairs are of its mass centre and of its rotation.
+
+    Attributes:
+        name: as the paper calls it, "a".
+        mass: its letter.
+        v: velocity and angular velocity.
+        beta: (joints) the same for unit speed of one joint.
+        p: momentum, and angular momentum about the mass centre.
+        F: weight, and torques of motors with their reactions; these are left out where joints
+            slide or follow others.
+        standard: {parameter: in these letters}.
+    """
+
+    name: str
+    mass: Expr
+    v: tuple[Along, Along]
+    beta: tuple[tuple[Along, Along], ...]
+    p: tuple[Along, Along]
+    F: tuple[Along, Along]
+    standard: Mapping[str, Expr]
+
+
+def kane_form(model: SymbolicModel, states: States) -> tuple[Equation, float]:
+    """v, beta, p and F of a robot without loops, along the triads of `[terms]` or of the table.
+
+    And how far the torques of (F - dp/dt) . beta = 0 are from the derivation's, of the largest, for
+    random letters.
+
+    Args:
+        model: its letters are those of `[physical]`, or m1, cx1, ..., Ixx1, ...
+        states: for the difference.
+
+    Raises:
+        RobotError: `[terms] triads` gives a frame other than three axes.
+    """
+    own = fresh_model(model)
+    bodies, triads = _bodies(own), _triads(own)
+    names = [joint.name for joint in own.robot.free]
+    letters = written_symbols(own, {}) | {VECTOR + n: n for _, n in triads.values()}
+    writer = SheetWriter(own.graph, letters, own.robot.halves, abbreviate=False)
+
+    def whole(vector: Along) -> Expr:
+        total = own.graph.constant(0)
+        for key, entry in vector.items():
+            sign, axis = triads[key]
+            total = total + entry * sign * own.graph.symbol(VECTOR + axis)
+        return total
+
+    rows = list(enumerate(product([*bodies.values()], (0, 1)), 1))
+    writer.section("v: velocities of mass centres, angular velocities")
+    for _, (body, k) in rows:
+        name = f"omega{body.name.upper()}" if k else f"vCM{body.name}"
+        writer.result(name, whole(body.v[k]), read=not k)
+    writer.section("beta: tangent vectors, v = beta qd")
+    for (r, (body, k)), (j, name) in product(rows, enumerate(names)):
+        writer.result(function_name("beta", [str(r), name]), whole(body.beta[j][k]), read=False)
+    writer.section("p: momenta, angular momenta about the mass centres")
+    for r, (body, k) in rows:
+        p = whole(body.p[1]) if k else body.mass * whole(body.v[0])
+        writer.result(f"p{r}", p, read=False)
+    writer.section("F: weights, torques of the motors with their reactions")
+    for r, (body, k) in rows:
+        writer.result(f"F{r}", whole(body.F[k]), read=False)
+    words = (
+        "rows, by body: mass centre, rotation; what is not listed is 0",
+        "(F - dp/dt) . beta = 0: one equation a joint",
+    )
+    return Equation(words, writer.finished(), ()), _kane_difference(own, bodies, model, states)
+
+
+def _kane_difference(
+    own: SymbolicModel, bodies: Mapping[int, _Body], model: SymbolicModel, states: States
+) -> float:
+    graph, rng = own.graph, np.random.default_rng(_SEED)
+    placed = base_poses(own.geometry, own.frames, own.algebra)
+    axes = dict(enumerate((turn for turn, _ in placed)))
+    axes[-1] = [[graph.constant(int(i == j)) for j in range(3)] for i in range(3)]
+    parts = [p for c in model.columns for p in c.parts if isinstance(p, LinkColumn)]
+    standard = [bodies[p.row].standard[p.prefix] for p in parts]
+    values = {graph.nodes[n].args[0]: float(rng.uniform(0.1, 1.0))
+              for n in graph.reachable(standard) if graph.nodes[n].op == "sym"}  # fmt: skip
+    values |= own.robot.symbol_values()
+    needed: list[Expr] = []
+    for body, k in product(bodies.values(), (0, 1)):
+        weight: Along = {} if k else body.F[0]
+        for vector in (body.p[k], weight, *(beta[k] for beta in body.beta)):
+            total = [graph.constant(0)] * 3
+            for (row, i), entry in vector.items():
+                total = plus(total, times(entry, axes[row][i]))
+            needed += total
+    found = _numbers(own, needed, states, **values)
+    found = found.reshape(len(states[0]), 2 * len(bodies), -1, 3)
+    force = found[:, :, 0].imag / _STEP - found[:, :, 1].real
+    tau = np.einsum("nri,nrji->nj", force, found[:, :, 2:].real)
+    chi = np.zeros(len(model.columns))
+    numbers = iter(_numbers(own, standard, states, **values)[0].real)
+    for c, column in enumerate(model.columns):
+        chi[c] = sum(next(numbers) for p in column.parts if isinstance(p, LinkColumn))
+    wanted = regressor_values(model, states) @ chi
+    return float(np.abs(tau - wanted).max() / np.abs(wanted).max())
+
+
+_SEED = 1985
+
+
+def _bodies(model: SymbolicModel) -> dict[int, _Body]:
+    """By row."""
+    rows, free = model.geometry.rows, model.robot.free
+    triads, torques = _triads(model), _motor_torques(model)
+    units = [[model.graph.constant(int(a is b)) for a in free] for b in free]
+    ways = [_along_frames(model, model.of_rows(qd)) for qd in (model.inputs("qd"), *units)]
+    gravity, found = [model.algebra.static(x) for x in model.geometry.gravity], {}
+
+    def read(entry: Expression, _: str = "") -> Expr:
+        values = {name: model.graph.symbol(name, static=True) for name in entry.names}
+        constant = model.graph.constant
+        return constant(0) + entry.fold(values, {}, model.graph.pi(), constant)
+
+    for k in _bodies_of(model):
+        link = physical_link(model, rows[k].joint)
+        m, c = read(link.mass), [read(x) for x in link.centre]
+        XX, XY, XZ, YY, YZ, ZZ = (read(x) for x in link.inertia)
+        pairs = [(_sum(V, _in(k, cross(w, c))), turn) for V, turn, w in (way[k] for way in ways)]
+        spin = [dot(line, ways[0][k][2]) for line in ([XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ])]
+        letters = {triads[k, i][1].split("_")[0] for i in range(3)}
+        found[k] = _Body(
+            rows[k].joint.name if len(letters) > 1 else letters.pop(), m, pairs[0],
+            tuple(pairs[1:]), ({at: m * x for at, x in pairs[0][0].items()}, _in(k, spin)),
+            (_in(-1, times(m, gravity)), torques.get(k, {})), at_origin(link, "", read),
+        )  # fmt: skip
+    return found
+
+
+def _motor_torques(model: SymbolicModel) -> dict[int, Along]:
+    """Torque of a motor on the row that it turns, and its reaction on the body before it."""
+    rows, found = model.geometry.rows, dict[int, Along]()
+    moving = [k for k, row in enumerate(rows) if row.index is not None]
+    if model.robot.relations or not all(rows[k].joint.angular for k in moving):
+        return {}
+    for k in moving:
+        chain = [row for row in model.geometry.ancestors(k) if row in moving]
+        tau = model.graph.symbol(f"tau{rows[k].joint.name}") * rows[k].rate
+        for row, torque in zip(chain[:2], (tau, -tau), strict=False):
+            found[row] = {**found.get(row, {}), (k, 2): torque}
+    return found
+
+
+def _along_frames(model: SymbolicModel, qd: Sequence[Expr]) -> list[tuple[Along, Along, Vector]]:
+    """Of every row: velocity of the origin and rotation along the frames, rotation in its own."""
+    found: list[tuple[Along, Along, Vector]] = []
+    for k, (row, (w, _)) in enumerate(zip(model.geometry.rows, _speeds(model, qd), strict=True)):
+        V: Along = {}
+        turn: Along = {}
+        if row.parent is not None:
+            V, turn, before = found[row.parent]
+            V = _sum(V, _in(row.parent, cross(before, model.frames[k].p)))
+        if row.index is not None:
+            own = {(k, 2): qd[row.index] * row.rate}
+            V, turn = (V, _sum(turn, own)) if row.joint.angular else (_sum(V, own), turn)
+        found.append((V, turn, w))
+    return found
+
+
+def _in(row: int, vector: Vector) -> Along:
+    return {(row, i): entry for i, entry in enumerate(vector) if entry.ref}
+
+
+def _sum(a: Along, b: Along) -> Along:
+    return {**a, **{at: a[at] + x if at in a else x for at, x in b.items()}}
+
+
+def _triads(model: SymbolicModel) -> dict[tuple[int, int], tuple[int, str]]:
+    """{(row, -1 for frame 0; axis): (sign, how the unit vector is written)}."""
+    given: Any = model.robot.terms.get("triads", {})
+    found = {}
+    for k, name in enumerate(["0", *(row.joint.name for row in model.geometry.rows)], -1):
+        axes = given.get(name) if isinstance(given, dict) else given
+        listed = axes if isinstance(axes, list) else [] if axes else [f"{x}_{name}" for x in "xyz"]
+        written = [re.fullmatch(r"(-?)([A-Za-z]+?)_?(\d\w*|(?<=_)\w+)", str(x)) for x in listed]
+        read = [match.groups() for match in written if match is not None]
+        if len(read) != len(listed) or len(read) != 3:
+            raise RobotError(
+                f"robot {model.robot.name}, [terms], triads, {name}: got {axes!r}; expected three "
+                'axes such as ["a3", "-a2", "a1"]'
+            )
+        for i, (sign, letter, index) in enumerate(read):
+            found[k, i] = (-1 if sign else 1, f"{letter}_{index}")
+    return found
