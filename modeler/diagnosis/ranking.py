@@ -6,8 +6,10 @@ The rows are there as small matrices by block of time.
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import pairwise
+from typing import ClassVar
+from weakref import WeakSet
 
 import numpy as np
 
@@ -56,7 +58,7 @@ class Base(Brief):
     @property
     def columns(self) -> tuple[np.ndarray, ...]:
         """(rows_j, r) by joint, weighted: W turn / sigma; those of the last base are kept."""
-        return _weighted(self.source)
+        return self.source.columns()
 
     @property
     def blocks(self) -> int:
@@ -87,18 +89,27 @@ class Base(Brief):
         )
 
 
-@dataclass(frozen=True, eq=False)
 class BaseColumns:
-    """What the columns of a base are made of: W (rows_j, c) by joint, turn (c, r), sigma (J,)."""
+    """The columns of a base: W (rows_j, c) by joint, turn (c, r), sigma (J,).
 
-    W: Sequence[np.ndarray]
-    turn: np.ndarray
-    sigma: np.ndarray
+    Many bases are there at a time: only the one that was asked last keeps its columns.
+    """
 
+    _last: ClassVar["WeakSet[BaseColumns]"] = WeakSet()
 
-@lru_cache(maxsize=1)
-def _weighted(of: BaseColumns) -> tuple[np.ndarray, ...]:
-    return tuple(w @ (of.turn / s) for w, s in zip(of.W, of.sigma, strict=True))
+    def __init__(self, W: Sequence[np.ndarray], turn: np.ndarray, sigma: np.ndarray) -> None:
+        self._of, self._made = (W, turn, sigma), tuple[np.ndarray, ...]()
+
+    def columns(self) -> tuple[np.ndarray, ...]:
+        """(rows_j, r) by joint."""
+        if not self._made:
+            for other in list(self._last):
+                other._made = ()
+            self._last.clear()
+            self._last.add(self)
+            W, turn, sigma = self._of
+            self._made = tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True))
+        return self._made
 
 
 @dataclass(frozen=True, eq=False)
