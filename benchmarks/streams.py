@@ -68,6 +68,9 @@ def _measure(quick: bool) -> Mapping[str, float]:
             found[f"fit_seconds.{name}"] = used.wall
             found[f"fit_cpu_seconds.{name}"] = used.cpu
             found[f"fit_peak_mb.{name}"] = used.peak
+            if name == "1e7":
+                used = modeler(["diagnose", model, str(log)])
+                found |= {"diagnose_seconds.1e7": used.wall, "diagnose_peak_mb.1e7": used.peak}
             log.unlink()
     return found | {"fit_seconds_per_1e6": found["fit_seconds.1e6"]}
 
@@ -81,7 +84,12 @@ def _keys() -> tuple[Key, ...]:
             Key(f"fit_cpu_seconds.{name}", "s", f"{what}: processor time of all threads."),
             Key(f"fit_peak_mb.{name}", "MB", f"{what}: largest resident memory.", most, least),
         ]
-    return tuple(keys)
+    what = "`modeler diagnose` of the model and the log of 1e7 samples, the whole process"
+    return (
+        *keys,
+        Key("diagnose_seconds.1e7", "s", f"{what}."),
+        Key("diagnose_peak_mb.1e7", "MB", f"{what}: largest resident memory.", 1000.0),
+    )
 
 
 def _unfiltered(quick: bool) -> Mapping[str, float]:
