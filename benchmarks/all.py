@@ -3,8 +3,10 @@
 from benchmarks import (
     answers,
     callgrind,
+    casadi_c,
     control,
     cortex,
+    fleets,
     folder,
     least_squares,
     loops,
@@ -13,11 +15,14 @@ from benchmarks import (
     regressor,
     start,
     streams,
+    tiles,
 )
 
 LINES = (
     *start.LINES,
     *regressor.LINES,
+    *casadi_c.LINES,
+    *tiles.LINES,
     *control.LINES,
     *callgrind.LINES,
     *cortex.LINES,
@@ -26,6 +31,7 @@ LINES = (
     *least_squares.LINES,
     *loops.LINES,
     *streams.LINES,
+    *fleets.LINES,
     *pictures.LINES,
     *answers.LINES,
 )

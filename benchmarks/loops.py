@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from benchmarks.line import Key, Line
+from benchmarks.line import Key, Line, ratio
 from modeler.codegen import derive, generate, load as robot
 from modeler.derivation import random_states
 from modeler.runtime import CompiledModel, load
@@ -18,6 +18,8 @@ ROBOTS = (
     "sr400", "dvrk-psm", "five-bar", "3rrr", "delta", "orthoglide-2003", "orthoglide-2012",
     "stewart", "evra",
 )  # fmt: skip
+OPEN = ("sr400", "dvrk-psm")
+"""Those whose loops are solved in closed form: they are trees."""
 SAMPLES = 4000
 
 
@@ -62,7 +64,21 @@ def loop_times(name: str) -> dict[str, float]:
         "compile_s": built - written,
         "home_us": 1e6 * best(lambda: compiled.base_regressor(q, qd, qdd)) / SAMPLES,
         "last_us": 1e6 * best(lambda: compiled.observation(q, qd, qdd, W)) / SAMPLES,
-    }
+    } | _tiled(compiled, [q, qd, qdd], W)
+
+
+def _tiled(compiled: CompiledModel, motion: list[np.ndarray], W: np.ndarray) -> dict[str, float]:
+    """Microseconds of a sample by tiles, and what one after another takes, over that; paired."""
+    if compiled.spec.closure is None:
+        return {}
+    status, least = np.zeros(SAMPLES, dtype=np.intc), [float("inf")] * 2
+    for _ in range(15):
+        ways = (
+            lambda: compiled._library.observation(motion, W, status),
+            lambda: compiled._tiles.fill(motion, W, True, status),
+        )
+        least = [min(least[k], best(way, 1)) for k, way in enumerate(ways)]
+    return {"tile_us": 1e6 * least[1] / SAMPLES, "tile_ratio": least[0] / least[1]}
 
 
 MUST = {"orthoglide-2003": (0.85, 1.03), "stewart": (3.75, 4.35), "evra": (4.1, 4.7)}
@@ -74,6 +90,9 @@ def _measure(quick: bool) -> Mapping[str, float]:
     for name in ROBOTS[-3:] if quick else ROBOTS:
         times = loop_times(name)
         found |= {f"loops_us.{name}": times["last_us"], f"loops_home_us.{name}": times["home_us"]}
+        if "tile_us" in times:
+            found[f"loops_tile_us.{name}"] = times["tile_us"]
+            found[f"loops_scalar_over_tile.{name}"] = times["tile_ratio"]
     return found
 
 
@@ -86,6 +105,15 @@ def _keys() -> tuple[Key, ...]:
             Key(f"loops_us.{name}", "us", f"{what} the sample before.", last, last and last / 2),
             Key(f"loops_home_us.{name}", "us", f"{what} home.", home, home and home / 2),
         ]
+        if name not in OPEN:
+            keys += [
+                Key(f"loops_tile_us.{name}", "us", f"{what} samples before, 8 at once."),
+                ratio(
+                    f"loops_scalar_over_tile.{name}",
+                    f"One after another from the sample before, over 8 at once, {name}.",
+                    *((3.0, 5.0) if name in MUST else ()),
+                ),
+            ]
     return tuple(keys)
 
 

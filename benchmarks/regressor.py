@@ -52,7 +52,7 @@ def nanoseconds(name: str, rounds: int) -> tuple[dict[str, float], dict[str, Mis
                 missing[kind] = why
                 continue
             kinds.append(kind)
-        program = _compiled(name, folder)
+        program = program_of(name, folder)
         peers = [str(pinocchio.library(kind)) for kind in kinds]
         said = subprocess.run(
             [program, str(rounds), str(model), *peers], capture_output=True, text=True, check=True
@@ -61,7 +61,8 @@ def nanoseconds(name: str, rounds: int) -> tuple[dict[str, float], dict[str, Mis
     return dict(zip((*_WAYS, *kinds), times, strict=True)), missing
 
 
-def _compiled(name: str, folder: Path) -> Path:
+def program_of(name: str, folder: Path) -> Path:
+    """regressor.c with the module in `folder`, by the flags of this project."""
     spec = emitted(name).spec
     tools, prefix = find_toolchain(), spec.prefix
     names = [f'-DHEADER="{prefix}.h"', f"-DPREFIX={prefix}", f"-DMACRO={prefix.upper()}"]

@@ -216,7 +216,10 @@ def run(command: str) -> tuple[int, str]:
     return status, out.getvalue()
 
 
-PICTURES = {"docs/motion-noise.md": "pictures/noise_of_the_motion.svg"}
+PICTURES = {
+    "docs/motion-noise.md": "pictures/noise_of_the_motion.svg",
+    "docs/reproduce.md": "pictures/figure_2.svg",
+}
 """The picture of a page, written by its own commands."""
 
 

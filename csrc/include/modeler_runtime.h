@@ -38,12 +38,14 @@
     && !defined(MODELER_NO_CLONES) && !defined(MODELER_PLAIN)
 #include <limits.h> /* says whether the C library is glibc, whose loader can */
 #if defined(__GLIBC__) && !defined(__UCLIBC__) && __GNUC__ >= 8
+#undef MODELER_INTO_CLONES
 #define MODELER_CLONES __attribute__((target_clones("avx512f", "fma", "default")))
 #define MODELER_INTO_CLONES __attribute__((always_inline))
 #endif
 #endif
 #ifndef MODELER_CLONES
 #define MODELER_CLONES
+#undef MODELER_INTO_CLONES
 #define MODELER_INTO_CLONES
 #endif
 
@@ -60,12 +62,11 @@
 #define MODELER_ALL_ZEROS(x, length) (void)0
 #if defined(__GNUC__) && defined(__SSE2__) && !defined(__cplusplus) /* wider stores would cross lines of the cache */
 #define MODELER_ZEROS(x, length) \
-    for (int i_ = 0; i_ < (length); i_ += MODELER_FEW_) { \
-        if (i_ + MODELER_FEW_ <= (length)) { \
-            *(modeler_few_ *)(void *)((x) + i_) = (modeler_few_){0}; \
-        } else { \
-            MODELER_CLEAR((x) + i_, (length) - i_) \
-        } \
+    for (int i_ = 0; i_ + MODELER_FEW_ <= (length); i_ += MODELER_FEW_) { \
+        *(modeler_few_ *)(void *)((x) + i_) = (modeler_few_){0}; \
+    } \
+    for (int i_ = (length) / MODELER_FEW_ * MODELER_FEW_; i_ < (length); i_++) { \
+        (x)[i_] = 0; \
     }
 #define MODELER_FEW_ (int)(16 / sizeof(modeler_real))
 typedef modeler_real modeler_few_

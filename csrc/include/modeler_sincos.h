@@ -10,7 +10,9 @@
 
 #include <math.h>
 
-#include "modeler_runtime.h"
+#ifndef MODELER_INTO_CLONES /* of modeler_runtime.h */
+#define MODELER_INTO_CLONES
+#endif
 
 static inline MODELER_INTO_CLONES void modeler_sincos(double x, double *sine, double *cosine)
 {

@@ -6,7 +6,11 @@
 #ifndef MODELER_REAL_H
 #define MODELER_REAL_H
 
+#define MODELER_SINGLE
 typedef float modeler_real;
+
+/* Numbers in a line of the cache: as many samples has a tile. */
+#define MODELER_LANES 16
 
 /* A literal. */
 #define MODELER_REAL(x) x##f
@@ -35,6 +39,17 @@ typedef float modeler_real;
 #define modeler_batch_status_3 modelerf_batch_status_3
 #define modeler_batch_status_4 modelerf_batch_status_4
 #define modeler_batch_status_5 modelerf_batch_status_5
+
+/* modeler_tile.c */
+#define modeler_tile_function modelerf_tile_function
+#define modeler_tile_closing modelerf_tile_closing
+#define modeler_tiled modelerf_tiled
+#define modeler_tiled_ modelerf_tiled_
+#define modeler_tile_work modelerf_tile_work
+#define modeler_tile_observation modelerf_tile_observation
+#define modeler_tile_columns modelerf_tile_columns
+#define modeler_tile_nonzeros modelerf_tile_nonzeros
+#define modeler_tile_closed modelerf_tile_closed
 
 /* modeler_closure*.c */
 #define modeler_close modelerf_close

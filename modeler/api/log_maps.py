@@ -209,14 +209,21 @@ def _heard(compiled: CompiledModel, place: str | Path | InMemory, names: LogMap)
 
 
 def read_mapped(
-    place: str | Path | InMemory, spec: Any, names: LogMap, where: str = "log"
-) -> observation.Log:
-    """A log, or a piece of it, with the columns of a map; `where` is a frame in messages."""
+    place: str | Path | InMemory, spec: Any, names: LogMap, where: str = "log",
+    spread: bool = False,
+) -> observation.Log:  # fmt: skip
+    """A log, or a piece of it, with the columns of a map; `where` is a frame in messages.
+
+    With `spread` a log too long to be diagnosed as a whole is read as stretches of it.
+    """
     if not isinstance(place, str | Path):
         return observation.log_in_memory(place, spec, names, where)
     path, span = file_and_span(place)
     if span is None:
-        return observation.read_log(path, spec, names)
+        source = observation.source_of(Path(path), spec, names) if spread else None
+        if source is None or source.rows <= observation.SPREAD:
+            return observation.read_log(path, spec, names)
+        return dataclasses.replace(observation.read_spread(source, spec), path=str(place))
     source = observation.source_of(Path(path), spec, names)
     if source is not None and source.rows > (LONG if source.exact else 2 * LONG):
         part = observation.read_part(source, spec, *span)

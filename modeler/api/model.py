@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler import diagnosis, report, validation
+from modeler import diagnosis, estimation, report, validation
 from modeler.api import checks, improve
 from modeler.api.arguments import checked
 from modeler.api.exporting import export
@@ -389,6 +389,25 @@ class Model(IdentifiedModel):
         return self.held_out if logs is None else listed(logs)
 
     # What it is made into.
+
+    @checked
+    def with_load(
+        self, mass: float, centre: Sequence[float] = (0.0, 0.0, 0.0), link: str | None = None
+    ) -> Model:
+        """The model of the same robot with a load that is known: to predict, to compare, as C.
+
+        >>> contest({"loaded": model.with_load(0.5), "bare": model}, ["tue.parquet"]).names
+        ('loaded', 'bare')
+
+        Args:
+            mass: of the load, kg.
+            centre: of its mass, m, in the frame of the link.
+            link: that carries it; None: the platform, or the last one.
+
+        Raises:
+            DataError: no such link, or a load that can be none.
+        """
+        return estimation.with_load(self, mass, centre, link)
 
     @checked
     def to_c(self, folder: str | Path, force: bool = False) -> Emitted:

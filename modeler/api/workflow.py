@@ -141,7 +141,7 @@ def compile_model(emitted: Emitted) -> CompiledModel:
 
 
 def read_logs(
-    compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()
+    compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = (), spread: bool = False
 ) -> list[observation.Log]:
     """Logs by path, `path@start:end` for a piece of it in seconds, or as they are.
 
@@ -153,9 +153,11 @@ def read_logs(
         logs: of any format of `modeler.logs`.
         mapping: over [log]: a table like it, or texts as `--map` takes them; "auto" among them
             takes the guess of `look_at` for what is left open.
+        spread: True if of a log of more than a million rows evenly spread stretches will do.
     """
     maps = log_maps(compiled, logs, mapping)
-    return [_log(*each, compiled.spec) for each in enumerate(zip(logs, maps, strict=True))]
+    every = enumerate(zip(logs, maps, strict=True))
+    return [_log(*each, compiled.spec, spread) for each in every]
 
 
 def read_currents(
@@ -176,12 +178,14 @@ def read_currents(
     return read
 
 
-def _log(number: int, named: tuple[AnyLog, LogMap], spec: ModuleSpec) -> observation.Log:
+def _log(
+    number: int, named: tuple[AnyLog, LogMap], spec: ModuleSpec, spread: bool = False
+) -> observation.Log:
     log, names = named
     if isinstance(log, observation.Log):
         return log
     if not isinstance(log, SimulatedLog):
-        return read_mapped(log, spec, names, f"logs[{number}]")
+        return read_mapped(log, spec, names, f"logs[{number}]", spread)
     with TemporaryDirectory() as folder:  # read as whoever gets the file will read it
         place = Path(folder) / f"{log.robot}-seed{log.settings.seed}.parquet"
         write_log(place, log)

@@ -235,6 +235,10 @@ _PROCESSING = Group(
     ),
 )  # fmt: skip
 
+_PAYLOAD_LINK = value(
+    "--payload-link", "J", places.Word, "the link that carries it; default: the last"
+)
+
 _LOAD = Group(
     "load", "some of the logs carry a load on a link",
     (
@@ -244,7 +248,7 @@ _LOAD = Group(
         flag("--payload-moved",
              "it was taken off between the loaded logs: the same mass, but its own centre and "
              "inertia in each"),
-        value("--payload-link", "J", places.Word, "the link that carries it; default: the last"),
+        _PAYLOAD_LINK,
     ),
 )  # fmt: skip
 
@@ -323,6 +327,13 @@ _COMPARE = Command(
               f"{LOGS}; before them perhaps further models, which are set beside the first",
               nargs="+"),
         MAP, *page(places.PageOrFolder), pictures(places.PictureFolder),
+        Group("load", "that the robot carries in these logs", (
+            value("--payload-mass", "KG", float,
+                  "its mass: the model of the robot with it, beside that without"),
+            value("--payload-centre", "X,Y,Z", places.Word,
+                  "where its mass is, m, in the frame of the link; default: the origin"),
+            _PAYLOAD_LINK,
+        )),
         flag("--essential",
              "predict with the reduced model of the fit: its essential parameters, all others 0"),
         flag("--run-embedded-c",
@@ -561,8 +572,10 @@ _REPRODUCE = Command(
     "beside ours. Exit status 1 if a line differs unexpectedly.",
     "modeler reproduce guegan-2003 --section methods",
     (
-        value("paper", "PAPER", places.Word, f"one of {', '.join(paper_names())}"),
+        value("paper", "PAPER", places.Word,
+              f"one of {', '.join(paper_names())}, or a robot of theirs"),
         choice("--section", ("print", "methods"), "what is printed, or methods; default: both"),
+        pictures(),
     ),
     "write the lines for machines",
 )  # fmt: skip

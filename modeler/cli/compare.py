@@ -9,12 +9,18 @@ from typing import Any
 import modeler.api.checks as checks
 from modeler import validation
 from modeler.api.log_maps import Mapped
-from modeler.api.workflow import read_logs, recompile
+from modeler.api.workflow import are_long, read_logs, recompile
 from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, say_lines, working
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
-from modeler.estimation import IdentifiedModel, load_model, log_findings, with_essential_only
+from modeler.estimation import (
+    IdentifiedModel,
+    load_model,
+    log_findings,
+    with_essential_only,
+    with_load,
+)
 from modeler.observation import Doubt, Observation, check_apart
 from modeler.report import Origin, after_compare, comparison as pages
 from modeler.runtime import CompiledModel
@@ -37,7 +43,9 @@ def run_compare(args: argparse.Namespace) -> Json:
         comparison, lines, found = judged(model, args.logs, compiled, args.map, bar)
     doubts = [fault.line for fault in found]
     told = [line for line in lines if line.startswith((_TRAINING, "long logs: "))]
-    summary = [comparison.summary(), ""]
+    beside = _without_load(args, model, compiled)
+    loads = [] if beside is None else ["", *validation.contest_lines(beside)]
+    summary = [comparison.summary(), *loads, ""]
     say_lines([*summary, *validation.verdict(comparison), *model.warning, *told, *doubts])
     held = not any(line.startswith(_TRAINING) for line in lines)
     noise = (
@@ -48,7 +56,8 @@ def run_compare(args: argparse.Namespace) -> Json:
     following = after_compare(args.model, [*fitted], args.logs, held, noise)
     origin = Origin(args.model, comparison.prediction.logs, held, [following])
     draw_page(args.report, lambda: pages.comparison_page(comparison, lines, origin))
-    draw_pictures(args.picture, lambda: pages.all_pictures(comparison))
+    more = [] if beside is None else pages.contest_pictures(beside)
+    draw_pictures(args.picture, lambda: [*pages.all_pictures(comparison), *more])
     say_lines([following], "next: ")
     return comparison.to_json() | {"doubts": doubts}
 
@@ -129,9 +138,39 @@ def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
     }
 
 
-def _loaded(args: argparse.Namespace, place: str) -> IdentifiedModel:
+def _bare(args: argparse.Namespace, place: str) -> IdentifiedModel:
     model = load_model(place)
     return with_essential_only(model, place) if args.essential else model
+
+
+def _loaded(args: argparse.Namespace, place: str) -> IdentifiedModel:
+    model, load = _bare(args, place), _load(args)
+    return model if load["mass"] is None else with_load(model, **load)
+
+
+def _load(args: argparse.Namespace) -> dict[str, Any]:
+    """What `with_load` takes of the options."""
+    given = {name: getattr(args, f"payload_{name}") for name in ("mass", "centre", "link")}
+    for name in ("centre", "link"):
+        if given["mass"] is None and given[name] is not None:
+            raise DataError(f"--payload-{name}: no load; add --payload-mass KG, or leave it out")
+    try:
+        given["centre"] = [float(part) for part in (given["centre"] or "0,0,0").split(",")]
+    except ValueError:
+        raise DataError(
+            f"--payload-centre {given['centre']}: expected x, y and z in m, as in 0,0,0.05"
+        ) from None
+    return given
+
+
+def _without_load(
+    args: argparse.Namespace, model: IdentifiedModel, compiled: CompiledModel
+) -> validation.Contest | None:
+    """The model with its load beside the same without."""
+    if args.payload_mass is None or are_long(args.logs):
+        return None
+    both = {f"with {args.payload_mass:g} kg": model, "without the load": _bare(args, args.model)}
+    return checks.contested(both, [compiled] * 2, args.logs, args.map, args.logs)[0]
 
 
 def _compiled(args: argparse.Namespace, model: IdentifiedModel) -> CompiledModel:

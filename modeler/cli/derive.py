@@ -20,12 +20,13 @@ from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import ALSO, Also, DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.core.formula import latex_text
-from modeler.core.manifest import FunctionSpec
 from modeler.derivation import LinkColumn, SymbolicModel, random_states, regressor_values, relations
 from modeler.robot import Robot
 
 if TYPE_CHECKING:
+    from modeler.core.manifest import FunctionSpec
     from modeler.estimation import IdentifiedModel
+    from modeler.formulas import CoefficientTable, function_sheet
 
 # Words around printed formulas: as they are, as comments of LaTeX, or as a whole document.
 
@@ -141,7 +142,7 @@ MANY = 200
 PAGE = 40
 """Coefficients that are listed unasked."""
 
-_SHEETS: dict[Form, Callable[[formulas.function_sheet.Sheet, Words], str]] = {
+_SHEETS: "dict[Form, Callable[[function_sheet.Sheet, Words], str]]" = {
     "text": lambda sheet, _: "\n".join(formulas.function_sheet.sheet_lines(sheet)),
     "latex": lambda sheet, words: formulas.function_sheet.sheet_latex(sheet, words.heading),
     "markdown": lambda sheet, _: formulas.function_sheet.sheet_markdown(sheet),
@@ -285,18 +286,18 @@ def _by_link(args: argparse.Namespace, model: SymbolicModel, words: Words) -> Js
     """Energy functions and Kane's form, each with its difference from the derivation."""
     added: Json = {}
     for key, form, what in (
-        ("energy", formulas.energy_functions, "d/dt h against the power of the torques"),
-        ("kane", formulas.kane_form, "torques of Kane's form against Newton-Euler"),
+        ("energy", "energy_functions", "d/dt h against the power of the torques"),
+        ("kane", "kane_form", "torques of Kane's form against Newton-Euler"),
     ):
         if vars(args)[key]:
             states = random_states(model, 50, np.random.default_rng(1985))
-            found, off = form(model, states)
+            found, off = getattr(formulas, form)(model, states)
             added[key] = _print_equation(found, args.format, words) | {"difference": off}
             words.say(f"\n{what}: {off:.1e} of the largest")
     return added
 
 
-def _print_equation(found: formulas.Equation, form: Form, words: Words) -> Json:
+def _print_equation(found: "formulas.Equation", form: Form, words: Words) -> Json:
     mark = _COMMENT[form]
     words.say()
     for line in found.words:
@@ -337,7 +338,7 @@ def _print_coefficients(args: argparse.Namespace, derivation: Derivation, words:
         words.say(line)
 
 
-def _facts(table: formulas.coefficients.CoefficientTable) -> list[str]:
+def _facts(table: "CoefficientTable") -> list[str]:
     """How many coefficients, what they tell, and what follows from what."""
     first = [coefficient.function[0] for coefficient in table.coefficients]
     counts = {"PG": first.count("g"), "PJ": first.count("J"), "PS": first.count("S")}
@@ -425,7 +426,7 @@ def _model(args: argparse.Namespace) -> "IdentifiedModel | None":
     return load_model(args.robot)
 
 
-def _function_line(function: FunctionSpec) -> str:
+def _function_line(function: "FunctionSpec") -> str:
     return (
         f"{function.name}: {function.equation} ({function.additions} additions, "
         f"{function.multiplications} multiplications)"

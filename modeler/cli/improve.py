@@ -35,7 +35,7 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     use_options_of(args, "diagnose", robot.diagnose)
     _check_without(args, robot, model)
     with working("deriving the robot of the model"):
-        compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map)
+        compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map, True)
     with progress("looking for missing effects") as bar:
         diagnosis = improve.missing(model, compiled, logs, args.without, bar)
     following = report.after_diagnosis(args.model, args.logs, args.holdout, diagnosis)

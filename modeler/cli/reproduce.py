@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 
 from modeler import papers
-from modeler.cli.console import Json, progress, say, say_lines, working
+from modeler.cli.console import Json, draw_pictures, progress, say, say_lines, working
 from modeler.core.errors import ModelerError
 from modeler.core.table import aligned
 
@@ -22,6 +22,8 @@ METHODS: dict[str, Callable[[papers.Paper, Callable[[float], None]], list[papers
 def run_reproduce(args: argparse.Namespace) -> Json:
     """Prints the lines; raises if one is different."""
     paper = papers.read_paper(args.paper)
+    if args.picture is not None and args.section == "print":
+        raise ModelerError("--picture: figures are of the methods; leave out --section print")
     say(paper.title)
     args.after, args.different = after_reproduce, []
     found: dict[str, object] = {"paper": paper.name}
@@ -35,6 +37,10 @@ def run_reproduce(args: argparse.Namespace) -> Json:
         tables = _methods(paper)
         args.different += _failed(tables)
         found["methods"] = [_table_json(table) for table in tables]
+        drawn = [table.picture for table in tables if table.picture is not None]
+        if args.picture is not None and not drawn:
+            raise ModelerError(f"--picture: {paper.name} has no figure to draw; leave it out")
+        draw_pictures(args.picture, lambda: drawn)
     return found
 
 

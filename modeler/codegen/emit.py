@@ -25,13 +25,13 @@ from modeler.codegen.control import (
 from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
-from modeler.codegen.fused import UNIT as TILE_UNIT, Tile, tile_of
+from modeler.codegen.fused import UNIT as TILE_UNIT, ClosingTile, Tile, closing_tile_of, tile_of
 from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_files, render
 from modeler.codegen.parameter_set import SMOOTH
 from modeler.codegen.structured_text import structured_texts
 from modeler.codegen.symbols import symbol_lines
-from modeler.codegen.targets import OF_PRECISION, Target
+from modeler.codegen.targets import OF_PRECISION, TILES, Target
 from modeler.codegen.vectors import stored_states, vectors_text
 from modeler.core import manifest
 from modeler.core.errors import EmitError, Precision
@@ -393,11 +393,21 @@ def _module(
         "signature": "",
         "blocks": blocks,
         "places": places,
-        "tile": tile_of(functions, places, spec.nonzeros) if spec.tile_sources else None,
+        "tile": _tile(spec, functions, places),
     }
     spec = dataclasses.replace(spec, code=manifest.code_digest(_code(spec, values)))
     values |= {"spec": spec, "signature": spec.signature()}
     return values
+
+
+def _tile(
+    spec: ModuleSpec, functions: Sequence[CFunction], places: dict[str, str]
+) -> Tile | ClosingTile | None:
+    if not spec.tile_sources:
+        return None
+    if spec.closure is not None:
+        return closing_tile_of(functions, places, len(spec.base), TILES[spec.precision])
+    return tile_of(functions, places, spec.nonzeros, TILES[spec.precision])
 
 
 def _fitted_unit(
@@ -520,8 +530,9 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
     if spec.tile_sources:
         given = {**values, "constants": _constants([values["tile"]], values, initial)}
         for kind in ("h", "c"):
-            files[f"{prefix}{TILE_UNIT}.{kind}"] = render(f"tile.{kind}", **given)
-        runtime += manifest.TILE_RUNTIME
+            name = "closing_tile.c" if spec.closure is not None and kind == "c" else f"tile.{kind}"
+            files[f"{prefix}{TILE_UNIT}.{kind}"] = render(name, **given)
+        runtime += spec.tile_runtime
     return files | {name: _runtime(name, spec.precision) for name in runtime}
 
 
@@ -572,7 +583,7 @@ def _letters(functions: Sequence[_Written]) -> list[str]:
 
 
 def _constants(
-    functions: Sequence[_Written | Tile], values: dict[str, Any], initial: Mapping[str, str]
+    functions: Sequence[_Written | Tile | ClosingTile], values: dict[str, Any], initial: Mapping[str, str]
 ) -> list[tuple[str, str]]:
     """(name, what it is initialised with) of the geometric constants that the functions read."""
     read = frozenset[str]().union(*(function.symbols for function in functions))

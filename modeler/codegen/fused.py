@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 from modeler.codegen.block import make_block
 from modeler.codegen.elimination import Elimination
-from modeler.codegen.functions import CFunction
-from modeler.codegen.targets import TILE
+from modeler.codegen.functions import CFunction, name_lines
+from modeler.codegen.targets import Target
 from modeler.core.json import entries
 from modeler.derivation import BaseParameters, Expr, Graph, SymbolicModel
 
@@ -181,15 +181,101 @@ class Tile:
     signals: int
 
 
+@dataclass(frozen=True)
+class Part:
+    """One function of what closes the loops of some samples at once; arrays of vectors.
+
+    Attributes:
+        name: in C.
+        inputs: names.
+        output: name; None: the values of a tile.
+        lines: all statements.
+    """
+
+    name: str
+    inputs: tuple[str, ...]
+    output: str | None
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class ClosingTile:
+    """The finished strings of a unit that closes loops; symbols as of `Tile`.
+
+    Attributes:
+        parts: functions.
+        entries: (coordinate, column) of the values.
+    """
+
+    parts: tuple[Part, ...]
+    entries: tuple[tuple[int, int], ...]
+    symbols: frozenset[str]
+    signals: int = 0
+
+    @property
+    def rows(self) -> list[str]:
+        """The coordinates, lines of a C table."""
+        return name_lines([row for row, _ in self.entries])
+
+    @property
+    def columns(self) -> list[str]:
+        """The columns, lines of a C table."""
+        return name_lines([column for _, column in self.entries])
+
+
+_PARTS = ("closure", "residual", "factor", "solve", "coupling", "turned", "spread", "rows")
+
+
+def closing_tile_of(
+    functions: Iterable[CFunction], places: Mapping[str, str], columns: int, target: Target
+) -> ClosingTile | None:
+    """The tile of a robot with loops; None where it has no regressor.
+
+    Args:
+        functions: of the module.
+        places: C text of every symbol of the graph.
+        columns: how many the base regressor has.
+        target: of the precision's `TILES`.
+    """
+    found = {f.role: f for f in functions if f.internal}
+    if "tree_rows" not in found:
+        return None
+    parts, symbols, entries = [], frozenset[str](), []
+    for name in _PARTS:
+        f = found[f"tree_{name}"]
+        rows, out = name == "rows", f.output.name
+        if rows:
+            entries = sorted(at for at, _ in f.entries)
+        block = make_block(
+            [(f"MODELER_PUT({entries.index(at)})" if rows else f"{out}[{at}]", value)
+             for at, value in f.entries],
+            places, target=target,
+        )  # fmt: skip
+        symbols |= block.symbols
+        inputs = tuple(argument.name for argument in f.inputs)
+        read = {symbol.partition("[")[0] for symbol in block.symbols}
+        written = {at for at, _ in f.entries}
+        zeros = () if rows else tuple(
+            f"{out}[{at}] = modeler_lanes_spread(0);"
+            for at in range(f.output.size) if at not in written
+        )  # fmt: skip
+        unread = tuple(f"(void){name};" for name in inputs if name not in read)
+        lines = (*unread, *block.constants, *block.calls, *block.body, *zeros)
+        parts.append(Part(name, inputs, None if rows else out, lines))
+    return ClosingTile(tuple(parts), tuple(divmod(at, columns) for at in entries), symbols)
+
+
 def tile_of(
-    functions: Iterable[CFunction], places: Mapping[str, str], nonzeros: Sequence[tuple[int, int]]
-) -> Tile | None:
+    functions: Iterable[CFunction], places: Mapping[str, str],
+    nonzeros: Sequence[tuple[int, int]], target: Target,
+) -> Tile | None:  # fmt: skip
     """The tile of a module; None where it has no function of the entries: with loops.
 
     Args:
         functions: of the module.
         places: C text of every symbol of the graph.
         nonzeros: (joint, column) of the entries.
+        target: of the precision's `TILES`.
     """
     function = next((f for f in functions if f.role == ENTRIES), None)
     if function is None or not function.entries:
@@ -201,7 +287,7 @@ def tile_of(
     outputs = [(f"MODELER_PUT({index})", value) for index, value in ordered]
     # `q[3]` of all lanes is the variable q_3.
     lanes = {s: re.sub(r"^(q|qd|qdd|s)\[(\d+)\]$", r"\1_\2", at) for s, at in places.items()}
-    block = make_block(outputs, lanes, target=TILE)
+    block = make_block(outputs, lanes, target=target)
     lengths = {argument.name: argument.shape[0] for argument in function.inputs}
     loads: dict[str, list[str]] = {}
     for name, length in lengths.items():

@@ -139,12 +139,18 @@ OF_PRECISION: Mapping[Precision, Target] = MappingProxyType({"double": DOUBLE, "
 CUDA = dataclasses.replace(DOUBLE, sincos="sincos")
 """CUDA has all functions of math.h, and one of its own for both."""
 
-TILE = dataclasses.replace(
-    DOUBLE,
-    number="modeler_lanes",
-    functions=MappingProxyType({name: f"modeler_lanes_{c}" for name, c in _MATH.items()}),
-    sincos="modeler_lanes_sincos",
-    smooth_sign="modeler_lanes_smooth_sign",
-    spread="modeler_lanes_spread({0})",
-    constant=DOUBLE,
+TILES: Mapping[Precision, Target] = MappingProxyType(
+    {
+        precision: dataclasses.replace(
+            target,
+            number="modeler_lanes",
+            functions=MappingProxyType({name: f"modeler_lanes_{c}" for name, c in _MATH.items()}),
+            sincos="modeler_lanes_sincos",
+            smooth_sign="modeler_lanes_smooth_sign",
+            spread="modeler_lanes_spread({0})",
+            constant=target,
+        )
+        for precision, target in OF_PRECISION.items()
+    }
 )
+"""Targets of vectors whose lanes are samples."""

@@ -42,7 +42,10 @@ CUDA_THREADS = 128
 TILE_RUNTIME = (
     "modeler_tile.h", "modeler_lanes.h", "modeler_versions.h", "modeler_tile.c",
 )  # fmt: skip
-"""Those that stand beside a robot without loops, of double precision."""
+"""Those that stand beside tiles."""
+
+CLOSING_RUNTIME = ("modeler_closing.h",)
+"""Those that stand beside the tiles of a robot with loops."""
 
 MANIFEST = "manifest.json"
 """Name of the manifest's file."""
@@ -288,10 +291,17 @@ class ModuleSpec(Brief):
     @property
     def tile_sources(self) -> tuple[str, ...]:
         """Names of the C files of the tiles, which can be a library of their own; () if none."""
-        if self.closure is not None or self.precision != "double" or not self.has("_batch"):
+        if not self.has("_batch"):
             return ()
         units = (f"{self.prefix}_tile.h", f"{self.prefix}_tile.c")
-        return (*units, *TILE_RUNTIME, *(name for name in RUNTIME if name.endswith(".h")))
+        others = RUNTIME if self.closure is None else self.sources
+        headers = (name for name in others if name.endswith(".h"))
+        return (*units, *self.tile_runtime, *headers)
+
+    @property
+    def tile_runtime(self) -> tuple[str, ...]:
+        """Hand-written files of the tiles alone."""
+        return (*TILE_RUNTIME, *(CLOSING_RUNTIME if self.closure is not None else ()))
 
     def to_json(self) -> str:
         """Stable text: sorted as declared, no date, no version."""

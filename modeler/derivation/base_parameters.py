@@ -6,7 +6,6 @@ import numpy as np
 
 from modeler.derivation.certificate import PRIME, ModularState, modular_rank
 from modeler.derivation.columns import StandardColumn, in_block
-from modeler.derivation.enclosed import ball_rank
 from modeler.derivation.field import ExactField, TooLarge, geometry_field
 from modeler.derivation.geometry import Geometry, exact_geometry
 from modeler.derivation.grouping import (
@@ -130,6 +129,8 @@ def _exact(
     relations = _relations(model, geometry, K, numeric, seed)
     proved: Certificate
     if model.closure is not None:
+        from modeler.derivation.enclosed import ball_rank  # most robots have no loops
+
         proved = ball_rank(model, relations.kept, sample, seed)
     else:
         proved = certificate(geometry, model.columns, K, relations, seed)
@@ -199,6 +200,8 @@ def _independent(model: SymbolicModel, proved: Certificate, numeric: NumericRank
 def _numeric(
     model: SymbolicModel, sample: Sample, numeric: NumericRank, seed: int, why: str
 ) -> BaseParameters:
+    from modeler.derivation.enclosed import ball_rank
+
     parameters, unidentifiable, bound = numeric_grouping(model, sample, numeric)
     proved = ball_rank(model, [p.column for p in parameters], sample, seed)
     statement = _NUMERIC.format(why=why, bound=bound) + _independent(model, proved, numeric)

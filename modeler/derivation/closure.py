@@ -160,9 +160,10 @@ class LoopEquations(Brief):
         inputs = {f"q[{k}]": u[:, k] for k in range(self.unknowns)}
         if ud is not None:
             inputs |= {f"qd[{k}]": ud[:, k] for k in range(self.unknowns)}
-        found = self.graph.evaluate(list(expressions), {**self.values, **inputs})
-        out = np.empty((len(u), len(expressions)))
-        for i, value in enumerate(found):
+        given = [(i, e) for i, e in enumerate(expressions) if e.ref]  # the others are 0
+        found = self.graph.evaluate([e for _, e in given], {**self.values, **inputs})
+        out = np.zeros((len(u), len(expressions)))
+        for (i, _), value in zip(given, found, strict=True):
             out[:, i] = value
         return out
 

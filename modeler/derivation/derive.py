@@ -13,7 +13,6 @@ from modeler.derivation.closure import SINGULAR, check_freedom, nearest_closed, 
 from modeler.derivation.columns import standard_columns
 from modeler.derivation.geometry import exact_geometry
 from modeler.derivation.graph import Graph
-from modeler.derivation.implied import implied_relations
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.walks import Linkage, linkage_of
 from modeler.robot import Robot, robot_from_text, with_home_text
@@ -253,6 +252,8 @@ def derive_model(robot: Robot) -> SymbolicModel:
         model = _model(robot)
     if model.closure is None:
         return model
+    from modeler.derivation.implied import implied_relations  # of loops alone
+
     implied = implied_relations(model)
     if implied.relations:
         model = _model(replace(robot, relations={**robot.relations, **implied.relations}))

@@ -8,30 +8,30 @@ constant (a square root, say) is a letter of its own.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, lru_cache
+from functools import cache
 from itertools import product
 from operator import add
 from typing import Any, TypeAlias
 
+import flint
 import sympy
 from sympy import QQ
-from sympy.polys.fields import FracElement, field as rational_functions
 from sympy.polys.matrices import DomainMatrix
-from sympy.polys.rings import PolyElement, PolyRing, ring
+from sympy.polys.rings import PolyElement, ring
 
 from modeler.derivation.geometry import Geometry, cos_sin
 
 # Turning rational functions of t = tan(a/2) back into what people write: cos(a) and sin(a).
 
 
-Terms = Sequence[tuple[tuple[int, ...], Any]]
-"""(exponents, coefficient) of a polynomial."""
+Terms = Mapping[tuple[int, ...], Any]
+"""{exponents: coefficient} of a polynomial, in the order of its terms."""
 
 Letters = Mapping[sympy.Expr, str]
 """What each generator stands for -> "symbol", "angle" or "opaque"."""
 
 
-def in_cosines(numerator: PolyElement, denominator: PolyElement, letters: Letters) -> sympy.Expr:
+def in_cosines(numerator: Terms, denominator: Terms, letters: Letters) -> sympy.Expr:
     """numerator / denominator, polynomials in the letters (t for an angle), as an expression.
 
     Both are divided by (1 + t**2)**K, after which they are polynomials in cos and sin:
@@ -47,8 +47,7 @@ def in_cosines(numerator: PolyElement, denominator: PolyElement, letters: Letter
     target = _Target({names[i]: letters[names[i]] for i in used})
     pairs = [(degrees[i] + 1) // 2 for i in used]
     parts = [
-        [(tuple(m[i] for i in used), c) for m, c in part.terms()]
-        for part in (numerator, denominator)
+        {tuple(m[i] for i in used): c for m, c in part.items()} for part in (numerator, denominator)
     ]
     top, bottom = (target.converted(part, pairs) for part in parts)
     top, bottom = top.cancel(bottom)
@@ -77,7 +76,7 @@ class _Target:
     def converted(self, terms: Terms, pairs: Sequence[int]) -> PolyElement:
         """The polynomial divided by (1 + t**2)**pairs for each angle."""
         total = self.ring.zero
-        for monomial, coefficient in terms:
+        for monomial, coefficient in terms.items():
             term = self.ring.one * coefficient
             for slot, exponent, K in zip(self.slots, monomial, pairs, strict=True):
                 term = term * self._factor(slot, exponent, K)
@@ -123,68 +122,89 @@ class _Target:
         )
 
 
-# Fractions of polynomials in few of many letters.
-#
-# sympy's divisors (Liao and Fateman 1995, heuristic gcd) go through every letter of the ring, one
-# inside the other. Of the letters of a parallel robot two occur in a fraction; its derivation spent
-# 40 % of its time on the others.
+# Fractions of polynomials, by python-flint: sympy's own in many letters took 40 % of a derivation.
 
 
-class Quotient(FracElement):
-    """numer / denom without common divisors, which are looked for among the letters in them."""
+class Quotient:
+    """numer / denom: whole coefficients, no common divisors, the first of denom positive."""
 
-    def new(self, numer: PolyElement, denom: PolyElement) -> "Quotient":
-        """numer / denom, cancelled."""
-        # sympy is quick where one of them has one term.
-        found = numer.cancel(denom) if min(len(numer), len(denom)) < 2 else cancelled(numer, denom)
-        return self.raw_new(*found)
+    __slots__ = ("denom", "numer")
+
+    def __init__(self, numer: Any, denom: Any) -> None:
+        self.numer, self.denom = numer, denom
+
+    def _like(self, other: Any) -> "Quotient":
+        """A rational number as one of us."""
+        if isinstance(other, Quotient):
+            return other
+        constant = self.numer.context().constant
+        return Quotient(constant(int(other.numerator)), constant(int(other.denominator)))
+
+    def __add__(self, other: Any) -> "Quotient":
+        b = self._like(other)
+        if self.denom == b.denom:
+            return _cancelled(self.numer + b.numer, self.denom)
+        return _cancelled(self.numer * b.denom + b.numer * self.denom, self.denom * b.denom)
+
+    __radd__ = __add__
+
+    def __mul__(self, other: Any) -> "Quotient":
+        b = self._like(other)
+        return _cancelled(self.numer * b.numer, self.denom * b.denom)
+
+    __rmul__ = __mul__
+
+    def __neg__(self) -> "Quotient":
+        return Quotient(-self.numer, self.denom)
+
+    def __sub__(self, other: Any) -> "Quotient":
+        return self + -other
+
+    def __rsub__(self, other: Any) -> "Quotient":
+        return -self + other
+
+    def __truediv__(self, other: Any) -> "Quotient":
+        b = self._like(other)
+        return _cancelled(self.numer * b.denom, self.denom * b.numer)
+
+    def __rtruediv__(self, other: Any) -> "Quotient":
+        return self._like(other) / self
+
+    def __pow__(self, n: int) -> "Quotient":
+        power = Quotient(self.numer ** abs(n), self.denom ** abs(n))
+        return power if n >= 0 else 1 / power
+
+    def __bool__(self) -> bool:
+        return bool(self.numer)
+
+    def __eq__(self, other: object) -> bool:
+        b = self._like(other)
+        return bool(self.numer == b.numer and self.denom == b.denom)
+
+    def __hash__(self) -> int:
+        return hash((*self.numer.to_dict().items(), *self.denom.to_dict().items()))
+
+    def __len__(self) -> int:
+        """Terms of both."""
+        return len(self.numer) + len(self.denom)
 
 
-@lru_cache(maxsize=4096)
-def cancelled(numer: PolyElement, denom: PolyElement) -> tuple[PolyElement, PolyElement]:
-    """Both without their common divisors, as `numer.cancel(denom)`; most ask again."""
-    ring = numer.ring
-    degrees = [max(exponents) for exponents in zip(*numer, *denom, strict=True)]
-    used = tuple(i for i, degree in enumerate(degrees) if degree)
-    if len(used) == ring.ngens or not used:
-        return numer.cancel(denom)
-    small = _of(ring, used)
-    top, bottom = numer.set_ring(small).cancel(denom.set_ring(small))
-    return top.set_ring(ring), bottom.set_ring(ring)
+def _cancelled(numer: Any, denom: Any) -> Quotient:
+    if not denom.is_one():
+        common = numer.gcd(denom)
+        if denom.leading_coefficient() < 0:
+            common = -common
+        if not common.is_one():
+            numer, denom = numer / common, denom / common
+    return Quotient(numer, denom)
 
 
-@cache
-def _of(ring: PolyRing, used: tuple[int, ...]) -> PolyRing:
-    """The ring of these letters alone, in the same order."""
-    return ring.clone(symbols=[ring.symbols[i] for i in used])
+def _told(polynomial: Any) -> Terms:
+    return {tuple(map(int, at)): QQ(int(c)) for at, c in polynomial.to_dict().items()}
 
 
 Element = Any
-"""An element of the field: a sympy `FracElement`, or a rational number."""
-
-
-def times(a: Element, b: Element) -> Element:
-    """a b. Most factors are 1, and the product of two fractions cancels common divisors."""
-    if a == 1:
-        return b
-    if b == 1:
-        return a
-    # Polynomials have nothing to cancel, and looking for it is most of the work of a long chain.
-    if _is_polynomial(a) and _is_polynomial(b):
-        return a.raw_new(a.numer * b.numer, a.denom)
-    return a * b
-
-
-def minus(a: Element, b: Element) -> Element:
-    """a - b."""
-    if _is_polynomial(a) and _is_polynomial(b):
-        return a.raw_new(a.numer - b.numer, a.denom)
-    return a - b
-
-
-def _is_polynomial(a: Element) -> bool:
-    """True for a fraction over 1: its coefficients are whole then."""
-    return isinstance(a, FracElement) and a.denom == 1
+"""An element of the field: a `Quotient`, or a rational number."""
 
 
 class ExactField:
@@ -202,11 +222,12 @@ class ExactField:
         self.letters = dict(sorted(letters.items(), key=lambda item: (item[1], str(item[0]))))
         names = [f"u{i}" for i in range(len(self.letters))]
         if names:
-            self._field, *generators = rational_functions(names, sympy.QQ)
-            generators = [Quotient(self._field, letter.numer) for letter in generators]
-            self._one = Quotient(self._field, self._field.ring.one)
+            ring = flint.fmpz_mpoly_ctx.get(names, "lex")
+            one = ring.constant(1)
+            generators = [Quotient(letter, one) for letter in ring.gens()]
+            self._one = Quotient(one, one)
         else:
-            self._field, generators, self._one = None, [], sympy.QQ(1)
+            generators, self._one = [], sympy.QQ(1)
         self._zero = self._one - self._one
         self._generator = dict(zip(self.letters, generators, strict=True))
         # Most constants and coefficients of a long chain are the same few.
@@ -245,8 +266,7 @@ class ExactField:
                 total = total + other if value.is_Add else total * other
             return total
         if value.is_Pow:
-            base, n = self.element(value.base), int(value.exp)
-            return base**n if n >= 0 else self._one / base**-n
+            return self.element(value.base) ** int(value.exp)
         assert value.func in (sympy.cos, sympy.sin)
         t = self._generator[cosine_symbol(value)]
         return (1 - t**2 if value.func is sympy.cos else 2 * t) / (1 + t**2)
@@ -255,14 +275,15 @@ class ExactField:
         """The element as a sympy expression in the symbols, cosines and sines."""
         if not self._generator:
             return sympy.Rational(int(element.numerator), int(element.denominator))
-        return in_cosines(element.numer, element.denom, self.letters)
+        return in_cosines(_told(element.numer), _told(element.denom), self.letters)
 
     def residue(self, element: Element, values: Mapping[sympy.Expr, int], prime: int) -> int:
         """The element modulo a prime, with residues for the letters (tan(a/2) for cos(a))."""
         if not self._generator:
             return int(element.numerator) * pow(int(element.denominator), -1, prime) % prime
         point = [values[letter] for letter in self.letters]
-        top, bottom = (value_modulo(part, point, prime) for part in (element.numer, element.denom))
+        parts = (_told(element.numer), _told(element.denom))
+        top, bottom = (value_modulo(part, point, prime) for part in parts)
         return top * pow(bottom, -1, prime) % prime
 
 
@@ -301,7 +322,7 @@ def cosine_symbol(value: sympy.Expr) -> sympy.Expr:
     return sympy.cos(value.args[0], evaluate=False)
 
 
-def value_modulo(poly: PolyElement, point: Sequence[int], prime: int) -> int:
+def value_modulo(poly: Terms, point: Sequence[int], prime: int) -> int:
     """The polynomial's value modulo the prime."""
     total = 0
     for monomial, coefficient in poly.items():
@@ -386,7 +407,7 @@ def sparse_row_reduce(
         left = [row for row in left if row is not pivot]
         if pivot[column] != 1:
             inverse = 1 / pivot[column]
-            pivot = {j: times(x, inverse) for j, x in pivot.items()}
+            pivot = {j: x * inverse for j, x in pivot.items()}
         for row in (*left, *done):
             if column in row:
                 _subtract(row, pivot, row[column])
@@ -398,8 +419,8 @@ def sparse_row_reduce(
 
 def _subtract(row: dict[int, Element], pivot: Mapping[int, Element], factor: Element) -> None:
     for j, x in pivot.items():
-        part = times(factor, x)
-        value = minus(row[j], part) if j in row else -part
+        part = factor * x
+        value = row[j] - part if j in row else -part
         if _terms(value) > LARGEST:
             raise TooLarge(f"a coefficient has more than {LARGEST} terms")
         if value:
@@ -424,7 +445,7 @@ def null_space(rows: Matrix, width: int, zero: Element, one: Element) -> Matrix:
 
 
 def _terms(value: Element) -> int:
-    return len(value.numer) + len(value.denom) if isinstance(value, FracElement) else 1
+    return len(value) if isinstance(value, Quotient) else 1
 
 
 # Linear relations between vectors over Q, first come first kept.

@@ -2,8 +2,9 @@
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -38,6 +39,7 @@ from modeler.diagnosis.timing import instrumental
 from modeler.effects import Acts, effect_named
 from modeler.estimation import IdentifiedModel
 from modeler.observation import Doubt
+from modeler.runtime import mapped
 
 LOST = 1.0
 """Held-out error from which on a model says nothing about that motion, nor what it lacks."""
@@ -51,14 +53,14 @@ class BandSearch(Brief):
         found: of the training logs.
         other: held-out ones in that band.
         seen: what the states of the search leave of these.
-        shares: systematic share of what the last leaves, by joint.
+        share: systematic share of what the last leaves on a joint.
         findings: its effects.
     """
 
     found: Search
     other: SearchData | None
     seen: Sequence[Residuals]
-    shares: Sequence[float]
+    share: Callable[[int], float]
     findings: Sequence[Finding]
 
     @property
@@ -87,7 +89,7 @@ def band_search(
     looks_at = [(found.end, [state.residual for state in chain])]
     if other is not None:
         looks_at.append((on_logs(found.end, other), [left.residual for left in seen]))
-    shares = [_systematic(state, left[-1], tick) for state, left in looks_at]
+    shares = [_systematic(state, left[-1], tick) for state, left in looks_at]  # what is asked for
     squares = [[[*map(mean_square, own)] for own in left] for _, left in looks_at]
     findings = list[Finding]()
     for k, step in enumerate(found.steps):
@@ -103,13 +105,15 @@ def band_search(
     return BandSearch(found, other, seen, shares[0], findings)
 
 
-def _systematic(state: State, left: Sequence[np.ndarray], tick: Tick) -> list[float]:
-    """Systematic share of what is left on the joints of some logs."""
-    shares = []
-    for j, residual in enumerate(left):
+def _systematic(state: State, left: Sequence[np.ndarray], tick: Tick) -> Callable[[int], float]:
+    """Systematic share of what is left on a joint of some logs; it takes long."""
+
+    @cache
+    def share(j: int) -> float:
         tick()
-        shares.append(systematic_share(state, j, residual))
-    return shares
+        return systematic_share(state, j, left[j])
+
+    return share
 
 
 def assembled(
@@ -136,7 +140,7 @@ def assembled(
     if not contradicted:
         every = _once([finding for band in bands for finding in band.findings])
         every = detected(last.found, window, errors_of(last.seen[-1]), falls, every)
-    joints = _joints(found, first.seen, first.shares)
+    joints = _joints(found, first.seen, first.share)
     every = [_doubted(finding, joints) for finding in every]
     every.sort(key=lambda finding: finding.status == "perhaps")
     effects, refinements = (tuple(f for f in every if f.refines is r) for r in (False, True))
@@ -254,11 +258,15 @@ def _refines(found: Search, k: int) -> bool:
 
 
 def _joints(
-    found: Search, seen: Sequence[Residuals], systematic: Sequence[float]
+    found: Search, seen: Sequence[Residuals], systematic: Callable[[int], float]
 ) -> dict[str, JointState]:
     states, ends = {}, [errors_of(seen[k]) for k in (0, -1)]
+    shown = [j for j, y in enumerate(found.start.rows.y) if y.size]
+    # what all joints share is made by the first
+    shares = dict(zip(shown, [*map(systematic, shown[:1]), *mapped(systematic, shown[1:])],
+                      strict=True))  # fmt: skip
     for j, joint in enumerate(found.spec.joints):
-        if not found.start.rows.y[j].size:
+        if j not in shares:
             continue
         size = mean_square(found.start.rows.y[j])
         before, after = (mean_square(s.residual[j]) for s in (found.start, found.end))
@@ -270,8 +278,8 @@ def _joints(
             rms_before=math.sqrt(before),
             rms_after=math.sqrt(after),
             explained=1.0 - share,
-            systematic=share * systematic[j],
-            noise=share * (1.0 - systematic[j]),
+            systematic=share * shares[j],
+            noise=share * (1.0 - shares[j]),
         )
     return states
 

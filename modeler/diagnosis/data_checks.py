@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,7 +18,10 @@ from modeler.diagnosis.state import SearchData, State, state_of, visible
 from modeler.diagnosis.timing import CONVENTION
 from modeler.effects import Acts, Effect
 from modeler.estimation import IdentifiedModel, log_findings
-from modeler.observation import TREMBLES, Doubt, trembling
+from modeler.observation import TREMBLES, Doubt, Observation, trembling
+
+if TYPE_CHECKING:
+    from modeler.runtime import CompiledModel
 
 SHORT = 5.0
 """s of motion in all below which nothing can be ruled out."""
@@ -269,7 +273,7 @@ def _late(found: Search) -> list[str]:
     drop = ranking.drop.sum(axis=0)
     best = int(np.argmax(drop))
     rivals = [judged.fall for judged in found.last.ranked if judged.possible]
-    step = float(np.median([signals.segment.step for signals in rows.signals]))
+    step = float(np.median([s.segment.logged_step for s in rows.signals]))
     late, joint = float(ranking.value[best][0]), state.names[list(columns)[best]]
     shown = drop[best] >= max(
         LATE_SHARE * float(ranking.before.sum()), AHEAD * max(rivals, default=0.0)
@@ -287,17 +291,8 @@ def _late(found: Search) -> list[str]:
 
 
 def faults_of(
-    model: IdentifiedModel, data: SearchData, other: SearchData | None
+    model: IdentifiedModel, compiled: "CompiledModel", seen: Observation, which: str = ""
 ) -> tuple[Doubt, ...]:
-    """Of the logs, then of the held-out ones.
-
-    Args:
-        model: as fitted.
-        data: training logs.
-        other: held-out ones.
-    """
-    found = log_findings(data.compiled, data.observation, model)
-    if other is None:
-        return found
-    held = log_findings(other.compiled, other.observation, model)
-    return (*found, *(dataclasses.replace(f, line=f"held out: {f.line}") for f in held))
+    """Of some logs; which are said before every line, if not those that are explained."""
+    found = log_findings(compiled, seen, model)
+    return tuple(dataclasses.replace(fault, line=f"{which}{fault.line}") for fault in found)

@@ -12,13 +12,24 @@ from modeler.diagnosis.assemble import BandSearch, assembled, band_search
 from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.cross_checks import OtherLook, recheck_effects
 from modeler.diagnosis.data_checks import faults_of, without_friction
+from modeler.diagnosis.effect_columns import coarser
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
 from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.judge import vetoing
 from modeler.diagnosis.plausible import gravity_like
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, Step, search
-from modeler.diagnosis.state import BAND, SearchData, again, analysed, bands_line, cutoff, state_of
+from modeler.diagnosis.state import (
+    BAND,
+    SearchData,
+    again,
+    analysed,
+    bands_line,
+    cutoff,
+    in_band,
+    seen_in,
+    state_of,
+)
 from modeler.diagnosis.timing import logger_shift
 from modeler.effects import Acts, Effect, Needs, effect_named
 from modeler.estimation import IdentifiedModel
@@ -85,16 +96,22 @@ def diagnose(
     """
     meter = Meter(progress, _READ)
     mending = LogRepair(logs, compiled.spec)
+    known = known or StatedEffects()
+    without = _ids(without, known.catalogue)
     seen = analysed(compiled, logs, model.processing, mending=mending)
-    data = SearchData(
-        compiled, seen, kept_parameters(model, compiled, logs, seen), known or StatedEffects()
-    )
-    without = _ids(without, data.known.catalogue)
+    doubted = faults_of(model, compiled, seen)
+    seen = coarser(seen, compiled)  # all samples, and all columns of a log, are there but once
+    data = SearchData(compiled, seen, kept_parameters(model, compiled, logs, seen), known)
     if (fewer := without_friction(data, model.beta)) is not None:
         data = dataclasses.replace(data, known=fewer)
-    other = _held_out(data, holdout)
+    other = None
+    if holdout:
+        held = again(compiled, holdout, seen.report.processing)
+        doubted += faults_of(model, compiled, held, "held out: ")
+        other = dataclasses.replace(data, observation=coarser(held, compiled))
+        del held
     beyond = _other_band(data, model, mending)
-    doubted = faults_of(model, data, other)
+    mending = LogRepair(logs, compiled.spec)  # pieces and spectra have served
     limit = 0 if any(fault.certain for fault in doubted) else most
 
     def searched(data: SearchData, other: SearchData | None, given: Sequence[Step] = ()) -> Search:
@@ -147,10 +164,11 @@ WIDER = 1.3
 def _other_band(data: SearchData, model: IdentifiedModel, mending: LogRepair) -> SearchData | None:
     """The same logs in a wider band, or else in that of the motion; None if none differs."""
     for band in (0.8 * BAND, 0.0):
-        seen = analysed(data.compiled, mending.logs, model.processing, band, mending=mending)
-        other = dataclasses.replace(data, observation=seen)
-        if max(cutoff(other) / cutoff(data), cutoff(data) / cutoff(other)) > WIDER:
-            return other
+        look = in_band(data.compiled, mending.logs, model.processing, band, mending=mending)
+        other = look.processing.parallel_cutoff or 0.0
+        if max(other / cutoff(data), cutoff(data) / other) > WIDER:
+            seen = coarser(seen_in(data.compiled, mending.logs, look), data.compiled)
+            return dataclasses.replace(data, observation=seen)
     return None
 
 
@@ -186,7 +204,7 @@ def _aligned(
         return None
     moved = dataclasses.replace(model.processing, delay=model.processing.delay + shift)
     seen = analysed(data.compiled, mending.logs, moved, mending=mending)
-    return dataclasses.replace(data, observation=seen)
+    return dataclasses.replace(data, observation=coarser(seen, data.compiled))
 
 
 def _ids(without: Sequence[str], catalogue: Sequence[Effect]) -> tuple[str, ...]:
@@ -210,7 +228,7 @@ def _held_out(data: SearchData, holdout: Sequence[Log]) -> SearchData | None:
         return None
     processing = data.observation.report.processing
     seen = again(data.compiled, holdout, processing)
-    return dataclasses.replace(data, observation=seen)
+    return dataclasses.replace(data, observation=coarser(seen, data.compiled))
 
 
 def kept_parameters(

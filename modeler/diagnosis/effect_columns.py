@@ -4,7 +4,7 @@ import dataclasses
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -15,7 +15,10 @@ from modeler.diagnosis.candidates import Candidate, links_of
 from modeler.diagnosis.signals import EVERY, WINDOW, SignalReference, Signals, tilt_columns
 from modeler.effects import Acts
 from modeler.numerics.filters import SPREAD, only
-from modeler.observation import Observation, Stretch
+from modeler.observation import Observation, Stretch, observed_alike, signals_of
+
+if TYPE_CHECKING:
+    from modeler.runtime import CompiledModel
 
 # The columns of a candidate over the samples of a segment: the catalogue's equations in numpy.
 
@@ -114,6 +117,11 @@ Columns = tuple[np.ndarray | None, ...]
 """Columns of one candidate by joint, (rows_j, k) each; None where they are zero throughout."""
 
 
+KEPT = 2**27
+"""Bytes of columns that are remembered, for the next state."""
+
+_HELD = "bytes held"
+
 Evaluate = Callable[[int, slice], np.ndarray]
 """Values over a window of the samples of a stretch, by its number."""
 
@@ -141,8 +149,7 @@ class Rows(Brief):
         time: (rows_j,) by joint, s.
         run: (rows_j,) by joint, index of the log.
         segment: (rows_j,) by joint.
-        filters: (rows_j, samples) by stretch and joint.
-        blocks: the same in pieces, by stretch.
+        blocks: filters (rows_j, samples) in pieces, by stretch.
         signals: by stretch.
         known: what was made of them for this reference, by name.
         cache: columns that do not depend on the model, shared by all references.
@@ -153,7 +160,6 @@ class Rows(Brief):
     time: tuple[np.ndarray, ...]
     run: tuple[np.ndarray, ...]
     segment: tuple[np.ndarray, ...]
-    filters: tuple[tuple[csr_array, ...], ...]
     blocks: tuple[tuple[RowBlock, ...], ...]
     signals: tuple[Signals, ...]
     known: dict[Any, Any] = field(default_factory=dict)
@@ -169,11 +175,17 @@ class Rows(Brief):
         signals = tuple(dataclasses.replace(s, reference=reference) for s in self.signals)
         return dataclasses.replace(self, signals=signals, known={})
 
+    def remember(self, key: Any, columns: "Columns") -> None:
+        """Columns that do not depend on the model, as long as there is room for them."""
+        held = sum(8 * c.size for c in columns if c is not None)
+        if self.cache.get(_HELD, 0) + held <= KEPT:
+            self.cache[_HELD] = self.cache.get(_HELD, 0) + held
+            self.cache[key] = columns
+
     def filtered(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
         """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""
-        return np.concatenate(
-            [own[j] @ value for own, value in zip(self.filters, values, strict=True)]
-        )
+        return np.concatenate([block.filters[j] @ values[i][block.window]
+                               for i, block in self._blocks])  # fmt: skip
 
     def columns(self, candidate: Candidate) -> Columns:
         """The columns of a candidate on these rows."""
@@ -252,14 +264,13 @@ def rows_of(observation: Observation, reference: SignalReference) -> Rows:
         observation: of the analysis.
         reference: where effects are linearised.
     """
-    cutoff = observation.report.processing.parallel_cutoff
-    signals = tuple(_signals(part, reference, cutoff) for part in observation.stretches)
-    filters = []  # weights of usable samples, every k-th of them, each row summing to one
-    for part, s in zip(observation.stretches, signals, strict=True):
+    signals, blocks = list[Signals](), []
+    for part in coarser(observation, reference.compiled).stretches:
+        s = part.segment
+        signals.append(Signals(s, part.usable, s.q, s.qd, s.qdd, reference))
         pairs = zip(part.used.T, part.usable.T, strict=True)
-        own = [only(part.rows.weights, usable)[used] for used, usable in pairs]
-        filters.append(tuple(_normed(csr_array(every[:, :: s.every])) for every in own))
-    blocks = tuple(_blocks(own, len(s.q)) for own, s in zip(filters, signals, strict=True))
+        own = [_normed(only(part.rows.weights, usable)[used]) for used, usable in pairs]
+        blocks.append(_blocks(own, s.samples))
     counted = list(observation.used.T)
     return Rows(
         y=tuple(observation.torque[rows, j] for j, rows in enumerate(counted)),
@@ -267,10 +278,23 @@ def rows_of(observation: Observation, reference: SignalReference) -> Rows:
         time=tuple(observation.time[rows] for rows in counted),
         run=tuple(observation.run[rows] for rows in counted),
         segment=tuple(observation.segment[rows] for rows in counted),
-        filters=tuple(filters),
-        blocks=blocks,
-        signals=signals,
+        blocks=tuple(blocks),
+        signals=tuple(signals),
     )
+
+
+def coarser(observation: Observation, compiled: "CompiledModel") -> Observation:
+    """The same rows by fewer samples: columns are smooth beside the filter of the rows.
+
+    Its Gaussian needs one sample per width.
+    """
+    cutoff = observation.report.processing.parallel_cutoff
+    parts = list[Stretch]()
+    for part in observation.stretches:
+        every = max(1, int(SPREAD / (cutoff * part.segment.step))) if cutoff > 0.0 else 1
+        read = signals_of(compiled.spec, part.segment)
+        parts.append(part.thinned(every, read) if every > 1 else part)
+    return observed_alike(compiled, dataclasses.replace(observation, stretches=tuple(parts)))
 
 
 def base_columns(
@@ -298,7 +322,10 @@ def _blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock, ...]:
         parts = [weights[slice(*own)] for weights, own in zip(filters, ends, strict=True)]
         stop = max(int(part.indices.max(initial=start)) for part in parts) + 1
         made = [
-            csr_array((p.data, p.indices - start, p.indptr), shape=(p.shape[0], stop - start))
+            csr_array(
+                (p.data, *map(np.int32, (p.indices - start, p.indptr))),
+                shape=(p.shape[0], stop - start),
+            )
             for p in parts
         ]
         found.append(RowBlock(slice(start, stop), tuple(made)))
@@ -310,11 +337,3 @@ def _normed(weights: csr_array) -> csr_array:
     total = weights @ np.ones(weights.shape[1])
     share = np.repeat(1.0 / np.where(total > 0.0, total, 1.0), np.diff(weights.indptr))
     return csr_array((weights.data * share, weights.indices, weights.indptr), shape=weights.shape)
-
-
-def _signals(part: Stretch, reference: SignalReference, cutoff: float) -> Signals:
-    """Columns are smooth beside the filter: its Gaussian needs one sample per width."""
-    segment = part.segment
-    every = max(1, int(SPREAD / (cutoff * segment.step))) if cutoff > 0.0 else 1
-    q, v, a = (np.ascontiguousarray(x[::every]) for x in (segment.q, segment.qd, segment.qdd))
-    return Signals(segment, every, q, v, a, reference)

@@ -205,15 +205,15 @@ def burst_ratio(state: State, j: int) -> float:
     `EVENTS` times.
     """
     event, events = [], 0  # of each row, 0 for none: that of the sample amid its weights
-    turns_of = zip(state.rows.signals, state.rows.filters, load_turns(state, j), strict=True)
-    for s, weights, turns in turns_of:
+    signals = state.rows.signals
+    middle = np.round(state.rows.filtered(j, [np.arange(len(s.q)) for s in signals])).astype(int)
+    for k, (s, turns) in enumerate(zip(signals, load_turns(state, j), strict=True)):
         span = max(1, round(AFTER / s.step))
         flags = np.zeros(len(s.q))
         for turn in turns:
             events += 1
             flags[turn : turn + span] = events
-        middle = np.round(weights[j] @ np.arange(len(flags))).astype(int)
-        event.append(flags[np.clip(middle, 0, len(flags) - 1)])
+        event.append(flags[middle[state.rows.segment[j] == k].clip(0, len(flags) - 1)])
     if events < EVENTS:
         return 0.0
     return _ratio(state.residual[j] ** 2, np.concatenate(event), events)

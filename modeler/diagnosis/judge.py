@@ -123,13 +123,11 @@ class Trial(Brief):
 
     Attributes:
         candidate: effect, joint, shapes.
-        columns: by joint.
         possible: False for a sign or a size that physics forbids.
         fall: of the squared residual on held-out motion, weighted.
     """
 
     candidate: Candidate
-    columns: Columns
     possible: bool
     fall: float
 
@@ -138,10 +136,8 @@ def tried(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[Tria
     """All candidates, each with its columns."""
     pool = pool_of(state.folded, [columns for _, columns in pairs])
     return [
-        Trial(candidate, columns, possible(candidate, value), float(fall))
-        for (candidate, columns), fall, value in zip(
-            pairs, *total_falls(state.folded, pool), strict=True
-        )
+        Trial(candidate, possible(candidate, value), float(fall))
+        for (candidate, _), fall, value in zip(pairs, *total_falls(state.folded, pool), strict=True)
     ]
 
 
@@ -155,12 +151,12 @@ def leading(trials: Sequence[Trial]) -> list[Trial]:
     return list(best.values())
 
 
-def judged_at(state: State, trials: Sequence[Trial]) -> list[Judged]:
-    """Some of the candidates judged, best first."""
-    if not trials:
+def judged_at(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[Judged]:
+    """Some of the candidates judged, each with its columns; best first."""
+    if not pairs:
         return []
-    ranking = state.ranked([trial.columns for trial in trials])
-    judged = [_judged(state, trial.candidate, ranking, i) for i, trial in enumerate(trials)]
+    ranking = state.ranked([columns for _, columns in pairs])
+    judged = [_judged(state, candidate, ranking, i) for i, (candidate, _) in enumerate(pairs)]
     return sorted(judged, key=lambda j: -j.fall)
 
 

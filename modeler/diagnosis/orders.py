@@ -1,12 +1,13 @@
 """The order spectrum of a state, and the ripples that it proposes."""
 
 from collections.abc import Callable, Set
+from functools import lru_cache
 from typing import cast
 
 import numpy as np
 
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.effect_columns import all_columns, own_columns
+from modeler.diagnosis.effect_columns import Rows, all_columns, own_columns
 from modeler.diagnosis.signals import resonance
 from modeler.diagnosis.state import State, column_key
 from modeler.diagnosis.timing import smoothed
@@ -23,7 +24,7 @@ def order_spectrum(state: State, j: int) -> OrderSpectrum | None:
         q, r = _samples(state, j)
         # orders that pass the parallel filter where the joint is slow
         cutoff = state.data.observation.report.processing.parallel_cutoff or 1e9
-        moving = [np.abs(s.v[s.segment.whole[:: s.every], j]) for s in state.rows.signals]
+        moving = [np.abs(s.v[s.segment.whole, j]) for s in state.rows.signals]
         speeds = np.concatenate(moving)
         slow = float(np.quantile(speeds[speeds > 0.0], 0.1)) if (speeds > 0.0).any() else 1.0
         reached = 2.0 * np.pi * cutoff / max(slow, 1e-9)
@@ -36,14 +37,13 @@ def _samples(state: State, j: int) -> tuple[np.ndarray, np.ndarray]:
     """Positions and residuals of the samples that count, not filtered."""
     q, r = [], []
     segment = state.rows.segment[j]
-    for number, part in enumerate(state.data.observation.stretches):
+    for number, signals in enumerate(state.rows.signals):
         if not (segment == number).any():
             continue
-        signals = state.rows.signals[number]
-        usable = part.usable[:: signals.every, j]
+        usable = signals.usable[:, j]
         model = signals.torque[:, j] + _extra(state, number, j)
         q.append(signals.q[usable, j])
-        r.append((part.segment.tau[:: signals.every, j] - model)[usable])
+        r.append((signals.segment.tau[:, j] - model)[usable])
     if not q:
         return np.zeros(0), np.zeros(0)
     residual = np.concatenate(r)
@@ -129,14 +129,14 @@ def rival(state: State, j: int, residual: np.ndarray) -> Flexible:
     in the residual, and in the motion as it was measured too, which would seem to predict it.
     """
     fold = state.data.blocks.fold[state.data.numbers[j]]
-    sets = functions(_measured(state, j)) if fold.size >= LEAST else {}
+    sets = functions(_measured(state, j)) if fold.size >= LEAST else ()
     return flexible(sets, residual, fold)
 
 
 def _measured(state: State, j: int) -> Measurements:
-    rows = smoothed(state)
-    every = [np.hstack([s.q, s.v, s.a, s.load, s.torque]) for s in rows.signals]
-    q, v, a, load, torque = np.split(rows.filtered(j, every), 5, axis=1)
+    rows, J = smoothed(state), state.rows.joints
+    every = rows.filtered(j, _everywhere(rows))
+    q, v, a, load, torque = np.split(every[:, : 5 * J], 5, axis=1)
     way = [np.sign(s.v[:, j]) for s in rows.signals]
     slips = [
         np.column_stack([bristle(s.q[:, j], d * state.scales[j].range) for d in SLIPS])
@@ -151,8 +151,23 @@ def _measured(state: State, j: int) -> Measurements:
         torque=torque,
         direction=rows.filtered(j, way),
         slips=rows.filtered(j, slips),
-        further={"waves": _waves(state, j), "ringing": _ringing(state, j)},
+        further={"waves": _waves(state, j), "ringing": every[:, 5 * J :]},
     )
+
+
+@lru_cache(maxsize=1)  # all joints of some logs are asked for one after the other
+def _everywhere(rows: Rows) -> list[np.ndarray]:
+    """(samples, 5 J + ...) by stretch: q, v, a, load and torque of all joints, and what rings.
+
+    Oscillators that the accelerations of all joints excite, and their speeds.
+    """
+    every = []
+    for s in rows.signals:
+        z = np.column_stack(
+            [resonance(a, s.step, frequency, _LIGHT) for a in s.a.T for frequency in _RINGING]
+        )
+        every.append(np.hstack([s.q, s.v, s.a, s.load, s.torque, z, np.gradient(z, axis=0)]))
+    return every
 
 
 def _waves(state: State, j: int) -> np.ndarray:
@@ -162,14 +177,3 @@ def _waves(state: State, j: int) -> np.ndarray:
         return np.zeros((len(state.residual[j]), 0))
     angles = [np.outer(s.q[:, j], found.peaks) for s in smoothed(state).signals]
     return state.rows.filtered(j, [np.hstack([np.cos(x), np.sin(x)]) for x in angles])
-
-
-def _ringing(state: State, j: int) -> np.ndarray:
-    """(rows_j, ...) oscillators that the accelerations of all joints excite, and their speeds."""
-    every = []
-    for s in smoothed(state).signals:
-        z = np.column_stack(
-            [resonance(a, s.step, frequency, _LIGHT) for a in s.a.T for frequency in _RINGING]
-        )
-        every.append(np.hstack([z, np.gradient(z, axis=0)]))
-    return state.rows.filtered(j, every)

@@ -2,7 +2,7 @@
 
 import math
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -28,7 +28,8 @@ CLOSED = 0.95
 
 
 def explained_fraction(
-    squares: Sequence[Sequence[float]], touched: Sequence[int], systematic: Sequence[float],
+    squares: Sequence[Sequence[float]], touched: Sequence[int],
+    systematic: Callable[[int], float],
     sigma: np.ndarray,
 ) -> float:  # fmt: skip
     """What one effect explains, over that, what later ones explain and what stays systematic.
@@ -40,7 +41,7 @@ def explained_fraction(
         squares: (J,) mean squared residuals, of the model before the effect, with it, and with the
             later ones.
         touched: joints whose residuals it explains.
-        systematic: (J,) share of the last of these.
+        systematic: share of the last of these by joint.
         sigma: (J,) rms residual before the effect.
     """
     before, after, end = squares[0], squares[1], squares[-1]
@@ -48,7 +49,7 @@ def explained_fraction(
     for j in touched:
         unit = float(sigma[j]) ** 2
         explained += max(0.0, before[j] - after[j]) / unit
-        left += (max(0.0, after[j] - end[j]) + systematic[j] * end[j]) / unit
+        left += (max(0.0, after[j] - end[j]) + systematic(j) * end[j]) / unit
     return explained / (explained + left) if explained > 0.0 else 0.0
 
 

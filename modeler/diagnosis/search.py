@@ -28,7 +28,7 @@ from modeler.diagnosis.judge import (
 )
 from modeler.diagnosis.plausible import DRIVES, drives, objection
 from modeler.diagnosis.profile import explained_by, values_of
-from modeler.diagnosis.state import SearchData, State, state_of, visible
+from modeler.diagnosis.state import SearchData, State, state_of, together, visible
 from modeler.effects import Effect, Shape
 
 _STEPS = 8
@@ -126,6 +126,9 @@ Tick = Callable[[], None]
 STARTS = 4
 """Grid values from which an effect with two shapes is refined: its fit has several summits."""
 
+AT_ONCE = 96
+"""Candidates whose columns are in memory together."""
+
 NEAR = 0.95
 """Share of the best fall with which another fixed shape of an effect is refined too."""
 
@@ -171,8 +174,10 @@ class HypothesisScan:
         if not touched:
             return self
         left = [t for t in self.trials if not is_vetoed(t.candidate, vetoed)]
-        again = [t for t in leading(left) if t.candidate.key in touched]
-        best = [*(j for j in self.best if j.key not in touched), *judged_at(self.state, again)]
+        again = [t.candidate for t in leading(left) if t.candidate.key in touched]
+        columns = all_columns_about(self.state, again)
+        judged = judged_at(self.state, [*zip(again, columns, strict=True)])
+        best = [*(j for j in self.best if j.key not in touched), *judged]
         best.sort(key=lambda j: -j.fall)
         return HypothesisScan(self.state, left, best, self.refined)
 
@@ -204,7 +209,11 @@ class HypothesisScan:
         others = [t for t in self.trials if t.candidate.key == first.key]
         pairs = [(candidate, state.rows.columns(candidate)) for candidate in better]
         shown = [pair for pair in pairs if visible(pair[1])]
-        return judged_at(state, leading([*tried(state, shown), *others]))[0]
+        (best,) = leading([*tried(state, shown), *others])
+        columns = next((own for candidate, own in shown if candidate is best.candidate), None)
+        if columns is None:
+            (columns,) = all_columns_about(state, [best.candidate])
+        return judged_at(state, [(best.candidate, columns)])[0]
 
     def starts(self, first: Candidate) -> list[Candidate]:
         """Shapes of one effect from which refining starts, the best first.
@@ -240,10 +249,18 @@ def scan_catalogue(
 
 def scan_candidates(state: State, found: Sequence[Candidate]) -> HypothesisScan:
     """Some candidates in a state; those that show."""
-    every = zip(found, all_columns_about(state, found), strict=True)
-    shown = [(candidate, columns) for candidate, columns in every if visible(columns)]
-    trials = tried(state, shown) if shown else []
-    return HypothesisScan(state, trials, judged_at(state, leading(trials)))
+    trials, best = dict[int, Trial](), dict[int, Judged]()
+    place = {id(candidate): k for k, candidate in enumerate(found)}
+    for some in together(found, AT_ONCE):  # their columns are never there all at once
+        every = zip(some, all_columns_about(state, some), strict=True)
+        shown = {id(own[0]): own for own in every if visible(own[1])}
+        own = tried(state, [*shown.values()]) if shown else []
+        trials |= {place[id(t.candidate)]: t for t in own}
+        judged = judged_at(state, [shown[id(t.candidate)] for t in leading(own)])
+        best |= {id(j.candidate): j for j in judged}
+    in_order = [trials[k] for k in sorted(trials)]
+    first = [best[id(t.candidate)] for t in leading(in_order)]
+    return HypothesisScan(state, in_order, sorted(first, key=lambda j: -j.fall))
 
 
 def is_vetoed(candidate: Candidate, vetoed: Sequence[Judged]) -> bool:
@@ -479,8 +496,7 @@ def _named(state: State, best: Judged, vetoed: Sequence[Judged], without: Sequen
 
 def _judged_again(state: State, candidate: Candidate) -> Judged:
     (columns,) = all_columns_about(state, [candidate])
-    trials = tried(state, [(candidate, columns)])
-    return decide(state, judged_at(state, trials)).ranked[0]
+    return decide(state, judged_at(state, [(candidate, columns)])).ranked[0]
 
 
 def extended(state: State, pick: Candidate) -> State:

@@ -6,9 +6,11 @@ from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.linalg import expm
 
 from modeler.core.brief import Brief
 from modeler.effects import Memory
+from modeler.numerics.filters import recursion
 from modeler.observation import Segment, bristle, nearest_closed, signals_of
 
 if TYPE_CHECKING:
@@ -67,17 +69,17 @@ class SignalReference(Brief):
 
 @dataclass(frozen=True, eq=False)
 class Signals(Brief):
-    """Of one segment, thinned to what the band of the analysis needs; n samples, J joints.
+    """Of one segment; n samples, J joints.
 
     Attributes:
         segment: where it comes from.
-        every: every how manieth of its samples is used.
+        usable: (n, J) samples that count.
         q, v, a: (n, J) motion.
         reference: the model.
     """
 
     segment: Segment
-    every: int
+    usable: np.ndarray
     q: np.ndarray
     v: np.ndarray
     a: np.ndarray
@@ -86,13 +88,12 @@ class Signals(Brief):
     @property
     def step(self) -> float:
         """Between samples, s."""
-        return self.segment.step * self.every
+        return self.segment.step
 
     @cached_property
     def read(self) -> np.ndarray | None:
         """(n, m) what effects of the model read besides the motion."""
-        every = signals_of(self.reference.compiled.spec, self.segment)
-        return None if every is None else np.ascontiguousarray(every[:: self.every])
+        return signals_of(self.reference.compiled.spec, self.segment)
 
     def base_regressor(self, window: slice) -> np.ndarray:
         """(n, J, c) of the model, over a window of the samples."""
@@ -144,7 +145,7 @@ class Signals(Brief):
     @cached_property
     def time(self) -> np.ndarray:
         """(n,) s."""
-        return self.segment.time[:: self.every] - self.reference.time
+        return self.segment.time - self.reference.time
 
     def temperature(self, joint: str) -> np.ndarray | None:
         """(n,) K above the reference; None where the training logs have no such column.
@@ -155,7 +156,7 @@ class Signals(Brief):
             return None
         for name in (f"temperature{joint}", "temperature"):
             if name in self.segment.extra:
-                return self.segment.extra[name][:: self.every] - self.reference.temperature[joint]
+                return self.segment.extra[name] - self.reference.temperature[joint]
         return np.zeros(len(self.q))
 
     def state(self, memory: Memory, j: int, shapes: Mapping[str, float]) -> np.ndarray:
@@ -233,23 +234,31 @@ class Signals(Brief):
 
 def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:
     """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
-    from scipy.signal import lfilter  # it takes long to load
-
     numerator, denominator = _oscillator(step, frequency, damping)
-    first = load[0]
-    return first + lfilter(numerator, denominator, load - first)
+    return np.asarray(load[0] + recursion(load - load[0], numerator, denominator))
 
 
 @lru_cache(maxsize=1024)
 def _oscillator(step: float, frequency: float, damping: float) -> tuple[np.ndarray, np.ndarray]:
-    """Coefficients of the resonance on a grid, loads straight between its points."""
-    from scipy.signal import cont2discrete
+    """Coefficients of the resonance on a grid, loads straight between its points.
 
+    With x' = A x + b u, z = c x, and u straight over a step h (Franklin, Powell and Workman 1997,
+    Digital Control of Dynamic Systems, section 6.3.2):
+
+        exp [[A h, b h, 0], [0, 0, 1], [0, 0, 0]] = [[F, g, k], ...],
+        z = (c (s - F)^-1 (g - k + F k) + c k) u.
+    """
     w = 2.0 * np.pi * min(frequency, 0.4 / step)
-    numerator, denominator, _ = cont2discrete(
-        ([w**2], [1.0, 2.0 * damping * w, w**2]), step, method="foh"
+    own, c = np.array([[-2.0 * damping * w, -(w**2)], [1.0, 0.0]]), np.array([0.0, w**2])
+    whole = np.zeros((4, 4))
+    whole[:2, :2], whole[0, 2], whole[2, 3] = own * step, step, 1.0
+    grown = expm(whole)
+    F, g, k = grown[:2, :2], grown[:2, 2], grown[:2, 3]
+    denominator, closed = (
+        np.array([1.0, -np.trace(m), m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0]])
+        for m in (F, F - np.outer(g - k + F @ k, c))
     )
-    return np.ravel(numerator), denominator
+    return closed + (c @ k - 1.0) * denominator, denominator
 
 
 # Gravity from another direction: torques for unit gravity across the one the model has.

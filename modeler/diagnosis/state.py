@@ -1,7 +1,7 @@
 """The analysis at one point of the search: what is in the model so far, and what it leaves."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -308,7 +308,7 @@ class State(Brief):
     def scales(self) -> list[JointScale]:
         """What is large on each joint."""
         motion = (
-            [getattr(s, name)[s.segment.whole[:: s.every]] for s in self.rows.signals]
+            [getattr(s, name)[s.segment.whole] for s in self.rows.signals]
             for name in ("q", "v", "load")
         )
         return scales_of(self.spec, *motion)
@@ -339,21 +339,40 @@ def columns_of(rows: Rows, candidate: Candidate) -> Columns:
 
 def all_columns_of(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]:
     """The columns of many candidates: the shapes of one effect at once."""
-    found: dict[int, Columns] = {}
-    groups: dict[Any, list[int]] = {}
-    for i, candidate in enumerate(candidates):
-        if _fixed(candidate) and column_key(rows, candidate) in rows.cache:
-            found[i] = rows.cache[column_key(rows, candidate)]
-        else:
-            groups.setdefault((candidate.key, id(candidate.form)), []).append(i)
-    # Joint after joint: the slopes along the motion of one joint serve all its effects.
-    for places in sorted(groups.values(), key=lambda own: candidates[own[0]].index):
-        every = [candidates[i] for i in places]
+    found = {
+        id(c): rows.cache[key] for c in candidates
+        if _fixed(c) and (key := column_key(rows, c)) in rows.cache
+    }  # fmt: skip
+    for every in _groups([c for c in candidates if id(c) not in found]):
         made = rows.many(every) if len(every) > 1 else [rows.columns(every[0])]
-        new = zip(every, made, strict=True)
-        rows.cache.update({column_key(rows, c): own for c, own in new if _fixed(c)})
-        found |= dict(zip(places, made, strict=True))
-    return [found[i] for i in range(len(candidates))]
+        for candidate, own in zip(every, made, strict=True):
+            found[id(candidate)] = own
+            if _fixed(candidate):
+                rows.remember(column_key(rows, candidate), own)
+    return [found[id(candidate)] for candidate in candidates]
+
+
+def together(candidates: Sequence[Candidate], most: int) -> Iterator[list[Candidate]]:
+    """Candidates whose columns are made together, about so many at a time."""
+    some: list[Candidate] = []
+    for group in _groups(candidates):
+        if some and len(some) + len(group) > most:
+            yield some
+            some = []
+        some = [*some, *group]
+    if some:
+        yield some
+
+
+def _groups(candidates: Sequence[Candidate]) -> list[list[Candidate]]:
+    """The shapes of one effect on one joint.
+
+    Joint after joint: the slopes along the motion of one joint serve all its effects.
+    """
+    groups: dict[Any, list[Candidate]] = {}
+    for candidate in candidates:
+        groups.setdefault((candidate.key, id(candidate.form)), []).append(candidate)
+    return sorted(groups.values(), key=lambda own: own[0].index)
 
 
 def _fixed(candidate: Candidate) -> bool:
@@ -426,10 +445,24 @@ def analysed(
         prepared: the logs as `fitted` prepares them; None: they are.
         mending: of the same logs, where it is shared.
     """
-    prepared = prepared or prepare(compiled.spec, logs, fitted, mending)
+    look = in_band(compiled, logs, fitted, band, prepared, mending)
+    return seen_in(compiled, logs, look)
+
+
+def seen_in(compiled: "CompiledModel", logs: Sequence[Log], look: Prepared) -> Observation:
+    """The observation of logs whose band is chosen."""
+    return _whole(observed(compiled, logs, look, every_joint=True))
+
+
+def in_band(
+    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None,
+    prepared: Prepared | None = None, mending: LogRepair | None = None,
+) -> Prepared:  # fmt: skip
+    """The logs, with the band that `analysed` chooses."""
+    prepared = (prepared or prepare(compiled.spec, logs, fitted, mending)).uncommanded()
     noise = prepared.noise
     if "parallel_cutoff" not in fitted.chosen or not noise.moving:
-        return _whole(observed(compiled, logs, prepared, every_joint=True))
+        return prepared
     given = None if "position_cutoff" in fitted.chosen else fitted.position_cutoff
     asked = dataclasses.replace(
         fitted, position_cutoff=given, parallel_cutoff=None, decimation=None, edge=None
@@ -448,16 +481,15 @@ def analysed(
     found = Look(compiled, prepared).quiet(motion, given is not None)
     prepared = prepared.with_cutoffs(found.position, found.parallel)
     if any(log.check is not None for log in prepared.logs):  # in the band of the rows
-        prepared = prepare(compiled.spec, logs, prepared.processing, mending)
-    return _whole(observed(compiled, logs, prepared, every_joint=True))
+        prepared = prepare(compiled.spec, logs, prepared.processing, mending).uncommanded()
+    return prepared
 
 
 def again(
     compiled: "CompiledModel", logs: Sequence[Log], processing: ChosenProcessing
 ) -> Observation:
     """Other logs in the band of a diagnosis."""
-    prepared = prepare(compiled.spec, logs, processing)
-    return _whole(observed(compiled, logs, prepared, every_joint=True))
+    return seen_in(compiled, logs, prepare(compiled.spec, logs, processing).uncommanded())
 
 
 def cutoff(data: SearchData) -> float:

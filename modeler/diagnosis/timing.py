@@ -58,7 +58,7 @@ def _by_smooth_motion(
     """Values by instruments, whether these support the effect, and whether it is a convention."""
     found, error = instrumental(state, candidate)
     sure = bool(np.max(np.abs(found) / np.maximum(error, 1e-300)) > DELAY_T_RATIO)
-    step = float(np.median([s.segment.step for s in state.rows.signals]))
+    step = float(np.median([s.segment.logged_step for s in state.rows.signals]))
     small = abs(float(found[0])) < CONVENTION * step
     supported = sure and bool(np.sum(found * values) > 0.0)
     return found, supported, small and candidate.effect.acts is Acts.TORQUE
@@ -69,12 +69,14 @@ def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.nda
 
     theta = (Z^T X)^-1 Z^T y; errors from sums over blocks, so that coloured residuals count.
     """
-    smooth = smoothed(state)
+    smooth, cache = smoothed(state), state.rows.cache
+    if "smooth columns" not in cache:
+        cache["smooth columns"] = base_columns(smooth.blocks, smooth.signals)
     own, other = state.rows.columns(candidate), smooth.columns(candidate)
     extra = (*picked_columns(smooth, state.picks), other)
     X, Z = [], []
     for j, sigma in enumerate(state.sigma):
-        W, base = state.W[j], smooth.W[j][:, state.data.free]
+        W, base = state.W[j], cache["smooth columns"][j][:, state.data.free]
         X.append(np.hstack([W, dense(own, j, len(W))]) / sigma)
         Z.append(np.hstack([base, *(dense(columns, j, len(W)) for columns in extra)]) / sigma)
     return _solve(state, X, Z, width(own))
@@ -108,17 +110,17 @@ def _solve(
 
 
 def smoothed(state: State) -> Rows:
-    """The same rows of the motion without the noise of its sensors: smoothed to 3 of its bands."""
+    """The same rows of the motion without the noise of its sensors: smoothed to 3 of its bands.
+
+    Its base columns are not there.
+    """
     known, cache, key = state.rows.known, state.rows.cache, "smooth motion"
     if key not in cache:
         cutoff = 3.0 * max(SLOWEST, state.data.observation.report.band)  # Hz
-        moved = tuple(_smooth(s, cutoff) for s in state.rows.signals)
-        # the same for all states, and so are its base columns
-        cache[key] = moved, base_columns(state.rows.blocks, moved)
+        cache[key] = tuple(_smooth(s, cutoff) for s in state.rows.signals)  # of all states
     if key not in known:
-        moved, W = cache[key]
-        signals = tuple(dataclasses.replace(s, reference=state.reference) for s in moved)
-        known[key] = dataclasses.replace(state.rows, W=W, signals=signals, known={}, cache={})
+        signals = tuple(dataclasses.replace(s, reference=state.reference) for s in cache[key])
+        known[key] = dataclasses.replace(state.rows, W=(), signals=signals, known={}, cache={})
     return cast(Rows, known[key])
 
 

@@ -50,6 +50,7 @@ from .payload import (
     Payload as Payload,
     identify_with_payloads as identify_with_payloads,
     loaded_equations as loaded_equations,
+    with_load as with_load,
 )
 from .prior import (
     Prior as Prior,

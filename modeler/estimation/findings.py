@@ -13,15 +13,15 @@ itself, a fault that raises the sum by no more is one that these logs cannot sho
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, cached_property, partial
-from itertools import chain, combinations
+from functools import cached_property, partial
+from itertools import combinations
 
 import numpy as np
 
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
 from modeler.observation import Doubt, Observation, ThinnedRows, Turn, clocks, thinned, turns, zero
-from modeler.runtime import CompiledModel
+from modeler.runtime import CompiledModel, mapped
 
 HALF = 0.5
 """Share of its error that a fault, undone, leaves of a joint: physics that a model lacks
@@ -270,11 +270,9 @@ def _by_prediction(
 
 def _explained(seen: Evidence) -> Hypothesis | None:
     """The hypothesis that explains most, with those that do as well in its words."""
-    found = [
-        (score, one)
-        for one in chain(_torques(seen), _motions(seen))
-        if (score := _lowered(seen, one)) >= one.least
-    ]
+    tried = [*_torques(seen), *_motions(seen)]
+    scores = mapped(partial(_lowered, seen), tried)
+    found = [(score, one) for score, one in zip(scores, tried, strict=True) if score >= one.least]
     if not found:
         return None
     most = max(score for score, _ in found)
@@ -397,8 +395,7 @@ def _motions(seen: Evidence) -> Iterator[Hypothesis]:
     """Positions in other units, reversed, exchanged, from another zero; what comes late."""
     tried = [*clocks(seen.observation)] if seen.grave else []
     tried += turns(seen.observation, zeros_only=not seen.grave) if seen.tree else []
-    for turn in tried:
-        turned = _turned(seen, turn)
+    for turn, turned in zip(tried, mapped(partial(_turned, seen), tried), strict=True):
         if turned is not None:
             yield Hypothesis(Doubt(turn.line, True), turned)
     if seen.judge.beta is None:
@@ -423,8 +420,8 @@ _SHOWN = 0.02  # s; from what it does that of other delays is taken: it grows wi
 _NEAR = 5e-3  # s between the motions of which a slope is taken
 _STEPS = 4  # of Gauss and Newton
 _HINT = 0.2  # of the sum of logarithms; what a small part of a shift explains at least
-Columns = Callable[[float], np.ndarray]
-"""(m, n, c) columns with a channel taken some seconds later."""
+Columns = Callable[[float, np.ndarray | None], np.ndarray]
+"""(m, n, c) columns with a channel taken some seconds later; with beta (c,) torques (m, n)."""
 
 
 @dataclass(frozen=True)
@@ -452,8 +449,9 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
     Gauss and Newton.
     """
     step = float(np.median([part.segment.step for part in seen.observation.stretches]))
-    for channel in _channels(seen):
-        shift, data = _best_shift(seen, channel.columns)
+    channels = _channels(seen)
+    shifts = mapped(partial(_best_shift, seen), [channel.columns for channel in channels])
+    for channel, (shift, data) in zip(channels, shifts, strict=True):
         way, back = ("late", "early") if channel.sign * shift > 0.0 else ("early", "late")
         line = (
             f"{channel.what} {1e3 * abs(shift):.0f} ms {way}, by a fit at other times (or "
@@ -483,25 +481,42 @@ def _best_shift(seen: Evidence, columns: Columns) -> tuple[float, Products]:
     def left(data: Products) -> float:
         return _score(judge.errors(data, possible=False))
 
-    tried = [(left(seen.data), 0.0, rows.W)]
-    if seen.grave:
-        tried += [(left(data_of(W := columns(start))), start, W) for start in _STARTS]
-    least, shift, W = min(tried, key=lambda one: one[0])
+    least, shift, W, data = left(seen.data), 0.0, rows.W, seen.data
+    for start in _STARTS if seen.grave else ():
+        other = data_of(moved := columns(start, None))
+        if (score := left(other)) < least:
+            least, shift, W, data = score, start, moved, other
     for _ in range(_STEPS):
-        beta, _ = judge.solved(data_of(W))
+        beta, _ = judge.solved(data)
         near = 0.5 * _NEAR  # both sides alike: columns of other times have samples of their own
-        slope = (columns(shift + near) - columns(shift - near)) @ beta / _NEAR
-        both = data_of(np.concatenate([W, slope[..., None]], axis=2))
+        slope = (columns(shift + near, beta) - columns(shift - near, beta)) / _NEAR
+        both = _bordered(data, seen, W, slope)
         found, _ = judge.solved(both)
         if shift == 0.0 and _score(both.left(found)) > least - _HINT:
             break
         further = float(np.clip(shift + found[-1], -LONGEST, LONGEST))
-        closer = columns(further)
-        reached = left(data_of(closer))
+        closer = columns(further, None)
+        reached = left(other := data_of(closer))
         if reached >= least:
             break
-        shift, W, least = further, closer, reached
-    return shift, data_of(W)
+        shift, W, data, least = further, closer, other, reached
+    return shift, data
+
+
+def _bordered(data: Products, seen: Evidence, W: np.ndarray, column: np.ndarray) -> Products:
+    """Of rows W (m, n, c), whose products are there, with a column (m, n) more."""
+    joints, used = list(seen.joints), seen.rows.used
+    y, z = (np.where(used, x, 0.0)[:, joints] for x in (seen.rows.tau, column))
+    length = np.maximum(np.linalg.norm(y, axis=0), 1e-300)
+    counted = (np.where(used[:, j, None], W[:, j], 0.0) for j in joints)
+    beside = np.stack([own @ w for own, w in zip(z.T, counted, strict=True)])
+    beside /= length[:, None] ** 2
+    own = np.sum(z**2, axis=0) / length**2
+    sides = np.concatenate([beside, own[:, None]], axis=1)
+    gram = np.concatenate([data.gram, beside[:, :, None]], axis=2)
+    gram = np.concatenate([gram, sides[:, None]], axis=1)
+    cross = np.column_stack([data.cross, np.sum(z * y, axis=0) / length**2])
+    return Products(gram, cross)
 
 
 def _channels(seen: Evidence) -> list[_Channel]:
@@ -509,22 +524,26 @@ def _channels(seen: Evidence) -> list[_Channel]:
     n = len(seen.observation.joints)
     compiled, rows = seen.compiled, seen.rows
 
-    @cache
-    def all_later(shift: float) -> np.ndarray:
-        return rows.shifted(compiled, np.full(n, shift))
+    kept: dict[float, np.ndarray] = {}  # columns of all, which every torque by itself needs
 
-    def torque_earlier(j: int, shift: float) -> np.ndarray:
-        W = rows.W.copy()
-        W[:, j] = all_later(shift)[:, j]
-        return W
+    def all_later(shift: float, beta: np.ndarray | None) -> np.ndarray:
+        if beta is not None or shift not in kept:
+            found = rows.shifted(compiled, np.full(n, shift), beta)
+            return found if beta is not None else kept.setdefault(shift, found)
+        return kept[shift]
 
-    def one_later(j: int, shift: float) -> np.ndarray:
-        return rows.shifted(compiled, shift * np.eye(n)[j])
+    def torque_earlier(j: int, shift: float, beta: np.ndarray | None) -> np.ndarray:
+        found = (rows.W if beta is None else rows.W @ beta).copy()
+        found[:, j] = all_later(shift, beta)[:, j]
+        return found
 
-    def both_later(j: int, shift: float) -> np.ndarray:
-        W = one_later(j, shift)
-        W[:, j] = rows.shifted(compiled, shift * (np.eye(n)[j] - 1.0))[:, j]
-        return W
+    def one_later(j: int, shift: float, beta: np.ndarray | None) -> np.ndarray:
+        return rows.shifted(compiled, shift * np.eye(n)[j], beta)
+
+    def both_later(j: int, shift: float, beta: np.ndarray | None) -> np.ndarray:
+        found = one_later(j, shift, beta)
+        found[:, j] = rows.shifted(compiled, shift * (np.eye(n)[j] - 1.0), beta)[:, j]
+        return found
 
     found = [_Channel("all torques come", "the positions", -1.0, all_later)]
     if not seen.tree or len(seen.joints) == 1:

@@ -73,10 +73,14 @@ class Equations:
             units=(*self.units, *("1" for _ in names)),
         )
 
-    def compressed(self, counted: np.ndarray) -> Compressed:
-        """Some rows, compressed."""
+    def compressed(self, counted: np.ndarray, weight: np.ndarray | None = None) -> Compressed:
+        """Some rows, compressed; each with its weight (rows,), if that is given."""
         joints, own = self.observation.joints, self.observation.row_joint[counted]
         free = [j for j, joint in enumerate(joints) if not joint.actuated]
+        if weight is not None:
+            root = np.sqrt(weight[counted])
+            W, y = self.W[counted] * root[:, None], self.y[counted] * root
+            return compress(W, y, own, len(joints), self.names, free)
         if (W := self.kept) is None:
             found = triangles(self.observation, kept_rows(self.observation, counted))
             rows, idle = found.rows.astype(np.intp), np.isin(np.arange(len(joints)), free)
@@ -159,7 +163,7 @@ def fit_equations(
     if not noise_only:
         lasting = np.zeros(len(observation.joints)) if windows else colour.lasting
         differ = halves(  # windows tell a difference by so much less surely than all rows
-            observation, equations.compressed, alive, estimate,
+            observation, lambda rows: equations.compressed(rows, estimate.weight), alive, estimate,
             colour.factors * white / share**0.5, lasting, equations.conditions(alive).get("loaded"),
         )  # fmt: skip
     told = differ.doubts(equations.names, [joint.name for joint in observation.joints])

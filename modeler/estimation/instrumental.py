@@ -200,7 +200,7 @@ def didim_robust(problem: Problem) -> Estimate:
 
 
 def didim_consistent(problem: Problem) -> Estimate:
-    """`didim` whose steps are machines that could be built: each of them can be simulated."""
+    """`didim` whose steps are machines that could be built: their inertia matrices are such."""
     return didim(problem, "didim-consistent", buildable)
 
 
@@ -212,18 +212,17 @@ def _along(problem: Problem, W: np.ndarray, solve: Callable[[Problem], Estimate]
         len(problem.data.rows), problem.names, free.tolist(),
     )  # fmt: skip
     found = solve(dataclasses.replace(problem, given=W, data=data))
-    left, pull = problem.y - W @ found.beta, found.pull
-    residual = left if found.residual is None else found.residual
+    pull = found.pull
     if pull is None:
-        weight = np.where(counted, 1.0 / found.sigma[problem.joint] ** 2, 0.0)
-        pull = (W @ found.covariance) * weight[:, None]
-    weight = np.divide(residual, left, out=np.ones(len(left)), where=left != 0.0)
+        pull = np.where(counted[:, None], W @ found.covariance, 0.0)
+        pull /= found.sigma[problem.joint][:, None] ** 2
+    weight = 1.0 if found.weight is None else found.weight
     shift = pull.T @ (weight * ((W - problem.W) @ found.beta))
     return dataclasses.replace(
         found,
         covariance=found.covariance + np.outer(shift, shift),
         pull=pull,
-        residual=residual,
+        residual=problem.y - W @ found.beta if found.residual is None else found.residual,
         whole=data.whole(found.sigma) if found.whole is None else found.whole,
     )
 
@@ -241,7 +240,7 @@ def _repeated(
     first: Callable[[Problem], Estimate],
     estimate: Callable[[np.ndarray], Estimate],
 ) -> Estimate:
-    """From the first estimate on: simulate, estimate, until the step is small beside the standard deviations."""
+    """Simulate, estimate, from the first on, until the step is small beside the sigmas."""
     model = problem.robot(method)
     idle = [joint.name for joint in model.spec.joints if not joint.actuated]
     if idle:
@@ -323,8 +322,8 @@ def _sentences(
     if robot.raised > 0.0:
         light = problem.observation.joints[robot.lightest].name
         said.append(
-            f"the fitted inertia matrix is not positive definite in {percent(robot.raised)} of "
-            f"the postures, most at joint {light}: it was raised for the simulation; record "
-            "more motion, or leave out parameters that are not essential"
+            "the fitted inertia matrix is nearly singular or not positive definite in "
+            f"{percent(robot.raised)} of the postures, most at joint {light}: it was raised for "
+            "the simulation; record more motion, or leave out parameters that are not essential"
         )
     return said

@@ -173,6 +173,7 @@ class Estimate:
             that were not fitted; None for least squares over W.
         residual: (rows,) what was left of each row, N m or N, weighed as the estimator does; None:
             y - W beta.
+        weight: (rows,) of the rows, 1 where they fit, of an estimator that weighs each; None: 1.
         whole: (c + 1, c + 1) triangle of the weighted equations whose least squares this is; None
             for those of the data with weights 1/sigma.
         standard: all standard parameters by name, SI, where the estimator ends in them.
@@ -194,6 +195,7 @@ class Estimate:
     bread: np.ndarray | None = None
     pull: np.ndarray | None = None
     residual: np.ndarray | None = None
+    weight: np.ndarray | None = None
     whole: np.ndarray | None = None
     standard: Mapping[str, float] = field(default_factory=dict)
     share: np.ndarray | None = None

@@ -3,11 +3,14 @@
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
 from modeler.core.errors import DataError, Method
+from modeler.core.manifest import ModuleSpec
 from modeler.estimation.identify import Equations, base_equations, fit_equations
+from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.result import FitResult
 from modeler.numerics.least_squares import column_lengths, scaled_least_squares, triangle
 from modeler.observation import Observation, Segment, signals_of
@@ -18,6 +21,8 @@ _ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
 
 _TOLERANCE = 1e-8  # what is left of a column, as a share of its length, counts as zero
 
+
+AnyModel = TypeVar("AnyModel", bound=IdentifiedModel)
 
 LARGEST_MASS = 1e6
 """kg. Nothing that a robot carries weighs more."""
@@ -117,12 +122,7 @@ def _with_load(
     equations: Equations, model: CompiledModel, observation: Observation, payload: Payload
 ) -> Equations:
     """The equations with the columns of a load that can be told apart, beside those there are."""
-    # The platform of a parallel robot, whose joints are the coordinates only, or the last link.
-    closure = model.spec.closure
-    last = (
-        model.spec.joints[-1].name if closure is None else closure.carrier or closure.variables[-1]
-    )
-    link = payload.link or last
+    link = payload.link or carrier(model.spec)
     place = {p.name: i for i, p in enumerate(model.spec.standard) if p.effect == "rigid_body"}
     labels = [label for label in _ORDER if f"{label}{link}" in place]
     places = [place[f"{label}{link}"] for label in labels]
@@ -154,6 +154,54 @@ def _with_load(
         sentences=(*equations.sentences, *remarks),
         carried=(*equations.carried, *payload.logs),
     )
+
+
+def carrier(spec: ModuleSpec) -> str:
+    """The link that carries loads: the platform of a parallel robot, or the last one."""
+    closure = spec.closure  # whose joints are the coordinates only
+    return spec.joints[-1].name if closure is None else closure.carrier or closure.variables[-1]
+
+
+def with_load(
+    model: AnyModel, mass: float, centre: Sequence[float] = (0.0, 0.0, 0.0), link: str | None = None
+) -> AnyModel:
+    """The model of the robot with a load that is known: beta + K d(chi).
+
+    A mass m at c of a link's frame adds m to M, m c to MX, MY, MZ and m (c'c 1 - c c') to the
+    inertia of the link; the base parameters that these are grouped with change by as much.
+
+    Args:
+        model: of the bare robot.
+        mass: of the load, kg.
+        centre: of its mass, m, in the frame of the link.
+        link: row of the table; None: the platform, or the last joint's link.
+
+    Raises:
+        DataError: no such link, or a load that can be none.
+    """
+    place = link or carrier(model.spec)
+    links = {p.joint: None for p in model.spec.standard if p.effect == "rigid_body"}
+    if place not in links:
+        raise DataError(
+            f"payload: no link {place}; {model.spec.robot} has {', '.join(sorted(links))}"
+        )
+    c = np.asarray(centre, dtype=float)
+    if not 0.0 < mass <= LARGEST_MASS or c.shape != (3,) or not np.all(np.isfinite(c)):
+        raise DataError(
+            f"payload: got {mass:g} kg at {', '.join(f'{x:g}' for x in c.ravel())}; expected a "
+            f"mass above 0 and at most {LARGEST_MASS:g}, and x, y, z of its centre in m"
+        )
+    J = mass * (c @ c * np.eye(3) - np.outer(c, c))
+    added = {"M": mass, **dict(zip(("MX", "MY", "MZ"), mass * c, strict=True))}
+    added |= {f"{a}{b}": J[i, k] for i, a in enumerate("XYZ") for k, b in enumerate("XYZ")}
+    named = {f"{label}{place}": value for label, value in added.items()}
+    fit = model.fit
+    loaded = [
+        dataclasses.replace(p, value=p.value + sum(t.value * named.get(t.parameter, 0.0)
+                                                   for t in base.terms))
+        for p, base in zip(fit.parameters, model.spec.base, strict=True)
+    ]  # fmt: skip
+    return dataclasses.replace(model, fit=dataclasses.replace(fit, parameters=tuple(loaded)))
 
 
 def _check(model: CompiledModel, observation: Observation, payloads: Sequence[Payload]) -> None:

@@ -42,8 +42,8 @@ def robust(problem: Problem) -> Estimate:
     settled = fit.settle(_huber, driven, least_sigma(data)) and fit.settle(_tukey)
     own, pull, kept_residual = fit.sandwich()
     beta, covariance = placed(len(data.names), kept, fit.beta, own)
-    residual = np.zeros(len(problem.y))
-    residual[problem.counted] = kept_residual
+    residual, weight = np.zeros((2, len(problem.y)))
+    residual[problem.counted], weight[problem.counted] = kept_residual, fit.weight
     rows = np.column_stack([W, y]) * (np.sqrt(fit.weight) / fit.sigma[joint])[:, None]
     return dataclasses.replace(
         start,
@@ -55,6 +55,7 @@ def robust(problem: Problem) -> Estimate:
         sentences=_sentences(problem, fit.weight, joint),
         pull=problem.scattered(kept, pull),
         residual=residual,
+        weight=weight,
         whole=triangle(rows),
     )
 

@@ -304,13 +304,10 @@ def _motor_torques(model: SymbolicModel) -> dict[int, Along]:
     if model.robot.relations or not all(rows[k].joint.angular for k in moving):
         return {}
     for k in moving:
+        chain = [row for row in model.geometry.ancestors(k) if row in moving]
         tau = model.graph.symbol(f"tau{rows[k].joint.name}") * rows[k].rate
-        before = rows[k].parent
-        while before is not None and rows[before].index is None:
-            before = rows[before].parent
-        for row, torque in ((k, tau), (before, -tau)):
-            if row is not None:
-                found[row] = {**found.get(row, {}), (k, 2): torque}
+        for row, torque in zip(chain[:2], (tau, -tau), strict=False):
+            found[row] = {**found.get(row, {}), (k, 2): torque}
     return found
 
 
@@ -340,21 +337,18 @@ def _sum(a: Along, b: Along) -> Along:
 
 def _triads(model: SymbolicModel) -> dict[tuple[int, int], tuple[int, str]]:
     """{(row, -1 for frame 0; axis): (sign, how the unit vector is written)}."""
-    given, found = model.robot.terms.get("triads", {}), {}
+    given: Any = model.robot.terms.get("triads", {})
+    found = {}
     for k, name in enumerate(["0", *(row.joint.name for row in model.geometry.rows)], -1):
-        axes = [f"{letter}{name}" for letter in "xyz"]
-        if isinstance(given, dict) and name in given:
-            axes = given[name]
-        if not (isinstance(axes, list) and re.fullmatch(r"(-?[A-Za-z]+\w+,){3}", _listed(axes))):
+        axes = given.get(name) if isinstance(given, dict) else given
+        listed = axes if isinstance(axes, list) else [] if axes else [f"{x}_{name}" for x in "xyz"]
+        written = [re.fullmatch(r"(-?)([A-Za-z]+?)_?(\d\w*|(?<=_)\w+)", str(x)) for x in listed]
+        read = [match.groups() for match in written if match is not None]
+        if len(read) != len(listed) or len(read) != 3:
             raise RobotError(
                 f"robot {model.robot.name}, [terms], triads, {name}: got {axes!r}; expected three "
                 'axes such as ["a3", "-a2", "a1"]'
             )
-        for i, axis in enumerate(axes):
-            written = re.sub(r"-?([A-Za-z]+)_?", r"\1_", axis, count=1)
-            found[k, i] = (-1 if axis[0] == "-" else 1, written)
+        for i, (sign, letter, index) in enumerate(read):
+            found[k, i] = (-1 if sign else 1, f"{letter}_{index}")
     return found
-
-
-def _listed(axes: list[object]) -> str:
-    return "".join(f"{axis}," for axis in axes)

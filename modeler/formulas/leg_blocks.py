@@ -11,7 +11,7 @@ J_p^T W_P = D_P. Equal power carries torques of a leg to the platform and from t
 F^T qd_i = G^T V = G^T J_p Ld for all V, so G = J_i^-T F and tau = J_p^T G.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -139,20 +139,20 @@ def leg_blocks(model: SymbolicModel, base: BaseParameters, writer: SheetWriter) 
     V, motors = [names[p] for p in closure.platform], [names[a] for a in closure.given]
     legs, blocks = connected(closure, closure.platform, len(names)), list[LegBlock]()
     rates: dict[int, list[Expr]] = {}
-    short = _Fractions([entry for line in closure.jacobian for entry in line])
+    values, written = _fractions([entry for line in closure.jacobian for entry in line])
     for k, (equations, unknown) in enumerate(legs, 1):
         if not 0 < len(unknown) <= SOLVED:
             raise RobotError(
                 f"--blocks: leg {k} of {robot.name} has {len(unknown)} unknown speeds where the "
                 f"platform is given; expected {SOLVED} at most; leave --blocks out"
             )
-        B, A = ([[short(closure.jacobian[r][u]) for u in at] for r in equations]
+        B, A = ([[values[closure.jacobian[r][u].ref] for u in at] for r in equations]
                 for at in (unknown, closure.platform))  # fmt: skip
         cofactors = [[cofactor(B, i, j) for j in range(len(B))] for i in range(len(B))]
         size = along_row(B[0], cofactors[0])
         for j, u in enumerate(unknown):
             line = [row[j] for row in cofactors]
-            rates[u] = [short.written(-along_row(line, [a[p] for a in A]) / size)
+            rates[u] = [written(-along_row(line, [a[p] for a in A]) / size)
                         for p in range(len(V))]  # fmt: skip
         told = f"eq. (2), qd{k} = J{k}^-1 V"
         rows = [rates[u] for u in unknown]
@@ -208,42 +208,36 @@ def _columns(
     return [one for one in found if one.columns]
 
 
-class _Fractions:
-    """Expressions as rational functions of sines, cosines and letters; (1 - c^2) for s^2."""
+def _fractions(expressions: Sequence[Expr]) -> tuple[dict[int, Any], Callable[[Any], Expr]]:
+    """{reference: rational function of sines, cosines and letters}, and the way back.
 
-    def __init__(self, expressions: Sequence[Expr]) -> None:
-        self._graph = graph = expressions[0].graph
-        self._values: dict[int, Any] = {0: QQ(0)}
-        reached = graph.reachable(expressions)
-        atoms = [n for n in reached if graph.nodes[n].op not in ("num", "add", "mul", "div")]
-        self._field, *letters = field([f"x{n}" for n in atoms], QQ)
-        self._letters, place = [Expr(graph, n) for n in atoms], {n: k for k, n in enumerate(atoms)}
-        pairs = {(graph.nodes[n].op, graph.nodes[n].args): k for n, k in place.items()}
-        self._squares = {
-            k: 1 - self._field.ring.gens[pairs["cos", args]] ** 2
-            for (op, args), k in pairs.items() if op == "sin" and ("cos", args) in pairs
-        }  # fmt: skip
-        for n in reached:
-            op, args = graph.nodes[n].op, graph.nodes[n].args
-            if n in place:
-                self._values[n] = letters[place[n]]
-            elif op == "num":
-                self._values[n] = self._field(QQ(args[0].numerator, args[0].denominator))
-            else:
-                self._values[n] = OPERATIONS[op](*(self._at(ref) for ref in args))
+    There and back sin^2 becomes 1 - cos^2, and common factors are gone.
+    """
+    graph = expressions[0].graph
+    reached = graph.reachable(expressions)
+    atoms = [n for n in reached if graph.nodes[n].op not in ("num", *OPERATIONS)]
+    functions, *letters = field([f"x{n}" for n in atoms], QQ)
+    values: dict[int, Any] = {0: functions(0), **dict(zip(atoms, letters, strict=True))}
+    place = {(graph.nodes[n].op, graph.nodes[n].args): k for k, n in enumerate(atoms)}
+    squares = {
+        k: 1 - functions.ring.gens[place["cos", args]] ** 2
+        for (op, args), k in place.items()
+        if op == "sin" and ("cos", args) in place
+    }
+    for n in reached:
+        op, args = graph.nodes[n].op, graph.nodes[n].args
+        if op == "num":
+            values[n] = functions(QQ(args[0].numerator, args[0].denominator))
+        elif n not in values:
+            values[n] = OPERATIONS[op](*(values[ref] for ref in args))
+        values[-n] = -values[n]
 
-    def _at(self, ref: int) -> Any:
-        return self._values[ref] if ref >= 0 else -self._values[-ref]
-
-    def __call__(self, expression: Expr) -> Any:
-        return self._field(0) + self._at(expression.ref)
-
-    def written(self, value: Any) -> Expr:
-        """The function as an expression, without common factors."""
+    def written(value: Any) -> Expr:
         parts = [value.numer, value.denom]
-        for place, square in self._squares.items():
-            parts = [with_square(part, place, square) for part in parts]
-        found = self._field(parts[0]) / self._field(parts[1])
-        above, below = (self._graph.constant(0) + poly_value(part, self._letters)
-                        for part in (found.numer, found.denom))  # fmt: skip
-        return above / below
+        for k, square in squares.items():
+            parts = [with_square(part, k, square) for part in parts]
+        found, known = functions(parts[0]) / functions(parts[1]), [Expr(graph, n) for n in atoms]
+        above, below = (poly_value(part, known) for part in (found.numer, found.denom))
+        return (graph.constant(0) + above) / below
+
+    return values, written

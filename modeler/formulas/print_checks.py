@@ -13,12 +13,11 @@ from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression
-from modeler.derivation import SymbolicModel, as_fraction, linear_relations, poses, screws
+from modeler.derivation import as_fraction, linear_relations
 from modeler.formulas.closed_form import Exponents, function_name
 from modeler.formulas.coefficients import CoefficientTable, vector_of
 from modeler.formulas.ring import (
     Poly,
-    TrigRing,
     combination_of,
     generators_of,
     number,
@@ -295,28 +294,6 @@ def check_twin(table: CoefficientTable) -> TwinCheck:
     )
     changed = tuple(name for name in second if second[name] != first.get(name))
     return TwinCheck(len(table.coefficients) - len(different), different, changed)
-
-
-def projected_motor_torques(model: SymbolicModel) -> list[str]:
-    """Generalised forces if every motor torque acted on its own link only, without reaction.
-
-    F_i = sum_j tau_j (z_j . w_i(j)), w_i(j) the angular velocity of link j for unit speed of joint
-    i; with the reactions on the links below it would be F_i = tau_i.
-    """
-    algebra = TrigRing(model.geometry)
-    carried = screws(model.geometry, poses(model.geometry, algebra), algebra)
-    forces: list[list[str]] = [[] for _ in range(model.geometry.joints)]
-    for row, links in zip(model.geometry.rows, carried, strict=True):
-        if row.index is None:
-            continue
-        tau = f"tau{row.joint.name}"
-        for i, screw in sorted(links.items()):
-            along = (screw.e if row.joint.angular else screw.m)[2] * row.rate
-            if along:
-                text = polynomial_text(along, algebra.names)
-                text = f"({text})" if len(along) > 1 else text
-                forces[i].append(tau if text == "1" else f"{text}*{tau}")
-    return [" + ".join(parts) or "0" for parts in forces]
 
 
 # The power balance at one exact state: the law that exposes a wrong Christoffel coefficient.

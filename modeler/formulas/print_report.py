@@ -17,7 +17,6 @@ from modeler.formulas.print_checks import (
     exact_state,
     example_values,
     power_balance,
-    projected_motor_torques,
     wrong_definitions,
     wrong_functions,
 )
@@ -68,7 +67,7 @@ def _signs(values: np.ndarray) -> np.ndarray:
     return (values > 0).astype(int) - (values < 0).astype(int)
 
 
-def print_sections(model: SymbolicModel, table: CoefficientTable) -> list[str]:
+def print_sections(table: CoefficientTable) -> list[str]:
     """Sections of the page about the print; none if the robot file quotes none."""
     printed = table.printed
     quoted = (printed.functions, printed.definitions, printed.solutions, printed.independent)
@@ -81,7 +80,6 @@ def print_sections(model: SymbolicModel, table: CoefficientTable) -> list[str]:
         _function_section(table),
         _solutions(table),
         _vanishing(table),
-        _forces(model),
     ]
     if printed.coupling is not None:
         sections.append(_friction(printed.coupling))
@@ -205,32 +203,6 @@ def _vanishing(table: CoefficientTable) -> str:
     return "\n".join([*lines, ""])
 
 
-def _forces(model: SymbolicModel) -> str:
-    forces = projected_motor_torques(model)
-    if all(
-        text == f"tau{joint.name}" for text, joint in zip(forces, model.robot.moving, strict=True)
-    ):
-        return ""
-    return "\n".join(
-        [
-            "### Reactions of the motors",
-            "",
-            "If every motor torque acted on its own link without reaction on the one below, the "
-            "generalised forces would be",
-            "",
-            "```text",
-            *(
-                f"F{joint.name} = {text}"
-                for joint, text in zip(model.robot.moving, forces, strict=True)
-            ),
-            "```",
-            "",
-            "With the reactions they are the motor torques themselves.",
-            "",
-        ]
-    )
-
-
 def _friction(coupling: Coupling) -> str:
     check = check_friction(coupling)
 
@@ -290,7 +262,7 @@ def terms_report(model: SymbolicModel, base: BaseParameters) -> str:
     """
     table = coefficient_table(model, base)
     parts = [_head(table), _functions(table), _relations(model, table), _map(table)]
-    parts += print_sections(model, table)
+    parts += print_sections(table)
     parts.append("## All coefficients\n\n" + coefficients_markdown(table))
     return "\n".join(parts)
 

@@ -10,9 +10,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, BinaryIO
 
+import lazy_loader
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
 import pyarrow.csv
 import pyarrow.parquet
 
@@ -22,6 +22,8 @@ from modeler.logs.clock_times import counted, is_beyond, is_moment, origins_of, 
 from modeler.logs.columns import Columns, ColumnValues, NotNumbers, Wanted, unreadable
 from modeler.logs.datasets import Dataset, dataset_of, flattened, needed_columns, one_clock
 from modeler.logs.dialect import TEXTS, bare, dialect_of
+
+pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
 _UNEVEN = re.compile(r"Row #(\d+): Expected (\d+) columns, got (\d+): (.*)", re.DOTALL)
 """What Arrow says of a row; it counts the header."""
@@ -77,7 +79,9 @@ class _Arrow:
                         "entry empty if the measurement is missing"
                     ) from None
             raise NotNumbers(f" holds {kind}; expected numbers; write the column as floating point")
-        column = pc.cast(self.column, pa.float64(), safe=False)
+        column = self.column
+        if column.type != pa.float64():
+            column = pc.cast(column, pa.float64(), safe=False)
         first = self.origin or 0  # of whole numbers, some of which are floats here
         if column.null_count or not column.num_chunks:
             return np.array(column.to_numpy(), dtype=float) - first

@@ -2,12 +2,15 @@
 
 import re
 from collections.abc import Mapping
+from typing import Any
 
+import lazy_loader
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
 
 from modeler.logs.columns import NotNumbers
+
+pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
 _PATTERN = (
     r"^\s*(?:(?P<y>\d{4})[-/.](?P<m>\d{1,2})[-/.](?P<d>\d{1,2})"

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import lazy_loader
 import pyarrow as pa
-import pyarrow.compute as pc
 
 from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.core.json import JsonError, parse_json
+
+pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
 INFO = "meta/info.json"
 _FOLDERS = 4  # data/chunk-000/ and what may stand between

@@ -1,5 +1,6 @@
 """The parallel filter: one weighted mean for the torque and for every column of W."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -178,21 +179,32 @@ def _once(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:
     start = values[0].copy()
     y = np.asfortranarray(values - start)
     K = np.tan(np.pi * cutoff * step)
-    diagonals = np.ones((3, len(values)), order="F")
     for angle in _ANGLES:
         damping = 2.0 * K * np.cos(angle)
         whole = 1.0 + damping + K * K
-        diagonals[1] = 2.0 * (K * K - 1.0) / whole
-        diagonals[2] = (1.0 - damping + K * K) / whole
-        y, info = dtbtrs(diagonals, _driven(y, K * K / whole), uplo="L", diag="U", overwrite_b=1)
-        assert info == 0
+        driven = _driven(y, (1.0, 2.0, 1.0))
+        driven *= K * K / whole
+        y = _answered(driven, 2.0 * (K * K - 1.0) / whole, (1.0 - damping + K * K) / whole)
     return np.asarray(y + start)
 
 
-def _driven(x: np.ndarray, b: float) -> np.ndarray:
-    """b (x(n) + 2 x(n-1) + x(n-2)), 0 before the first."""
-    total = x.copy(order="F")
-    total[1:] += 2.0 * x[:-1]
-    total[2:] += x[:-2]
-    total *= b
+def recursion(x: np.ndarray, b: np.ndarray, a: np.ndarray) -> np.ndarray:
+    """y (n,) of y(n) + a1 y(n-1) + a2 y(n-2) = b0 x(n) + b1 x(n-1) + b2 x(n-2), 0 before x (n,)."""
+    return np.asarray(_answered(_driven(x[:, None], b), a[1], a[2])[:, 0])
+
+
+def _answered(driven: np.ndarray, a1: float, a2: float) -> np.ndarray:
+    """y (n, k) of y(n) + a1 y(n-1) + a2 y(n-2) = driven (n, k), which is overwritten."""
+    diagonals = np.ones((3, len(driven)), order="F")
+    diagonals[1], diagonals[2] = a1, a2
+    y, info = dtbtrs(diagonals, driven, uplo="L", diag="U", overwrite_b=1)
+    assert info == 0
+    return np.asarray(y)
+
+
+def _driven(x: np.ndarray, b: Sequence[float] | np.ndarray) -> np.ndarray:
+    """b0 x(n) + b1 x(n-1) + b2 x(n-2), 0 before the first."""
+    total = np.asfortranarray(b[0] * x) if b[0] != 1.0 else x.copy(order="F")
+    total[1:] += b[1] * x[:-1]
+    total[2:] += b[2] * x[:-2] if b[2] != 1.0 else x[:-2]
     return total

@@ -276,8 +276,17 @@ class Reduction(Brief):
 
 def reduction(W: Sequence[np.ndarray], y: Sequence[np.ndarray]) -> Reduction:
     """Of the rows of every joint."""
-    every = [np.linalg.qr(np.column_stack([w, t])) for w, t in zip(W, y, strict=True)]
+    every = [_reduced(w, t) for w, t in zip(W, y, strict=True)]
     return Reduction(tuple(Q for Q, _ in every), tuple(R for _, R in every))
+
+
+def _reduced(W: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Q and R of [W y]; columns that are 0 throughout, those of other joints, take no part."""
+    seen = np.append(W.any(axis=0), True)
+    Q, R = np.linalg.qr(np.column_stack([W[:, seen[:-1]], y]))
+    whole = np.zeros((len(R), len(seen)))
+    whole[:, seen] = R
+    return Q, whole
 
 
 def _beside(Q: np.ndarray, parts: Sequence[np.ndarray | None], sizes: Sequence[int]) -> np.ndarray:

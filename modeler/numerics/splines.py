@@ -1,6 +1,6 @@
 """Smooth functions of all that was measured: how well do they predict a residual?"""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import combinations_with_replacement
 
@@ -41,7 +41,9 @@ class Flexible:
         return self.share > MIN_T_RATIO * self.sigma
 
 
-def flexible(sets: Mapping[str, np.ndarray], residual: np.ndarray, fold: np.ndarray) -> Flexible:
+def flexible(
+    sets: Iterable[tuple[str, np.ndarray]], residual: np.ndarray, fold: np.ndarray
+) -> Flexible:
     """The residual as predicted by sets of functions where they were not fitted.
 
     Each set is fitted by ridge regression; the sets and their ridges are added with weights that
@@ -51,22 +53,22 @@ def flexible(sets: Mapping[str, np.ndarray], residual: np.ndarray, fold: np.ndar
     share near 0.
 
     Args:
-        sets: by name, (n, p) values of functions.
+        sets: names and (n, p) values of functions; one at a time is in memory.
         residual: (n,), in order of time.
         fold: (n,) whole numbers; a fold is made of stretches much longer than noise lasts.
     """
     mean = float(residual.mean()) if residual.size else 0.0
     y = residual - mean
     energy = float(y @ y)
-    usable = {name: _standard(values) for name, values in sets.items()}
-    usable = {name: values for name, values in usable.items() if values.shape[1]}
     rows = [np.flatnonzero(fold == f) for f in np.unique(fold)]
-    if y.size < LEAST or len(rows) < 3 or energy == 0.0 or not usable:
+    enough = y.size >= LEAST and len(rows) >= 3 and energy != 0.0
+    every = ((name, _standard(values)) for name, values in sets) if enough else ()
+    found = {name: _crossed(values, y, rows) for name, values in every if values.shape[1]}
+    if not found:
         return Flexible(np.full(y.size, mean), 0.0)
-    found = [_crossed(values, y, rows) for values in usable.values()]
-    left = [float(np.sum((y - _stacked(columns, y, rows)) ** 2)) for columns in found]
-    alone = {name: max(0.0, 1.0 - e / energy) for name, e in zip(usable, left, strict=True)}
-    predicted = _stacked(np.concatenate(found, axis=2), y, rows)
+    left = [float(np.sum((y - _stacked(columns, y, rows)) ** 2)) for columns in found.values()]
+    alone = {name: max(0.0, 1.0 - e / energy) for name, e in zip(found, left, strict=True)}
+    predicted = _stacked(np.concatenate([*found.values()], axis=2), y, rows)
     gain = y**2 - (y - predicted) ** 2
     parts = np.add.reduceat(gain, np.arange(_PARTS) * y.size // _PARTS)
     share, sigma = float(gain.sum()), float(np.sqrt(_PARTS) * parts.std(ddof=1))
@@ -131,7 +133,9 @@ def _standard(values: np.ndarray) -> np.ndarray:
     centred = values - values.mean(axis=0)
     size = np.sqrt(np.einsum("ij,ij->j", centred, centred) / len(centred))
     seen = size > 1e-9
-    return np.asarray(centred[:, seen] / size[seen], dtype=np.float32)
+    if not seen.all():
+        centred, size = centred[:, seen], size[seen]
+    return np.divide(centred, size, out=np.empty(centred.shape, np.float32), casting="same_kind")
 
 
 # Curves: columns whose sums are any smooth function of one coordinate.
@@ -211,8 +215,8 @@ class Measurements:
     further: dict[str, np.ndarray]
 
 
-def functions(measured: Measurements) -> dict[str, np.ndarray]:
-    """Sets of functions by name: "own" and "surface" of the joint, "0", "1", ... of others, "wide".
+def functions(measured: Measurements) -> Iterator[tuple[str, np.ndarray]]:
+    """Sets of functions with names: "own", "surface" of the joint, "0", ... of others, "wide".
 
     Curves are sums of hats over one coordinate, with and without the direction of the joint:
     friction and other torques of any shape. Surfaces are random Fourier features (Rahimi and Recht
@@ -222,20 +226,17 @@ def functions(measured: Measurements) -> dict[str, np.ndarray]:
     m, j = measured, measured.joint
     way = m.direction[:, None]
     own = np.column_stack([x[:, j] for x in (m.q, m.v, m.a, m.load)])
-    sets = {
-        "own": _of_joint(m, way),
-        "surface": np.column_stack(
-            [_fourier(own, _OWN, generator), _fourier(own[:, :2], _BENT, generator) * way]
-        ),
-    }
+    yield "own", _of_joint(m, way)
+    bent = _fourier(own, _OWN, generator), _fourier(own[:, :2], _BENT, generator) * way
+    yield "surface", np.column_stack(bent)
     for k in range(m.q.shape[1]):
         if k != j:
-            sets[str(k)] = _of_other(m, k, way, generator)
+            yield str(k), _of_other(m, k, way, generator)
     near = np.column_stack([m.q, m.v])
-    sets["sum"] = np.hstack([curve(x, _SUM) for x in (*m.q.T, *m.v.T)])
-    sets["wide"] = np.column_stack([near, m.a, m.load, m.torque, _fourier(near, _WIDE, generator)])
-    sets["pairs"] = _fourier(near, _PAIRS, generator, few=2)
-    return sets | m.further
+    yield "sum", np.hstack([curve(x, _SUM) for x in (*m.q.T, *m.v.T)])
+    yield "wide", np.column_stack([near, m.a, m.load, m.torque, _fourier(near, _WIDE, generator)])
+    yield "pairs", _fourier(near, _PAIRS, generator, few=2)
+    yield from m.further.items()
 
 
 def _of_joint(m: Measurements, way: np.ndarray) -> np.ndarray:
@@ -272,4 +273,6 @@ def _fourier(x: np.ndarray, count: int, generator: np.random.Generator, few: int
         order = np.argsort(generator.uniform(size=turn.shape), axis=0)
         turn = np.where(order < few, turn, 0.0)
     width = generator.uniform(0.5, 3.0, count) / np.sqrt(few or x.shape[1])
-    return np.cos(scaled @ (turn * width) + generator.uniform(0.0, 2.0 * np.pi, count))
+    phase = scaled @ (turn * width)
+    phase += generator.uniform(0.0, 2.0 * np.pi, count)
+    return np.cos(phase, out=phase)

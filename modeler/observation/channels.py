@@ -1,7 +1,8 @@
 """Rows of logs as they would be with other channels: turned, in other units, at other times."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.sparse import block_diag, csr_array, diags_array
@@ -69,10 +70,16 @@ class ThinnedRows:
         """(m, n, c) columns of the motion with other positions, or by another clock."""
         every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
         q, qd, qdd = np.concatenate(every, axis=1) @ turn.motion
-        return self._columns(compiled, q + turn.offset, turn.speed * qd, turn.speed**2 * qdd)
+        moved = q + turn.offset, turn.speed * qd, turn.speed**2 * qdd
+        return self._filtered(compiled, compiled.base_regressor, *moved)
 
-    def shifted(self, compiled: CompiledModel, shift: np.ndarray) -> np.ndarray:
-        """(m, n, c) columns of the motion of each joint, shift (n,) s later."""
+    def shifted(
+        self, compiled: CompiledModel, shift: np.ndarray, beta: np.ndarray | None = None
+    ) -> np.ndarray:
+        """(m, n, c) columns of the motion of each joint, shift (n,) s later.
+
+        With parameters beta (c,) their torques, (m, n).
+        """
         found = []
         for s, k in self.samples:
             place = (s.time[k, None] + shift - s.time[0]) / s.step
@@ -83,17 +90,31 @@ class ThinnedRows:
                 x[below, joint] * (1.0 - above) + x[below + 1, joint] * above
                 for x in (s.q, s.qd, s.qdd)
             ]))  # fmt: skip
-        return self._columns(compiled, *np.concatenate(found, axis=1))
+        of = compiled.base_regressor if beta is None else partial(_torque, compiled, beta)
+        return self._filtered(compiled, of, *np.concatenate(found, axis=1))
 
-    def _columns(
-        self, compiled: CompiledModel, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray
-    ) -> np.ndarray:
-        """(m, n, c) filtered columns of a motion of the samples."""
+    def _filtered(
+        self, compiled: CompiledModel, of: Callable[..., np.ndarray],
+        q: np.ndarray, qd: np.ndarray, qdd: np.ndarray,
+    ) -> np.ndarray:  # fmt: skip
+        """(m, n, ...) filtered values of a function of a motion of the samples."""
         nearest = nearest_closed(compiled, q)  # a motion that was changed may leave what closes
         if nearest is not None:
             q = np.ascontiguousarray(q[nearest])
-        values = compiled.base_regressor(q, qd, qdd, self.read)
-        return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
+        values = of(q, qd, qdd, self.read)
+        out = np.zeros((self.means[0].shape[0], *values.shape[1:]))
+        spans = compiled.pattern.spans
+        for j, mean in enumerate(self.means):
+            own = (slice(None), j, spans[j]) if values.ndim == 3 else (slice(None), j)
+            out[own] = mean @ values[own]
+        return out
+
+
+def _torque(
+    compiled: CompiledModel, beta: np.ndarray, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray,
+    read: np.ndarray | None,
+) -> np.ndarray:  # fmt: skip
+    return compiled.inverse_dynamics(q, qd, qdd, beta, read)
 
 
 def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:

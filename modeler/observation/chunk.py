@@ -1,7 +1,7 @@
 """Chunks of a log: rows prepared together, and those beside them that filters need."""
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import reduce
 from itertools import chain
@@ -12,7 +12,7 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.numerics.filters import reach_of
 from modeler.observation.log import FINGER, Log, finger, fingerprint_of
-from modeler.observation.read import FileSource, Ranges, Source, cut, joined
+from modeler.observation.read import FileSource, Ranges, Source, cut, joined, windows_joined
 from modeler.observation.settings import ChosenProcessing
 
 MEMORY = 12.0
@@ -183,16 +183,63 @@ def read_part(source: FileSource, spec: ModuleSpec, start: float | None, end: fl
         DataError: the log is damaged, or has no rows there.
     """
     low, high = -np.inf if start is None else start, np.inf if end is None else end
-    kept, fingers, ranges, spans = list[Log](), list[bytes](), list[Ranges](), []
-    for log in (chunk.log for chunk in chunks(source, FINGER, 0)):
+
+    def there(chunk: Chunk) -> Log | None:
+        return chunk.log if chunk.log.time[0] < high and chunk.log.time[-1] >= low else None
+
+    kept, last, span = _passed(source, spec, there)
+    log = joined(kept or [last])
+    whole = dataclasses.replace(log, notes=last.notes, content=last.content)
+    return window(whole, start, end, span)
+
+
+SPREAD = 2**20
+"""Rows of a log from which on a diagnosis looks at stretches of it."""
+
+_ROWS, _PARTS = 2**18, 32  # that are kept of it
+
+
+def read_spread(source: FileSource, spec: ModuleSpec) -> Log:
+    """Evenly spread stretches of a log of more than `SPREAD` rows, as its segments.
+
+    All rows are read: the fingerprint and what channels hold are those of the whole log.
+
+    Raises:
+        DataError: the log is damaged.
+    """
+    blocks = -(-source.rows // FINGER)
+    places = np.unique(np.linspace(0, blocks - 1, min(blocks, _PARTS)).astype(int))
+    size = min(FINGER, _ROWS // len(places))
+
+    def there(chunk: Chunk) -> Log | None:
+        # copies: of a view all rows would stay
+        return cut(chunk.log, np.arange(min(size, chunk.rows))) if chunk.number in places else None
+
+    kept, last, span = _passed(source, spec, there)
+    rows, least = sum(log.rows for log in kept), min(log.rows for log in kept)
+    note = (
+        f"{source.rows} rows; {rows} of them are looked at, in {len(kept)} stretches of "
+        f"{least * last.step:.3g} s that are spread evenly over {span[1] - span[0]:.6g} s"
+    )
+    return dataclasses.replace(
+        windows_joined(kept), notes=(*last.notes, note), content=last.content
+    )
+
+
+def _passed(
+    source: FileSource, spec: ModuleSpec, there: Callable[[Chunk], Log | None]
+) -> tuple[list[Log], Log, tuple[float, float]]:
+    """What is kept of a log that is read once; its end, with what all rows tell; its times."""
+    kept, fingers, ranges, start = list[Log](), list[bytes](), list[Ranges](), None
+    for chunk in chunks(source, FINGER, 0):
+        log = chunk.log
         fingers.append(finger(log.time, log.q, log.tau))
         ranges.append(Ranges.of(log))
-        spans.append(log.span)
-        if log.time[0] < high and log.time[-1] >= low:
-            kept.append(log)
+        start = log.span[0] if start is None else start
+        if (part := there(chunk)) is not None:
+            kept.append(part)
+    assert start is not None
     seen = reduce(Ranges.merged_with, ranges)
     seen.check(source.place[0], spec)
-    log = joined(kept or [log])
     notes, content = (*log.notes, *seen.doubts(log.step, spec)), fingerprint_of(fingers)
-    whole = dataclasses.replace(log, notes=notes, content=content)
-    return window(whole, start, end, (spans[0][0], spans[-1][1]))
+    return kept, dataclasses.replace(log, notes=notes, content=content), (start, log.span[1])

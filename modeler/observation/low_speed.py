@@ -220,8 +220,8 @@ def signals_of(spec: ModuleSpec, segment: Segment) -> np.ndarray | None:
     Raises:
         DataError: a temperature that an effect reads was not logged.
     """
-    if not spec.signals:
-        return None
+    if not spec.signals or segment.read is not None:
+        return segment.read
     names = [joint.name for joint in spec.joints]
     return np.column_stack([_signal(signal, segment, names) for signal in spec.signals])
 

@@ -1,8 +1,10 @@
 """Velocities and accelerations of a piece, and which of its samples may be used."""
 
+import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.ndimage import maximum_filter1d
@@ -47,6 +49,8 @@ class Segment(Brief):
         cause: (n, joints) place in CAUSES of why a sample does not count, the first that applies;
             -1 where it counts.
         commanded: (n, joints) commanded positions, filtered like q; None where none were logged.
+        read: (n, m) what effects of the model read, made of more samples; None: made of these.
+        every: how many samples of the log there are from one to the next.
     """
 
     run: int
@@ -60,16 +64,35 @@ class Segment(Brief):
     whole: np.ndarray
     cause: np.ndarray
     commanded: np.ndarray | None = None
+    read: np.ndarray | None = None
+    every: int = 1
 
     @property
     def samples(self) -> int:
         """Number of samples, n."""
         return len(self.time)
 
+    @property
+    def logged_step(self) -> float:
+        """Between samples of the log, s."""
+        return self.step / self.every
+
+    def thinned(self, every: int, read: np.ndarray | None) -> "Segment":
+        """Every so manieth sample of a segment, and of what effects of its model read (n, m)."""
+        arrays: dict[str, Any] = {n: getattr(self, n)[::every].copy() for n in _SAMPLED}
+        extra = {name: values[::every].copy() for name, values in self.extra.items()}
+        return dataclasses.replace(
+            self, **arrays, extra=extra, step=self.step * every, every=every, commanded=None,
+            read=None if read is None else np.ascontiguousarray(read[::every]),
+        )  # fmt: skip
+
     @cached_property
     def valid(self) -> np.ndarray:
         """(n, joints) True where the torque is a measurement that counts."""
         return np.asarray(self.cause < 0)
+
+
+_SAMPLED = ("time", "q", "qd", "qdd", "tau", "whole", "cause")
 
 
 def segment_of(piece: Piece, processing: Processing) -> Segment | None:

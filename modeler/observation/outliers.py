@@ -447,7 +447,7 @@ def _spikes(
 
 
 def _without(values: np.ndarray, found: Sequence[Sequence[Defect]]) -> np.ndarray:
-    kept = values.copy()
+    kept = values.copy() if any(found) else values
     for j, own in enumerate(found):
         for one in own:
             kept[one.start : one.stop, j] = np.nan

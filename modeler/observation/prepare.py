@@ -102,6 +102,16 @@ class Prepared(Brief):
             f"to the {chosen.position_cutoff:g} Hz low-pass of the positions; record longer motions"
         )
 
+    def uncommanded(self) -> "Prepared":
+        """Without commanded positions, of which rows of torques know nothing."""
+        logs = tuple(
+            dataclasses.replace(
+                log, pieces=tuple(dataclasses.replace(p, commanded=None) for p in log.pieces)
+            )
+            for log in self.logs
+        )
+        return dataclasses.replace(self, logs=logs)
+
     def with_cutoffs(self, position: float, parallel: float) -> "Prepared":
         """With other filters."""
         chosen = dataclasses.replace(
@@ -127,6 +137,56 @@ class LogRepair(Brief):
         """What `defects` makes of each."""
         return [defects(log, self.spec) for log in self.logs]
 
+    def cut(self, processing: Processing) -> "CutLogs":
+        """The logs in pieces; what is known of them as long as nothing is filtered."""
+        used = tuple(_speeds_used(log, processing) for log in self.logs)
+        if (processing.keep_damaged, used) not in self._cut:
+            logs = self.logs if processing.keep_damaged else [log for log, _, _ in self.mended]
+            every = enumerate(zip(logs, used, strict=True))
+            cut = [split(log, run, own) for run, (log, own) in every]
+            self._cut[processing.keep_damaged, used] = CutLogs(self.spec, logs, cut)
+        return self._cut[processing.keep_damaged, used]
+
+    @cached_property
+    def _cut(self) -> "dict[tuple[bool, tuple[bool, ...]], CutLogs]":
+        return {}
+
+
+@dataclass(frozen=True, eq=False)
+class CutLogs(Brief):
+    """Logs in uniform pieces.
+
+    Attributes:
+        spec: the robot's manifest.
+        logs: mended.
+        cut: the pieces of each, and where it was cut into them.
+    """
+
+    spec: ModuleSpec
+    logs: Sequence[Log]
+    cut: Sequence[tuple[tuple[Piece, ...], SplitReport]]
+
+    @cached_property
+    def pieces(self) -> list[Piece]:
+        """Of all logs."""
+        return [piece for own, _ in self.cut for piece in own]
+
+    @cached_property
+    def spectra(self) -> list[MotionSpectrum]:
+        """Of the positions of each piece."""
+        return spectra_of(self.pieces)
+
+    @cached_property
+    def bands(self) -> np.ndarray:
+        """(J,) `joint_bands`."""
+        return joint_bands(self.pieces, self.spectra)
+
+    @cached_property
+    def noise(self) -> MotionNoise:
+        """Of the positions."""
+        pieces = [without_speeds(piece) for piece in self.pieces]
+        return motion_noise(self.spec.joints, pieces, self.bands)
+
 
 def prepare(
     spec: ModuleSpec, logs: Sequence[Log], processing: Processing, mending: LogRepair | None = None
@@ -144,11 +204,9 @@ def prepare(
             differentiate, or a logged derivative that is none.
     """
     _check(spec, logs, processing)
-    mended = (mending or LogRepair(logs, spec)).mended
-    if not processing.keep_damaged:
-        logs = [log for log, _, _ in mended]
-    cut = [split(log, run, _speeds_used(log, processing)) for run, log in enumerate(logs)]
-    pieces = [piece for own, _ in cut for piece in own]
+    mending = mending or LogRepair(logs, spec)
+    seen = mending.cut(processing)
+    logs, pieces = seen.logs, seen.pieces
     if not pieces:
         raise DataError(
             f"{logs[0].name}: no uninterrupted motion; every piece between two gaps has fewer "
@@ -156,25 +214,23 @@ def prepare(
         )
     _check_windows(logs, pieces, processing)
     _check_nyquist(logs, pieces, processing)
-    spectra = spectra_of(pieces)
-    bands = joint_bands(pieces, spectra)
-    positions = motion_noise(spec.joints, [without_speeds(piece) for piece in pieces], bands)
+    positions = seen.noise
     chosen, _ = choose_cutoffs(processing, pieces, positions)
     rated = [piece for piece in pieces if piece.qd is not None]
     noisy = processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff)
     steps, prepared = [joint.step for joint in positions.joints], []
     for run, (log, (own, cuts), (_, damage, usual)) in enumerate(
-        zip(logs, cut, mended, strict=True)
+        zip(logs, seen.cut, mending.mended, strict=True)
     ):
         found, check, source = _derived(log, own, chosen, noisy)
         # what is left of rows that repeat comes unevenly, as it was stamped
-        seen = [s for p, s in zip(pieces, spectra, strict=True) if p.run == run]
-        rings = [] if usual.repeats else what_rings(seen, steps)
+        own_spectra = [s for p, s in zip(pieces, seen.spectra, strict=True) if p.run == run]
+        rings = [] if usual.repeats else what_rings(own_spectra, steps)
         said = tuple(ring.sentence(spec.joints[ring.joint].name) for ring in rings)
         prepared.append(PreparedLog(found, cuts, source, check, said, damage, usual))
     pieces = [piece for log in prepared for piece in log.pieces]
     given = all(piece.qd is not None for piece in pieces)
-    noise = motion_noise(spec.joints, pieces, bands) if given else positions
+    noise = motion_noise(spec.joints, pieces, seen.bands) if given else positions
     chosen, choices = choose_cutoffs(processing, pieces, noise)
     return Prepared(chosen, choices, tuple(prepared), noise, shown_band(noise.band, pieces))
 

@@ -45,10 +45,8 @@ def columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
         rows = places[(places >= own.start) & (places < own.stop)] - own.start
         if is_unfiltered(part):
             found.append(observation.regressor(part.segment, part.rows.centres[rows]))
-            continue
-        for block, columns in part.blocks(partial(observation.regressor, part.segment)):
-            inside = rows[(rows >= block.start) & (rows < block.stop)]
-            found.append(columns[inside - block.start])
+        elif rows.size:
+            found.append(part.at(rows, partial(observation.regressor, part.segment)))
     return np.concatenate(found)
 
 
@@ -85,7 +83,8 @@ def with_stretch(
         return state
     if is_unfiltered(part):
         return regressor.triangles(part, keep, state)
-    for rows, columns in part.blocks(partial(regressor, part.segment), _ADDED):
+    spans = regressor.pattern.spans
+    for rows, columns in part.blocks(partial(regressor, part.segment), _ADDED, spans):
         used = np.ascontiguousarray(keep[rows])
         state = of_rows(state.pattern, columns, torque[rows], used, state)
     return state

@@ -110,7 +110,7 @@ def split(
         gaps=log.time[rows[1:][gap]],
         widths=steps[gap],
         jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
-        short=log.time[np.setdiff1d(rows, np.concatenate([rows[:0], *kept]))],
+        short=log.time[np.concatenate([rows[:0], *(g for g in groups if len(g) < _LEAST)])],
     )
     return tuple(_piece(log, run, group, clipped, logged_motion) for group in kept), report
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from modeler.core.brief import Brief
 from modeler.numerics.filters import LEAST_WEIGHT, RowFilter, filter_at, spacing
@@ -30,6 +31,13 @@ class Stretch(Brief):
     rows: RowFilter
     used: np.ndarray
 
+    def thinned(self, every: int, read: np.ndarray | None) -> "Stretch":
+        """The same rows by every so manieth sample; `read` (samples, m) is what effects read."""
+        weights = csr_array(self.rows.weights[:, ::every])
+        rows = RowFilter(weights, self.rows.centres // every)
+        usable = self.usable[::every].copy()
+        return Stretch(self.segment.thinned(every, read), usable, rows, self.used)
+
     @property
     def decimation(self) -> int:
         """Samples from one row to the next; 1 where there are no two."""
@@ -44,11 +52,30 @@ class Stretch(Brief):
         return np.concatenate([values for _, values in self.blocks(evaluate)])
 
     def blocks(
-        self, evaluate: Callable[[slice], np.ndarray], samples: int = _BLOCK
+        self,
+        evaluate: Callable[[slice], np.ndarray],
+        samples: int = _BLOCK,
+        spans: Sequence[slice] | None = None,
     ) -> Iterator[tuple[slice, np.ndarray]]:
-        """The same, about so many samples at a time: which rows, and their values."""
+        """The same, about so many samples at a time: which rows, and their values.
+
+        Args:
+            evaluate: as of `filtered`.
+            samples: of a block.
+            spans: of each joint, the columns that are not 0; None: all.
+        """
         for part, window, rows in self.parts(samples):
-            yield rows, self._means(part, evaluate(window), window, self.used[rows])
+            yield rows, self._means(part, evaluate(window), window, self.used[rows], spans)
+
+    def at(self, rows: np.ndarray, evaluate: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+        """(m, joints, ...) the same of some rows (m,), of the samples (b,) that they reach."""
+        found, most = list[np.ndarray](), max(1, int(np.diff(self.rows.weights.indptr).max()))
+        for some in np.array_split(rows, -(-len(rows) * most // _BLOCK)):
+            weights = self.rows.weights[some]
+            reached = np.unique(weights.indices)
+            part = RowFilter(csr_array(weights[:, reached]), self.rows.centres[some])
+            found.append(self._means(part, evaluate(reached), reached, self.used[some]))
+        return np.concatenate(found)
 
     def torque(self) -> np.ndarray:
         """(rows, joints) filtered torque."""
@@ -63,13 +90,15 @@ class Stretch(Brief):
             yield self.rows.part(rows, window), window, rows
 
     def _means(
-        self, part: RowFilter, values: np.ndarray, window: slice, used: np.ndarray
-    ) -> np.ndarray:
+        self, part: RowFilter, values: np.ndarray, window: slice | np.ndarray, used: np.ndarray,
+        spans: Sequence[slice] | None = None,
+    ) -> np.ndarray:  # fmt: skip
         """Means over usable samples where the row counts, over all whole samples elsewhere."""
-        result = np.empty((len(used), *values.shape[1:]))
+        result = np.zeros((len(used), *values.shape[1:]))
         for j in range(values.shape[1]):
-            result[:, j] = part.means(
-                values[:, j], self.usable[window, j], used[:, j], self.segment.whole[window]
+            own = (slice(None), j) if spans is None else (slice(None), j, spans[j])
+            result[own] = part.means(
+                values[own], self.usable[window, j], used[:, j], self.segment.whole[window]
             )
         return result
 

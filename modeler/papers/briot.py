@@ -12,6 +12,9 @@ import numpy as np
 
 from modeler.codegen import derive, generate
 from modeler.core.builtin import builtin_text
+from modeler.core.figure import Curve, Panel, Picture
+from modeler.core.style import BLACK, ORANGE, SKY, Style
+from modeler.core.table import percent
 from modeler.estimation import GainFit, Payload, identify_gains, identify_with_payloads
 from modeler.observation import Log, observe
 from modeler.papers.methods import (
@@ -33,6 +36,9 @@ ROBOT = "orthoglide-2012"
 SECONDS, RATE, NOISE = 15.0, 400.0, 0.02
 LIMITS = Limits(0.02, 0.32, 0.8, 8.0)
 JOINTS = ("11", "12", "13")
+SHOWN = 5.0  # s, of figure 3
+FELT = 2.0
+"""Times what the model of the loaded robot leaves, that the model without the load leaves."""
 BAR, SLIDE, PLATFORM = 0.2, 1.0, 0.75
 """kg: a bar with its centre in the middle, a slide of legs 1 and 2, the platform."""
 
@@ -73,7 +79,8 @@ def briot_methods(paper: Paper, report: Callable[[float], None]) -> list[MethodT
         _weighed(compiled, bare, other, dict.fromkeys(JOINTS, maker)),
         _weighed(compiled, bare, other, found.gains),
     ]
-    return [_table_3(table, found), _second_load(paper, cases)]
+    figure = _figure_3(compiled, found, loaded, mass)
+    return [_table_3(table, found), figure, _second_load(paper, cases)]
 
 
 def _machine(robot: Robot, table: Mapping[str, tuple[float, ...]], names: list[str]) -> Robot:
@@ -132,6 +139,52 @@ def _table_3(table: Mapping[str, tuple[float, ...]], found: GainFit) -> MethodTa
     return MethodTable("Table 3: drive gains, slides and motors", SETTING, tuple(rows))
 
 
+def _figure_3(compiled: CompiledModel, found: GainFit, log: Log, mass: float) -> MethodTable:
+    """Efforts of the loaded run by the gains that were found, rebuilt with the load and without."""
+    tau = log.tau * np.array([found.gains[joint] for joint in JOINTS])
+    observation = observe(compiled, [replace(log, tau=tau)])
+    load = compiled.base_parameters([mass * (p.name == "M6") for p in compiled.spec.standard])
+    used, measured = observation.used, observation.torque
+
+    def computed(beta: np.ndarray) -> np.ndarray:
+        return observation.filtered(
+            lambda s, w: compiled.inverse_dynamics(s.q[w], s.qd[w], s.qdd[w], beta)[:, :, None]
+        )[:, :, 0]
+
+    efforts = {
+        "computed with the load": computed(found.result.beta + load),
+        "computed without it": computed(found.result.beta),
+        "measured": measured,
+    }
+    own, bare = (
+        np.linalg.norm(np.where(used, measured - model, 0.0), axis=0)
+        / np.linalg.norm(np.where(used, measured, 0.0), axis=0)
+        for model in list(efforts.values())[:2]
+    )
+    rows = [
+        Row(f"motor {joint}", '"well simulated"', f"{percent(a)}; without load {percent(b)}",
+            judged(FELT * a < b, Outcome.HOLDS), f"{FELT:g} times as much without")
+        for joint, a, b in zip(JOINTS, own, bare, strict=True)
+    ]  # fmt: skip
+    shown = observation.time < SHOWN
+    panels = [
+        (Panel(f"Motor {joint}", "time, s", "force, N", tuple(
+            Curve(name, observation.time[shown], tau[shown, j], style)
+            for (name, tau), style in zip(efforts.items(), _STYLES, strict=True)
+        )),)
+        for j, joint in enumerate(JOINTS)
+    ]  # fmt: skip
+    title = f"Figure 3: efforts with the load of {mass:g} kg, what the model leaves"
+    drawn = f"Figure 3 of the simulated Orthoglide: efforts with the load of {mass:g} kg"
+    picture = Picture("figure_3", drawn, _CAPTION, tuple(panels), 600, shared_time=True)
+    return MethodTable(title, SETTING[1:], tuple(rows), picture)
+
+
+_STYLES = (Style(SKY, 2.6), Style(ORANGE, 1.0), Style(BLACK, 0.6))
+_CAPTION = (
+    "Black: measured currents times the gains that were found. Broad and blue: computed with the "
+    "load of known mass in the model. Orange: computed without it."
+)
 _SET = ("M11", "M12", "M13", "Ia1", "Fv1", "Fs1")
 """What the simulated machine has of Table 3, the last letter left out."""
 

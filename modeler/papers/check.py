@@ -79,8 +79,8 @@ def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> Line:
             raise QuotationError("the numbers are not those that were read from the paper")
         found = READINGS[line.check](paper, line, derived)
         equal, exact = same(found, line)
-        if line.corrected:
-            right = replace(line, quote=line.corrected, difference="", given=line.given)
+        if equal and line.corrected:
+            right = replace(line, quote=line.corrected, difference="")
             if not same(READINGS[line.check](paper, right, derived), right)[0]:
                 raise QuotationError(f"the corrected form does not hold: {line.corrected}")
     except (QuotationError, ExpressionError, RobotError) as error:

@@ -15,7 +15,8 @@ from modeler.codegen import derive, generate, load
 from modeler.estimation import FitResult, identify
 from modeler.observation import Observation, observe, read_log
 from modeler.papers.guegan_blocks import block_table
-from modeler.papers.methods import MethodTable, Outcome, Row, figures, judged, recovered
+from modeler.papers.guegan_motion import motion_table
+from modeler.papers.methods import MethodTable, Outcome, Row, figures, judged, quoted, recovered
 from modeler.papers.paper import Paper
 from modeler.robot import Limits, Robot
 from modeler.runtime import CompiledModel, compiled_once
@@ -58,12 +59,16 @@ def guegan_methods(paper: Paper, report: Callable[[float], None]) -> list[Method
     blocks = block_table((each, compiled_once(generate(each))), (derivation, compiled))
     observation, exact = _simulated(derivation.robot, truth, compiled, report)
     full, reduced = identify(observation), identify(_chosen(observation, truth))
+    printed = [figures(paper, f"{place}, condition number")["Condition"][0]
+               for place in ("Table 2", "Table 3")]  # fmt: skip
+    own, rows = derivation.robot.limits["11"], quoted(paper, "65814 x 23")[0]
     return [
         blocks,
         _all_parameters(table_2, truth, full),
         _weak_direction(table_2, observation.names, exact),
         _essential(table_3, full, reduced),
-        _conditions(paper, full, reduced),
+        _conditions(printed, full, reduced),
+        motion_table(compiled, own, rows, printed),
     ]
 
 
@@ -180,14 +185,14 @@ def _essential(
     return MethodTable("Table 3: essential parameters", SETTING[:1], tuple(rows))
 
 
-def _conditions(paper: Paper, full: FitResult, reduced: FitResult) -> MethodTable:
+def _conditions(printed: list[float], full: FitResult, reduced: FitResult) -> MethodTable:
     """Condition numbers, each of its own motions; what must agree is what leaving ten out does."""
-    rows, printed = [], []
-    for place, fit in (("Table 2", full), ("Table 3", reduced)):
-        printed.append(figures(paper, f"{place}, condition number")["Condition"][0])
+    rows = []
+    for theirs, fit in zip(printed, (full, reduced), strict=True):
         what, number = f"{len(fit.parameters)} columns", f"{fit.condition_number:.4g}"
-        rows.append(Row(what, f"{printed[-1]:g}", number, Outcome.SHOWN, "of other motions"))
-    theirs, ours = printed[0] / printed[1], full.condition_number / reduced.condition_number
-    outcome = judged(min(theirs, ours) > FALL, Outcome.HOLDS)
-    rows.append(Row("their ratio", f"{theirs:.3g}", f"{ours:.3g}", outcome, f"more than {FALL:g}"))
+        why = "of other motions: see the next table"
+        rows.append(Row(what, f"{theirs:g}", number, Outcome.SHOWN, why))
+    fall, ours = printed[0] / printed[1], full.condition_number / reduced.condition_number
+    outcome = judged(min(fall, ours) > FALL, Outcome.HOLDS)
+    rows.append(Row("their ratio", f"{fall:.3g}", f"{ours:.3g}", outcome, f"more than {FALL:g}"))
     return MethodTable("Condition numbers of W", (), tuple(rows))

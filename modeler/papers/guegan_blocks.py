@@ -4,22 +4,24 @@ Every block is evaluated from its formulas, those of `modeler derive --blocks`, 
 states; so is what the scan prints in its place, letter by letter.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-
 import numpy as np
 
 from modeler.codegen import Derivation
 from modeler.derivation import random_states
-from modeler.formulas import LegBlock, SheetWriter, leg_blocks
+from modeler.formulas import SheetWriter, leg_blocks
 from modeler.papers.methods import MethodTable, Outcome, Row, judged
 from modeler.runtime import CompiledModel
 
 STATES, SEED = 20, 2003
-SAME = 1e-12
-"""Of the largest entry, what two computations of it may differ by."""
-WRONG = 1e-2
-"""Of the largest entry, from which a formula is another one."""
+SAME, WRONG = 1e-12, 1e-2
+"""Shares of the largest entry: what two computations of a block may differ by; another block."""
+
+_SETTING = (
+    f"at {STATES} random closed states, as a share of the largest entry: formulas of `modeler "
+    "derive --blocks`",
+    "against base regressor and coupling of the emitted C; with the scan's J_i^T in place of "
+    "J_i^-T they are off",
+)
 
 
 def block_table(*robots: tuple[Derivation, CompiledModel]) -> MethodTable:
@@ -28,131 +30,78 @@ def block_table(*robots: tuple[Derivation, CompiledModel]) -> MethodTable:
     Args:
         robots: with legs of their own, and with legs alike.
     """
-    setting = (
-        f"at {STATES} random closed states, as a share of the largest entry: formulas of `modeler "
-        "derive --blocks`",
-        "against base regressor and coupling of the emitted C; with the scan's J_i^T in place of "
-        "J_i^-T they are off",
-    )
     rows = [row for derivation, compiled in robots for row in _rows(derivation, compiled)]
-    return MethodTable("Blocks of eqs. (1), (2) and (23) to (30)", setting, tuple(rows))
-
-
-@dataclass(frozen=True, eq=False)
-class _Values:
-    """Blocks at n states.
-
-    Attributes:
-        blocks: by name.
-        of: (n, rows, columns) of each.
-        phi: (n, 3, c) base regressor of the C.
-        G: {joint: (n, 3)} rows of its coupling.
-        names: (c,) of the base parameters.
-        motors: names.
-    """
-
-    blocks: Mapping[str, LegBlock]
-    of: Mapping[str, np.ndarray]
-    phi: np.ndarray
-    G: Mapping[str, np.ndarray]
-    names: list[str]
-    motors: list[str]
-
-    def coupled(self, name: str) -> np.ndarray:
-        """(n, rows, 3) what the C has for the speeds of the block's rows by those of the motors."""
-        return np.stack([self.G[row] for row in self.blocks[name].rows], axis=1)
-
-    def columns(self, *names: str) -> tuple[list[int], np.ndarray]:
-        """Places of the parameters of blocks, in order, and their columns of the C."""
-        at = [self.names.index(c) for name in names for c in self.blocks[name].columns]
-        return at, self.phi[:, :, at]
-
-    def carried(self, leg: str, scan: bool) -> np.ndarray:
-        """(n, 3, ...) J_p^T J_i^-T D_Li, or with J_i^T."""
-        J = self.of[f"J{leg}inv"]
-        back = np.linalg.inv(J) if scan else J
-        return _turned(self.of["Jp"]) @ _turned(back) @ self.of[f"DL{leg}"]
-
-    def driven(self, leg: str) -> np.ndarray:
-        """(n, 3, ...) D_mi on the motor's row."""
-        D = self.of[f"Dm{leg}"]
-        found = np.zeros((len(D), len(self.motors), D.shape[2]))
-        found[:, [self.motors.index(row) for row in self.blocks[f"Dm{leg}"].rows]] = D
-        return found
-
-
-def _values(derivation: Derivation, compiled: CompiledModel) -> _Values:
-    model, closure = derivation.model, derivation.model.closure
-    assert closure is not None
-    states = random_states(model, STATES, np.random.default_rng(SEED))
-    read: dict[str, np.ndarray | float] = dict(model.geometry.values)
-    for kind, numbers in zip(("q", "qd", "qdd"), states, strict=True):
-        read |= {f"{kind}[{k}]": column for k, column in enumerate(numbers.T)}
-    blocks = {b.name: b for b in leg_blocks(model, derivation.base, SheetWriter(model.graph, {}))}
-    of = {name: np.zeros((STATES, len(b.rows), len(b.columns))) for name, b in blocks.items()}
-    for name, b in blocks.items():
-        found = model.graph.evaluate([*b.entries.values()], read)
-        for (row, column), value in zip(b.entries, found, strict=True):
-            of[name][:, b.rows.index(row), b.columns.index(column)] = value
-    free, at = [joint.name for joint in model.robot.free], list(closure.given)
-    q, qd, qdd = (numbers[:, at] for numbers in states)
-    G = dict(zip(free, compiled.coupling(q).swapaxes(0, 1), strict=True))
-    names = [p.name for p in derivation.base.parameters]
-    phi = compiled.base_regressor(q, qd, qdd)
-    return _Values(blocks, of, phi, G, names, [free[k] for k in at])
+    return MethodTable("Blocks of eqs. (1), (2) and (23) to (30)", _SETTING, tuple(rows))
 
 
 def _rows(derivation: Derivation, compiled: CompiledModel) -> list[Row]:
-    found = _values(derivation, compiled)
-    legs = [name[2:] for name in found.of if name.startswith("DL")]
-    each = [c for k in legs for c in found.blocks[f"DL{k}"].columns]
-    alike = len({*each}) < len(each)
-    DP = _turned(found.of["Jp"]) @ found.of["WP"]
-    drives = [found.driven(k) for k in legs]
-    if alike:
-        right, scan = (sum(found.carried(k, s) for k in legs) for s in (False, True))
-        ends = ["DL1"]
-        rows = [_row("(30) DLS", "Jp^T sum_i [Ji^T DLi]", right, found.columns("DL1")[1], scan)]
-        whole, parts = "(30) Dsym", [DP, *drives, right]
-    else:
-        ends, parts, rows = [], [DP], _plain_rows(found, legs, DP)
-        for number, k in enumerate(legs, 27):
-            right, scan = (np.dstack([found.driven(k), found.carried(k, s)]) for s in (False, True))
-            wanted = found.columns(f"Dm{k}", f"DL{k}")[1]
-            rows.append(_row(f"({number}) DB{k}", f"Jp^T J{k}^T DL{k}", right, wanted, scan))
-            ends, parts = [*ends, f"Dm{k}", f"DL{k}"], [*parts, right]
-        whole = "(23) DBrob"
-    order = ["WP", *(f"Dm{k}" for k in legs if alike), *ends]
-    return [*rows, _row(whole, "its blocks", np.dstack(parts), found.columns(*order)[1])]
+    model, closure = derivation.model, derivation.model.closure
+    assert closure is not None
+    states = random_states(model, STATES, np.random.default_rng(SEED))
+    at, free = list(closure.given), [joint.name for joint in model.robot.free]
+    q, qd, qdd = (numbers[:, at] for numbers in states)
+    phi, G = compiled.base_regressor(q, qd, qdd), compiled.coupling(q)
+    names = [p.name for p in derivation.base.parameters]
+    read: dict[str, np.ndarray | float] = dict(model.geometry.values)
+    for kind, numbers in zip(("q", "qd", "qdd"), states, strict=True):
+        read |= {f"{kind}[{k}]": column for k, column in enumerate(numbers.T)}
+    of, c = dict[str, np.ndarray](), dict[str, np.ndarray]()  # our block; the same of the C
+    for block in leg_blocks(model, derivation.base, SheetWriter(model.graph, {})):
+        of[block.name] = np.zeros((STATES, len(block.rows), len(block.columns)))
+        found = model.graph.evaluate([*block.entries.values()], read)
+        for (row, column), value in zip(block.entries, found, strict=True):
+            of[block.name][:, block.rows.index(row), block.columns.index(column)] = value
+        known = block.columns[0] in names
+        c[block.name] = (
+            phi[:, :, [names.index(x) for x in block.columns]] if known
+            else G[:, [free.index(x) for x in block.rows]]
+        )  # fmt: skip
+    return _compared(of, c, [name[2:] for name in of if name.startswith("DL")], phi)
 
 
-def _plain_rows(found: _Values, legs: list[str], DP: np.ndarray) -> list[Row]:
-    """What is printed as it is derived."""
-    Jp = found.of["Jp"]
-    rows = [_row("(1) Jp^-1", "Ld = Jp^-1 V", found.of["Jpinv"] @ Jp, found.coupled("Jpinv"))]
-    for k in legs:
-        name = f"J{k}inv"
-        moved = found.of[name] @ Jp
-        rows.append(_row(f"(2) J{k}^-1", f"qd{k} = J{k}^-1 V", moved, found.coupled(name)))
-    for k in legs:
-        printed = "ddotq1i, dotq1i, sign(dotq1i), 1"
-        rows.append(_row(f"(25) Dm{k}", printed, found.driven(k), found.columns(f"Dm{k}")[1]))
-    return [*rows, _row("(26) DP", "Jp^T (dotVP - g)", DP, found.columns("WP")[1])]
+def _compared(
+    of: dict[str, np.ndarray], c: dict[str, np.ndarray], legs: list[str], phi: np.ndarray
+) -> list[Row]:
+    Jp = of["Jp"].swapaxes(1, 2)  # J_p^T
+    DP, drives, ends, scans = Jp @ of["WP"], list[np.ndarray](), [], []
+    for i, k in enumerate(legs):
+        inverse, D = of[f"J{k}inv"], of[f"DL{k}"]
+        drives.append(of[f"Dm{k}"] * np.eye(len(legs))[i][:, None])  # on the motor's row
+        ends.append(Jp @ inverse.swapaxes(1, 2) @ D)
+        scans.append(Jp @ np.linalg.inv(inverse).swapaxes(1, 2) @ D)
+    if c["DL1"].shape[2] * len(legs) > phi.shape[2]:  # shared: legs alike
+        printed, right = "Jp^T sum_i [Ji^T DLi]", np.sum(ends, axis=0)
+        return [_row("(30) DLS", printed, right, c["DL1"], np.sum(scans, axis=0)),
+                _row("(30) Dsym", "its blocks", np.dstack([DP, *drives, right]),
+                     np.dstack([c["WP"], *(c[f"Dm{k}"] for k in legs), c["DL1"]]))]  # fmt: skip
+    rows = [_row("(1) Jp^-1", "Ld = Jp^-1 V", of["Jpinv"] @ of["Jp"], c["Jpinv"])]
+    rows += [_row(f"(2) J{k}^-1", f"qd{k} = J{k}^-1 V", of[f"J{k}inv"] @ of["Jp"], c[f"J{k}inv"])
+             for k in legs]  # fmt: skip
+    rows += [_row(f"(25) Dm{k}", "ddotq1i, dotq1i, sign(dotq1i), 1", drive, c[f"Dm{k}"])
+             for k, drive in zip(legs, drives, strict=True)]  # fmt: skip
+    rows.append(_row("(26) DP", "Jp^T (dotVP - g)", DP, c["WP"]))
+    parts, wanted = [DP], [c["WP"]]
+    for n, k in enumerate(legs):
+        parts.append(np.dstack([drives[n], ends[n]]))
+        wanted.append(np.dstack([c[f"Dm{k}"], c[f"DL{k}"]]))
+        scan = np.dstack([drives[n], scans[n]])
+        rows.append(_row(f"({27 + n}) DB{k}", f"Jp^T J{k}^T DL{k}", parts[-1], wanted[-1], scan))
+    return [*rows, _row("(23) DBrob", "its blocks", np.dstack(parts), np.dstack(wanted))]
 
 
 def _row(
     what: str, printed: str, ours: np.ndarray, c: np.ndarray, scan: np.ndarray | None = None
 ) -> Row:
-    def off(block: np.ndarray) -> float:
-        return float(np.max(np.abs(block - c)) / np.max(np.abs(c)))
-
-    size = " x ".join(map(str, c.shape[1:]))
+    error, size = _off(ours, c), " x ".join(map(str, c.shape[1:]))
     if scan is None:
-        return Row(f"{what}, {size}", printed, f"{off(ours):.1e}", judged(off(ours) < SAME))
-    well = judged(off(ours) < SAME and off(scan) > WRONG, Outcome.DERIVED)
-    why = "with the inverse of J_i that equal power demands"
-    return Row(f"{what}, {size}", f"{printed}: {off(scan):.2g}", f"{off(ours):.1e}", well, why)
+        return Row(f"{what}, {size}", printed, f"{error:.1e}", judged(error < SAME))
+    well = judged(error < SAME and _off(scan, c) > WRONG, Outcome.DERIVED)
+    told, why = (
+        f"{printed}: {_off(scan, c):.2g}",
+        "with the inverse of J_i that equal power demands",
+    )
+    return Row(f"{what}, {size}", told, f"{error:.1e}", well, why)
 
 
-def _turned(J: np.ndarray) -> np.ndarray:
-    return J.swapaxes(1, 2)
+def _off(block: np.ndarray, c: np.ndarray) -> float:
+    return float(np.max(np.abs(block - c)) / np.max(np.abs(c)))

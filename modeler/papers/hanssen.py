@@ -13,6 +13,8 @@ import numpy as np
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.builtin import builtin_text
 from modeler.core.expression import parse
+from modeler.core.figure import Curve, Panel, Picture
+from modeler.core.style import BLUE, GREEN, GREY, VERMILLION, Style
 from modeler.core.table import percent
 from modeler.estimation import Directions, TwoStepFit, identify_in_two_steps
 from modeler.formulas import determined, known_sets, physical_system, smallest_number
@@ -20,8 +22,8 @@ from modeler.observation import observe
 from modeler.papers.methods import MethodTable, Outcome, Row, judged, logged, quoted, recovered
 from modeler.papers.paper import Paper
 from modeler.robot import Limits, Robot, joint_directions, robot_from_text
-from modeler.runtime import compiled_once
-from modeler.simulation import SimulationSettings, simulate
+from modeler.runtime import CompiledModel, compiled_once
+from modeler.simulation import Reference, SimulationSettings, simulate
 
 SECONDS, RATE, BANDWIDTH, NOISE = 240.0, 400.0, 60.0, 0.02
 SEED = 11
@@ -57,6 +59,7 @@ def hanssen_methods(paper: Paper, report: Callable[[float], None]) -> list[Metho
     steps = identify_in_two_steps(compiled, observation, Directions(joint_directions(robot)))
     monomials = next(line.quote for line in paper.lines if line.check == "monomials").split(";")
     tables = [*_inertia(paper, truth, steps, monomials), _one_step(steps)]
+    tables.append(_figure_2(_machine(robot, derivation, truth), compiled, steps))
     report(0.8)
     tables.append(_known(paper, derivation))
     return tables
@@ -135,6 +138,65 @@ def _one_step(steps: TwoStepFit) -> MethodTable:
             "one", Outcome.SHOWN),
     ]  # fmt: skip
     return MethodTable("Two steps beside one step", (), tuple(rows))
+
+
+def _figure_2(machine: Robot, compiled: CompiledModel, steps: TwoStepFit) -> MethodTable:
+    """A ramp of joint 1 at a configuration that no step has seen: measured and modelled torque."""
+    settings = SimulationSettings(
+        rate=RATE, seed=2, bandwidth=BANDWIDTH, torque_noise=NOISE, commanded=_ramp(),
+        limits=dict.fromkeys("123", LIMITS),
+    )  # fmt: skip
+    run = simulate(machine, settings)
+    beta = np.array([parameter.value for parameter in steps.result.parameters])
+    (part,) = observe(compiled, [logged(run, run.joints, run.tau)]).stretches
+    moved, known = part.segment, part.usable[:, 0]  # at rest dry friction is anything
+    time, torque = moved.time, moved.tau[:, 0]
+    model = (compiled.base_regressor(moved.q, moved.qd, moved.qdd) @ beta)[:, 0]
+    exact = np.interp(time, run.time + 0.5 / RATE, run.truth.tau[:, 0])
+    missed, noise, size = (float(np.std(x[known])) for x in (model - exact, torque - exact, exact))
+    why = "less than the noise; joint 1 at a configuration that the fit has not seen"
+    rows = (
+        Row("noise of the measured torque", "-", percent(noise / size), Outcome.SHOWN),
+        Row("the model's error", "-", percent(missed / size), judged(missed < noise), why),
+    )
+    left = (
+        Curve("measured", time, torque, Style(GREY, 0.7)),
+        Curve("modelled", time, np.where(known, model, np.nan), Style(BLUE)),
+    )
+    right = (
+        Curve("position, rad", time, moved.q[:, 0], Style(BLUE)),
+        Curve("velocity, rad/s", time, moved.qd[:, 0], Style(GREEN)),
+        Curve("acceleration, rad/s2", time, moved.qdd[:, 0], Style(VERMILLION)),
+    )
+    panels = (
+        Panel("Torque of axis 1", "time, s", "torque, N m", left),
+        Panel("A ramp response in axis 1", "time, s", "rad, rad/s, rad/s2", right),
+    )
+    title = "Figure 2 of the simulated wrist: measured and modelled torque, and the motion"
+    picture = Picture("figure_2", title, _CAPTION, (panels,), 400)
+    return MethodTable("Figure 2: a ramp of axis 1", (), rows, picture)
+
+
+_CAPTION = (
+    "Left: torque of axis 1 as measured (grey, with noise) and by the model of the two-step fit "
+    "(blue; none at rest, where dry friction is anything). Right: position, velocity and "
+    "acceleration, filtered forwards and backwards."
+)
+
+
+def _ramp() -> Reference:
+    """Joint 1 from -1 to 1 rad and back at 2 rad/s, its speed changing in half a second."""
+    time, rise = np.arange(round(3.4 * RATE)) / RATE, 0.5
+    found = np.zeros((3, len(time), 3))
+    found[0] = (-1.0, 0.7, -0.5)
+    for start, speed in ((0.1, 2.0), (1.1, -2.0), (1.7, -2.0), (2.7, 2.0)):
+        s = np.clip((time - start) / rise, 0.0, 1.0)
+        turn, after = 2 * np.pi * s, np.maximum(time - start - rise, 0.0)
+        lag = (np.cos(turn) - 1) / (2 * np.pi) ** 2
+        found[0, :, 0] += speed * (rise * (s**2 / 2 + lag) + after)
+        found[1, :, 0] += speed * (s - np.sin(turn) / (2 * np.pi))
+        found[2, :, 0] += speed / rise * (1 - np.cos(turn))
+    return Reference(time, *found)
 
 
 def _known(paper: Paper, derivation: Derivation) -> MethodTable:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import RobotError
+from modeler.core.figure import Picture
 from modeler.core.table import percent
 from modeler.observation import Log
 from modeler.papers.paper import Paper
@@ -64,11 +65,13 @@ class MethodTable:
         title: what it is.
         setting: what was simulated, one sentence each.
         rows: its lines.
+        picture: a figure of the paper, drawn of the simulation.
     """
 
     title: str
     setting: tuple[str, ...]
     rows: tuple[Row, ...]
+    picture: Picture | None = None
 
 
 def judged(holds: bool, well: Outcome = Outcome.REPRODUCED) -> Outcome:

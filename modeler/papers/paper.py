@@ -33,7 +33,14 @@ from modeler.derivation import (
     derive_model,
     random_states,
 )
-from modeler.formulas import CoefficientTable, coefficient_table, function_sheet, kane_form
+from modeler.formulas import (
+    CoefficientTable,
+    Equation,
+    coefficient_table,
+    energy_functions,
+    function_sheet,
+    kane_form,
+)
 from modeler.papers.quotation import (
     Amount,
     Monomial,
@@ -143,14 +150,16 @@ class Paper:
 
 
 def read_paper(name: str) -> Paper:
-    """The paper of that name.
+    """The paper of that name, or that derives the robot of that name.
 
     Raises:
         RobotError: there is none; lists those there are.
     """
-    if name not in paper_names():
-        raise RobotError(f'there is no paper "{name}"; expected one of {", ".join(paper_names())}')
-    document = tomllib.loads((_FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
+    texts = {paper: (_FOLDER / f"{paper}.toml").read_text("utf-8") for paper in paper_names()}
+    name = next((paper for paper in texts if f'\nrobot = "{name}"\n' in texts[paper]), name)
+    if name not in texts:
+        raise RobotError(f'there is no paper "{name}"; expected one of {", ".join(texts)}')
+    document = tomllib.loads(texts[name])
     lines = []
     for entry in document["line"]:
         # One line, or one for each of `quotes`: quotation -> its seal, or "" without one.
@@ -242,9 +251,15 @@ class DerivedPaper:
     @cached_property
     def kane(self) -> Mapping[str, str]:
         """Formulas of Kane's form, by name."""
-        states = random_states(self.model, 1, np.random.default_rng(0))
-        sheet = function_sheet.sheet_json(kane_form(self.model, states)[0].sheet)
+        sheet = function_sheet.sheet_json(self.forms["kane"][0].sheet)
         return {each["name"]: each["formula"] for each in sheet["definitions"]}
+
+    @cached_property
+    def forms(self) -> Mapping[str, tuple[Equation, float]]:
+        """Energy functions, and without loops Kane's form, with how far each is from the model."""
+        states = random_states(self.model, 20, np.random.default_rng(2000))
+        found = {"energy": energy_functions(self.model, states)}
+        return found if self.robot.loops else found | {"kane": kane_form(self.model, states)}
 
     @cached_property
     def tied(self) -> Mapping[str, Sum]:

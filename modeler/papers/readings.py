@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 import sympy
 
 from modeler.derivation import GeometryRow, base_poses, pose, poses
@@ -257,22 +258,25 @@ _HEIGHT = -_integral(_G.dot(_P + _AXES * _R))
 
 
 def _evaluated(text: str, names: Mapping[str, Any]) -> Any:
-    """The value of `omegak^T Jk omegak + ...`, with these for its letters."""
-    for number, word in enumerate(sorted(names, key=len, reverse=True)):
-        text = text.replace(word, f" n{number} ")
-    known = {f"n{k}": names[word] for k, word in enumerate(sorted(names, key=len, reverse=True))}
+    """The value of `omegak^T Jk omegak + ...`: letters by `names`, side by side or with x."""
+    known: dict[str, Any] = {"cross": lambda a, b: a.cross(b)}
+    for k, word in enumerate(sorted(names, key=len, reverse=True)):
+        text, known[f"n{k}"] = text.replace(word, f" n{k} "), names[word]
     text = re.sub(r"(n\d+) +x +(n\d+)", r"cross(\1, \2)", text.translate({91: "(", 93: ")"}))
     text = re.sub(r"(?<=[\w)])\s+(?=[\w(])", "*", text.strip())
-    return evaluate(text, known | {"cross": lambda a, b: a.cross(b)})
+    try:
+        return evaluate(text, known)
+    except (SyntaxError, TypeError, ValueError) as error:  # of shapes that do not fit, too
+        raise QuotationError(f'"{text}" cannot be read: {error}') from error
 
 
 def _body_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     """`1/2 [omegak^T Jk omegak + ...]`: `gives` "E" or "U" of a body, from those of its masses."""
-    derived = {"E": _ENERGY, "U": _HEIGHT.subs(dict(zip(_MS, _M * _S, strict=True)))}[line.gives[0]]
+    own = {"E": _ENERGY, "U": _HEIGHT.subs(dict(zip(_MS, _M * _S, strict=True)))}[line.gives[0]]
     names = {"omegak^T": _W.T, "omegak": _W, "Jk": _INERTIA, "Mk": _M, "Vk^T": _V.T, "Vk": _V}
     names |= {"MSk^T": sympy.Matrix(_MS).T, "^0g^T": _G.T, "^0Pk": _P, "^0Ak": _AXES, "^kSk": _S}
-    found = sympy.expand(_evaluated(line.text, names)[0])
-    return Compared(sum_of(found), sum_of(sympy.expand(derived)), sum_text(sum_of(derived)))
+    printed, derived = (sum_of(sympy.expand(x)) for x in (_evaluated(line.text, names)[0], own))
+    return Compared(printed, derived, sum_text(derived))
 
 
 def _recursion_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -281,25 +285,22 @@ def _recursion_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compa
     Of T_k = T_k-1 A(q) comes T_k^-1 T_k' = A^-1 (T_k-1^-1 T_k-1') A + A^-1 A'; sigma is 0 where q
     turns and 1 where it slides, and what is linear in sigma is found from the two.
     """
-    qd, sigma, alpha, d = sympy.symbols("qd sigma alpha d")
-    angular, found = line.gives[0] == "angular", []
-    before = sympy.Matrix([[0, -_W[2], _W[1]], [_W[2], 0, -_W[0]], [-_W[1], _W[0], 0]])
-    before = before.row_join(_V).col_join(sympy.zeros(1, 4))
-    R = sympy.rot_axis1(-alpha) * sympy.rot_axis3(-sympy.Symbol("theta"))
-    P = sympy.Matrix([d, 0, 0]) + R[:, 2] * sympy.Symbol("r")
-    A = R.row_join(P).col_join(sympy.Matrix([[0, 0, 0, 1]]))
-    back = R.T.row_join(-R.T * P).col_join(sympy.Matrix([[0, 0, 0, 1]]))
-    for moved in ("theta", "r"):
-        twist = back * before * A + back * A.diff(sympy.Symbol(moved)) * qd
-        own = [twist[2, 1], twist[0, 2], twist[1, 0]] if angular else [*twist[:3, 3]]
-        found.append(sympy.Matrix(own))
-    derived = found[0] + (found[1] - found[0]) * sigma
+    qd, sigma, alpha, d, theta, r = sympy.symbols("qd sigma alpha d theta r")
+    R = sympy.rot_axis1(-alpha) * sympy.rot_axis3(-theta)
+    P, last = sympy.Matrix([d, 0, 0]) + R[:, 2] * r, sympy.Matrix([[0, 0, 0, 1]])
+    A, back = R.row_join(P).col_join(last), R.T.row_join(-R.T * P).col_join(last)
+    before = _W.hat().row_join(_V).col_join(0 * last)
+    turned, slid = (back * (before * A + A.diff(moved) * qd) for moved in (theta, r))
+    twist = turned + (slid - turned) * sigma
+    own = {"angular": [twist[2, 1], twist[0, 2], twist[1, 0]], "linear": [*twist[:3, 3]]}
     names = {"^kRk-1": R.T, "^k-1omegak-1": _W, "^komegak-1": R.T * _W, "^k-1Vk-1": _V}
     names |= {"^k-1Pk": P, "barsigmak": 1 - sigma, "sigmak": sigma, "qdk": qd}
     names["^kak"] = sympy.Matrix([0, 0, 1])
-    printed = _evaluated(line.text, names)
-    each = (in_order(sum_of(without_squared_sines(x)) for x in v) for v in (printed, derived))
-    return Compared(*each, "A^-1 twist A + A^-1 A' of frames k-1 and k")
+    printed, derived = (
+        in_order(sum_of(without_squared_sines(x)) for x in v)
+        for v in (_evaluated(line.text, names), own[line.gives[0]])
+    )
+    return Compared(printed, derived, "A^-1 twist A + A^-1 A' of frames k-1 and k")
 
 
 def _energy_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
@@ -342,6 +343,13 @@ def _effort_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared
     )
     shown = " ".join(f"{name.removesuffix('inv')}^{'-' * name.endswith('inv')}T" for name in wanted)
     return Compared(printed, derived, f"{shown} {what}")
+
+
+def _digits_reading(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """`12`: digits that agree, 12 or more, of a form, "energy" or "kane", and the derivation."""
+    off = robots[line.robot].forms[line.gives[0]][1]
+    digits = numbered([min(12, int(-np.log10(off + 1e-16)))])
+    return Compared(numbered(numbers_of(line.text)), digits, f"{off:.0e} of the largest")
 
 
 _COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
@@ -492,6 +500,7 @@ READINGS: Mapping[str, Reading] = {
     "energy": _energy_reading,
     "body": _body_reading,
     "recursion": _recursion_reading,
+    "digits": _digits_reading,
     "effort": _effort_reading,
     "closure": _closure_reading,
     "platform": _platform_reading,

@@ -145,39 +145,27 @@ def _terms(derived: DerivedPaper, function: str) -> list[tuple[str, Sum]]:
     return [(c.name, read_sum(monomial_text(c.exponents, names), str)) for c in found]
 
 
-_TERM = re.compile(r"[*\s]*\b([nabc])_?([123])$")
+_TERM = re.compile(r"[*\s]*\b(?:([nabc])_?([123])|v\^?(CM)([abc]))$")
 
 
 def _along(text: str) -> dict[str, Sum]:
-    """{unit vector: factor} of `-at3 qd1 a2 + at2 qd1 a3`, whose terms end with these."""
+    """{vector: factor} of `-at3 qd1 a2 + at2 qd1 a3`, whose terms end with unit vectors or vCMa."""
     found: dict[str, Sum] = {}
-    depth, terms = 0, [""]
-    for letter in text:
-        depth += {"(": 1, ")": -1}.get(letter, 0)
-        if letter in "+-" and depth == 0:
-            terms.append("")
-        terms[-1] += letter
-    for term in filter(str.strip, terms):
+    for term in re.findall(r"[+-]?(?:[^-+()]|\((?:[^()]|\([^()]*\))*\))+", text.strip()):
         axis = _TERM.search(term.rstrip())
         if axis is None:
             raise QuotationError(f'"{term}" ends with no unit vector')
         factors = term[: axis.start()]
         size = read_sum(f"{factors}{' ' if factors[-1:].isalnum() else ' 1'}", str)
-        found["".join(axis.groups())] = added(found.get("".join(axis.groups()), {}), size)
+        name = "".join(filter(None, axis.groups()))
+        found[name] = added(found.get(name, {}), size)
     return found
 
 
-def _velocity(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
-    """Velocity of the mass centre of a body, or its angular velocity: `gives[0]` of Kane's form."""
-    derived = robots[line.robot].kane[line.gives[0]]
-    return Compared(joined(_along(line.text)), joined(_along(derived)), derived)
-
-
-def _forces(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
-    """`-am n3; tau1 a1; ...`: weight of each body, and torques on it, with g = 1."""
-    kane, cells = robots[line.robot].kane, line.text.split(";")
-    own = [kane[f"F{k}"] for k in range(1, 7)]
-    printed, derived = (in_order(joined(_along(x)) for x in each) for each in (cells, own))
+def _kane(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
+    """Rows of Kane's form, those of `gives`, along unit vectors, `;` between; with g = 1."""
+    own = [robots[line.robot].kane[name] for name in line.gives]
+    printed, derived = (in_order(joined(_along(x)) for x in v) for v in (line.text.split(";"), own))
     unit: Sum = {(): Amount(Fraction(1))}
     return Compared(printed, replaced(derived, {"g": unit}), "; ".join(own))
 
@@ -226,8 +214,8 @@ WRIST_READINGS: Mapping[str, Reading] = {
     "independent": _independent,
     "monomials": _monomials,
     "values": _values,
-    "velocity": _velocity,
-    "applied": _forces,
+    "velocity": _kane,
+    "applied": _kane,
     "indices": _indices,
     "friction": _friction,
 }

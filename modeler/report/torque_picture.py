@@ -143,7 +143,7 @@ def _since(state: State, j: int) -> np.ndarray:
     for number, (signals, turns) in enumerate(
         zip(state.rows.signals, load_turns(state, j), strict=True)
     ):
-        at = signals.segment.time[:: signals.every][turns]
+        at = signals.segment.time[turns]
         own = state.rows.segment[j] == number
         if at.size and own.any():
             time = state.rows.time[j][own]

@@ -8,7 +8,6 @@ from typing import Any
 from modeler.core.builtin import OTHER_PROGRAMS
 from modeler.core.errors import RobotError
 from modeler.core.files import read_file
-from modeler.robot.par_convert import par_to_toml
 from modeler.robot.robot_text import Converted
 
 # Atomic: comments are not tried in all ways of taking them together.
@@ -47,6 +46,8 @@ def converted(path: str | Path, exact_decimals: bool = False, **part: Any) -> Co
             f"{path}: --base, --tip, --lock and --exact-decimals are for URDF and MJCF; leave them "
             "out"
         )
+    from modeler.robot.par_convert import par_to_toml
+
     return par_to_toml(data, str(path))
 
 

@@ -16,3 +16,4 @@ from .model import (
     load as load,
     load_folder as load_folder,
 )
+from .threads import mapped as mapped

@@ -57,11 +57,55 @@ def _opened(declared: str, path: Path) -> tuple[cffi.FFI, Any]:
         ) from error
 
 
-class Library:
-    """A loaded library; its functions release the interpreter lock and may run in threads.
+class _Arrays:
+    """A loaded library of either precision, and the arrays that it reads and writes.
 
     Arrays are float64 here, whatever the precision of the code: that in single precision is given
     copies in float32, and its results are copied back.
+    """
+
+    def __init__(self, spec: ModuleSpec, declared: str, path: Path) -> None:
+        """Load the library at `path`, whose functions are declared for doubles.
+
+        Raises:
+            BuildError: it cannot be loaded.
+        """
+        self.spec = spec
+        self._single = spec.precision == "single"
+        self._runtime = "modelerf" if self._single else "modeler"  # start of the names of the C's
+        if self._single:
+            declared = re.sub(r"\bdouble\b", "float", declared)
+            declared = re.sub(r"\bmodeler_", "modelerf_", declared)
+        self._ffi, self._library = _opened(declared, path)
+
+    def _own(self, arrays: Sequence[np.ndarray]) -> list[np.ndarray]:
+        """The arrays as the code reads them."""
+        assert all(a.flags.c_contiguous and a.dtype == np.float64 for a in arrays)
+        if not self._single:
+            return list(arrays)
+        with np.errstate(over="ignore"):  # infinite in single precision: the results will tell
+            return [array.astype(np.float32) for array in arrays]
+
+    def _place(self, out: np.ndarray) -> np.ndarray:
+        """Where the code writes what is for `out`."""
+        assert out.dtype == np.float64
+        return np.empty_like(out, dtype=np.float32) if self._single else out
+
+    def _give_back(self, result: np.ndarray, out: np.ndarray) -> None:
+        if result is not out:
+            out[...] = result
+
+    def _integers(self, array: np.ndarray) -> Any:
+        assert array.flags.c_contiguous and array.dtype == np.intc
+        return self._ffi.cast("int *", array.ctypes.data)
+
+    def _numbers(self, array: np.ndarray) -> Any:
+        # The address itself: half the time of from_buffer; the caller holds the array.
+        return self._ffi.cast("float *" if self._single else "double *", array.ctypes.data)
+
+
+class Library(_Arrays):
+    """A loaded library; its functions release the interpreter lock and may run in threads.
 
     Attributes:
         spec: the manifest it belongs to.
@@ -74,14 +118,7 @@ class Library:
             BuildError: it cannot be loaded.
             ManifestError: it was emitted with another manifest.
         """
-        self.spec = spec
-        self._single = spec.precision == "single"
-        self._runtime = "modelerf" if self._single else "modeler"  # start of the names of the C's
-        declared = _declarations(spec)
-        if self._single:
-            declared = re.sub(r"\bdouble\b", "float", declared)
-            declared = re.sub(r"\bmodeler_", "modelerf_", declared)
-        self._ffi, self._library = _opened(declared, path)
+        super().__init__(spec, _declarations(spec), path)
         try:
             answer = self._ffi.string(self._function("signature")()).decode()
             if answer != spec.signature():
@@ -103,6 +140,14 @@ class Library:
     def address(self, name: str) -> int:
         """Where a function of the library stands, for C that calls it; the caller holds this."""
         return int(self._ffi.cast("uintptr_t", getattr(self._library, name)))
+
+    @property
+    def singles(self) -> list[int]:
+        """Where C stands that closes loops: tables, and functions as the unit of tiles has them."""
+        names = [f"{self.spec.prefix}_{name}" for name in ("loops", "posed", "tree_next")]
+        names.append(f"{self._runtime}_eliminated")
+        return [int(self._ffi.cast("uintptr_t", self._ffi.addressof(self._library, name)))
+                for name in names]  # fmt: skip
 
     def batch(
         self,
@@ -178,31 +223,6 @@ class Library:
         getattr(self._library, function.name)(self._numbers(given), self._numbers(result))
         self._give_back(result, beta)
 
-    def _own(self, arrays: Sequence[np.ndarray]) -> list[np.ndarray]:
-        """The arrays as the code reads them."""
-        assert all(a.flags.c_contiguous and a.dtype == np.float64 for a in arrays)
-        if not self._single:
-            return list(arrays)
-        with np.errstate(over="ignore"):  # infinite in single precision: the results will tell
-            return [array.astype(np.float32) for array in arrays]
-
-    def _place(self, out: np.ndarray) -> np.ndarray:
-        """Where the code writes what is for `out`."""
-        assert out.flags.c_contiguous and out.dtype == np.float64
-        return np.empty_like(out, dtype=np.float32) if self._single else out
-
-    def _give_back(self, result: np.ndarray, out: np.ndarray) -> None:
-        if result is not out:
-            out[...] = result
-
-    def _integers(self, array: np.ndarray) -> Any:
-        assert array.flags.c_contiguous and array.dtype == np.intc
-        return self._ffi.cast("int *", array.ctypes.data)
-
-    def _numbers(self, array: np.ndarray) -> Any:
-        # The address itself: half the time of from_buffer; the caller holds the array.
-        return self._ffi.cast("float *" if self._single else "double *", array.ctypes.data)
-
 
 def check_names(spec: ModuleSpec) -> None:
     """Refuse manifests whose functions could not be declared, or that lack one.
@@ -246,6 +266,10 @@ def _declarations(spec: ModuleSpec) -> str:
         states = ", ".join(["const double *"] * (4 if spec.signals else 3))
         told = ", int *" if loops else ""
         lines.append(f"void {spec.prefix}_observation(size_t, {states}, double *{told});")
+    if loops:
+        lines.append(f"extern const char {spec.prefix}_loops[];")
+        names = (f"{spec.prefix}_posed", f"{spec.prefix}_tree_next", "modeler_eliminated")
+        lines += [f"void {name}(void);" for name in names]
     for function in spec.every_function:
         inputs = ", ".join("const double *" for _ in function.inputs)
         returns = "int" if function.status else "void"
@@ -455,7 +479,9 @@ _TILE_DECLARED = """
 typedef struct {{
     int joints, columns, signals, nonzeros;
     const int *row, *column;
-    void *tile;
+    void *tile, *closing;
+    size_t room;
+    const void *singles;
 }} modeler_tiled;
 const modeler_tiled *{prefix}_tiled(void);
 const char *{prefix}_tile_signature(void);
@@ -464,60 +490,86 @@ void modeler_tile_observation(const modeler_tiled *, size_t, const double *, con
                               const double *, const double *, double *, void *);
 void modeler_tile_nonzeros(const modeler_tiled *, size_t, const double *, const double *,
                            const double *, const double *, double *, void *);
+void modeler_tile_columns(const modeler_tiled *, size_t, const double *, const double *,
+                          const double *, const double *, double *, size_t, void *);
+void modeler_tile_closed(const modeler_tiled *, size_t, const double *, const double *,
+                         const double *, double *, size_t, int *, void *);
 """
 
 
-class TileLibrary:
+class TileLibrary(_Arrays):
     """A loaded library; its functions release the interpreter lock and may run in threads."""
 
-    def __init__(self, spec: ModuleSpec, path: Path) -> None:
-        """Load the library at `path`.
+    def __init__(self, spec: ModuleSpec, path: Path, library: Library) -> None:
+        """Load the library at `path`; `library` has what closes loops one after another.
 
         Raises:
             BuildError: it cannot be loaded.
             ManifestError: it was emitted with another manifest.
         """
-        declared = _TILE_DECLARED.format(prefix=spec.prefix)
-        self._ffi, self._library = _opened(declared, path)
+        super().__init__(spec, _TILE_DECLARED.format(prefix=spec.prefix), path)
         answer = getattr(self._library, f"{spec.prefix}_tile_signature")()
         if (got := self._ffi.string(answer).decode()) != spec.signature():
             raise ManifestError(
                 f"{spec.robot}: the code of the tiles answers {got}, the manifest expects "
                 f"{spec.signature()}; one of them is older, generate both again"
             )
-        self._tiled = getattr(self._library, f"{spec.prefix}_tiled")()
+        given = getattr(self._library, f"{spec.prefix}_tiled")()
+        self._tiled = self._ffi.new(f"{self._runtime}_tiled *", given[0])
+        if spec.closure is not None:
+            self._singles = self._ffi.new("uintptr_t[]", library.singles)
+            self._tiled.singles = self._singles
 
     @property
     def tile(self) -> int:
         """Where the function of one tile stands, for C that calls it; the caller holds this."""
         return int(self._ffi.cast("uintptr_t", self._tiled.tile))
 
-    def fill(self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool) -> None:
+    def fill(
+        self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool,
+        status: np.ndarray | None = None,
+    ) -> None:  # fmt: skip
         """Evaluate samples.
 
         Args:
             inputs: q, qd, qdd and, with signals, s: (n, ...), C-contiguous.
-            out: C-contiguous, n rows: whole regressors if `dense`, else entries.
+            out: rows of samples, one after another: whole regressors if `dense`, else entries; or
+                rows of W with columns that are contiguous each.
             dense: with what is always 0.
+            status: (n,) C int, of a robot with loops.
         """
-        pointers = [self._doubles(array) for array in inputs]
-        pointers += [self._ffi.NULL] * (4 - len(inputs))
-        work = np.empty(self._library.modeler_tile_work(self._tiled), dtype=np.uint8)
-        start = self._ffi.cast("void *", work.ctypes.data)
-        name = "observation" if dense else "nonzeros"
-        function = getattr(self._library, f"modeler_tile_{name}")
-        function(self._tiled, len(inputs[0]), *pointers, self._doubles(out), start)
+        arrays, result = self._own(inputs), self._place(out)
+        pointers = [self._numbers(array) for array in arrays]
+        work = np.empty(self._function("work")(self._tiled), dtype=np.uint8)
+        given, start = [self._tiled, len(inputs[0])], self._ffi.cast("void *", work.ctypes.data)
+        rows = [] if result.flags.c_contiguous else [result.strides[1] // result.itemsize]
+        if status is not None:
+            more = [self._numbers(result), *(rows or [0]), self._integers(status), start]
+            self._function("closed")(*given, *pointers, *more)
+        else:
+            pointers += [self._ffi.NULL] * (4 - len(inputs))
+            name = "columns" if rows else "observation" if dense else "nonzeros"
+            self._function(name)(*given, *pointers, self._numbers(result), *rows, start)
+        self._give_back(result, out)
 
-    def _doubles(self, array: np.ndarray) -> Any:
-        assert array.flags.c_contiguous and array.dtype == np.float64
-        return self._ffi.cast("double *", array.ctypes.data)
+    def _function(self, name: str) -> Any:
+        return getattr(self._library, f"{self._runtime}_tile_{name}")
 
 
-def tile_library(spec: ModuleSpec, files: Mapping[str, str]) -> TileLibrary:
+def tile_library(spec: ModuleSpec, files: Mapping[str, str], library: Library) -> TileLibrary:
     """The library of these files, compiled once and then taken from the cache.
+
+    Args:
+        spec: the manifest.
+        files: with its `tile_sources`.
+        library: of the same module.
 
     Raises:
         BuildError: no compiler, or it refused.
         ManifestError: the files belong to another manifest.
     """
-    return TileLibrary(spec, build_library({name: files[name] for name in spec.tile_sources}))
+    texts = {name: files[name] for name in spec.tile_sources}
+    if spec.closure is not None:  # loops are closed one after another by the library that is there
+        unit = f"{spec.prefix}_tile.c"
+        texts[unit] = f"#define MODELER_APART\n{texts[unit]}"
+    return TileLibrary(spec, build_library(texts), library)

@@ -48,6 +48,11 @@ class NonzeroPattern:
         counts = [len(own) for own in self.columns]
         return np.repeat(np.arange(len(counts), dtype=np.intc), counts)
 
+    @cached_property
+    def spans(self) -> list[slice]:
+        """Of each joint, from its first column to its last; all others are 0."""
+        return [slice(own[0], own[-1] + 1) if own.size else slice(0) for own in self.columns]
+
     def parts(self, packed: np.ndarray) -> list[np.ndarray]:
         """The square triangle of each joint, views."""
         ends = np.cumsum([size * size for size in self.sizes])
@@ -219,8 +224,8 @@ TILED_FROM = 2**18
 _SLICE = 2**14  # samples that a thread is worth starting for
 
 
-def checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
-    """`out`, if it can be filled.
+def checked_out(out: np.ndarray, shape: tuple[int, int], columns: bool = False) -> np.ndarray:
+    """`out`, if it can be filled; `columns`: it may be Fortran-contiguous too.
 
     Raises:
         ShapeError: says what it must be.
@@ -228,9 +233,11 @@ def checked_out(out: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
     if not isinstance(out, np.ndarray) or out.shape != shape:
         got = out.shape if isinstance(out, np.ndarray) else type(out).__name__
         raise ShapeError(f"out: got {got}, expected an array {shape}")
-    if out.dtype != np.float64 or not out.flags.c_contiguous or not out.flags.writeable:
+    whole = out.flags.c_contiguous or (columns and out.flags.f_contiguous)
+    if out.dtype != np.float64 or not whole or not out.flags.writeable:
         raise ShapeError(
-            f"out: got type {out.dtype}, expected a writeable C-contiguous float64 array; "
+            f"out: got type {out.dtype}, expected a writeable C-contiguous"
+            f"{' (or Fortran-contiguous)' * columns} float64 array; "
             f"make one with np.empty({shape})"
         )
     return out
@@ -274,28 +281,35 @@ class Batches:
             self._library.batch(self._functions["base_regressor_nonzeros"], inputs, values)
         return values
 
-    def _fill(self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool) -> bool:
-        """Fill `out` by tiles; False, and nothing done, for few samples or without tiles."""
-        samples = len(inputs[0])
+    def _fill(
+        self, inputs: Sequence[np.ndarray], out: np.ndarray, dense: bool,
+        status: np.ndarray | None = None,
+    ) -> bool:  # fmt: skip
+        """Fill `out` by tiles; False, and nothing done, for few samples or without tiles.
+
+        With loops one sample starts from another: all in one thread, and `status` is filled.
+        """
+        samples, loops = len(inputs[0]), self.spec.closure is not None
         tiles = self._tiles if samples >= TILED_FROM else None
-        if tiles is None:
+        if tiles is None or loops != (status is not None):
             return False
-        rows = out.reshape(samples, -1)
+        each = len(out) // samples if out.ndim == 2 else 1  # rows of a sample
 
         def part(piece: slice) -> None:
-            tiles.fill([array[piece] for array in inputs], rows[piece], dense)
+            rows = out[each * piece.start : each * piece.stop]
+            tiles.fill([array[piece] for array in inputs], rows, dense, status)
 
-        for _ in mapped(part, shares(samples, _SLICE)):
+        for _ in mapped(part, [slice(0, samples)] if loops else shares(samples, _SLICE)):
             pass
         return True
 
     @cached_property
     def _tiles(self) -> TileLibrary | None:
-        """The library of tiles; None where there are none: with loops, or in older files."""
+        """The library of tiles; None where there are none: in older files."""
         wanted = self.spec.tile_sources
         if not wanted or not all(name in self._tile_files for name in wanted):
             return None
-        return bind.tile_library(self.spec, self._tile_files)
+        return bind.tile_library(self.spec, self._tile_files, self._library)
 
     def _motion(self, q: Any, qd: Any, qdd: Any, s: Any) -> tuple[np.ndarray, ...]:
         """Checked q, qd, qdd and, where effects read any, signals."""

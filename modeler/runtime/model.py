@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -93,8 +93,9 @@ class CompiledModel(Batches, Presented):
         return self._evaluate("regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
 
     def observation(
-        self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None, s: Any = None
-    ) -> np.ndarray:
+        self, q: Any, qd: Any, qdd: Any, out: np.ndarray | None = None, s: Any = None,
+        *, order: Literal["C", "F"] = "C",
+    ) -> np.ndarray:  # fmt: skip
         """W, (n*joints, c): y = W beta with y = tau.reshape(-1), joint after joint in each sample.
 
         Args:
@@ -102,18 +103,22 @@ class CompiledModel(Batches, Presented):
             qd: velocities.
             qdd: accelerations.
             out: is filled and returned if given; saves most of the time of a large W, which goes
-                into fresh memory pages.
+                into fresh memory pages. In either order of memory.
             s: signals of effects, where there are any.
+            order: of a new W in memory: "F" column after column, as LAPACK has it.
         """
         if not self.spec.has("_batch"):
             self._functions["observation"]
         inputs = self._motion(q, qd, qdd, s)
         shape = (len(inputs[0]) * self._joints, len(self.spec.base))
-        W = np.empty(shape) if out is None else checked_out(out, shape)
-        if not self._fill(inputs, W, dense=True):
-            status = self._no_status(len(inputs[0]))
-            self._library.observation(inputs, W, status)
-            self._check(status, inputs[0])
+        W = np.empty(shape, order=order) if out is None else checked_out(out, shape, columns=True)
+        status = self._no_status(len(inputs[0]))
+        if not self._fill(inputs, W, dense=True, status=status):
+            rows = W if W.flags.c_contiguous else np.empty(shape)
+            self._library.observation(inputs, rows, status)
+            if rows is not W:
+                W[...] = rows
+        self._check(status, inputs[0])
         return W
 
     def inverse_dynamics(self, q: Any, qd: Any, qdd: Any, beta: Any, s: Any = None) -> np.ndarray:

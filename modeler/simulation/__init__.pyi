@@ -22,5 +22,6 @@ from .trajectory import (
     at_rate as at_rate,
     curve_of as curve_of,
     motion_limits as motion_limits,
+    point_to_point_reference as point_to_point_reference,
     read_motion as read_motion,
 )

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -152,7 +153,7 @@ def structure(prediction: Prediction, joint: int) -> Structure | None:
             by[k] = (str(k), *(f"{name} {k}" for name in _ELSEWHERE))
     for motor in prediction.motors:
         sets[motor.name] = friction_curve(m.v @ np.asarray(motor.coefficients))
-    said = flexible(sets | functions(m), e, stretches(prediction.run[rows]))
+    said = flexible(chain(sets.items(), functions(m)), e, stretches(prediction.run[rows]))
     alone = {name: said.alone.get(name, 0.0) for name in sets} | said.alone
     drifts = {name: _drift(prediction, joint, name, rows, e) for name in names if name in DRIFTS}
     joints = tuple(enumerate(info.name for info in prediction.joints))
@@ -207,10 +208,11 @@ def _drift(prediction: Prediction, joint: int, name: str, rows: np.ndarray, e: n
     values = coordinate_values(prediction, joint, name)[rows]
     if name == "time":
         columns = drift_curve(values, prediction.run[rows])
-        return flexible({name: columns}, e, fold).share
+        return flexible([(name, columns)], e, fold).share
     way = np.sign(prediction.qd[rows, joint])[:, None]
     slow = curve(values, 5)
-    said = flexible({name: np.hstack((slow, slow * way)), "direction": way}, e, fold).alone
+    both = (name, np.hstack((slow, slow * way))), ("direction", way)
+    said = flexible(both, e, fold).alone
     return max(0.0, said.get(name, 0.0) - said.get("direction", 0.0))
 
 

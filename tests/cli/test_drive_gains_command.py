@@ -106,6 +106,39 @@ def test_the_model_file_reads_currents_with_the_gains_that_were_found(cell, caps
     assert len(errors) == 3 and all(float(error) < 1.0 for error in errors)
 
 
+def test_a_log_with_a_known_load_is_predicted_with_it(cell, tmp_path, capsys):
+    """Figure 3 of the paper: 1.136 kg, which no fit has seen."""
+    place, drawn = tmp_path / "c.json", tmp_path / "p.json"
+    words = ("compare", cell / "model.json", cell / "second.parquet", "--json", place)
+    assert modeler(*words) == 0
+    bare = json.loads(place.read_text())["joints"]
+    capsys.readouterr()
+    assert modeler(*words, "--payload-mass", 1.136, "--picture", drawn) == 0
+    loaded = json.loads(place.read_text())["joints"]
+    assert all(loaded[j]["relative_error"] < 0.04 for j in GAINS)
+    assert all(loaded[j]["rms"] < 0.7 * bare[j]["rms"] for j in GAINS)
+    assert loaded["13"]["rms"] < 0.25 * bare["13"]["rms"]  # along gravity
+    told = capsys.readouterr().out
+    assert "with 1.136 kg  without the load" in told and "beyond doubt" in told
+    names = {picture["name"] for picture in json.loads(drawn.read_text())["pictures"]}
+    assert {f"joint_{j}_models" for j in GAINS} < names
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("--payload-link", "6"), "--payload-link: no load; add --payload-mass KG"),
+        (("--payload-centre", "0,0,0"), "--payload-centre: no load; add --payload-mass KG"),
+        (("--payload-mass", "1", "--payload-centre", "1,a"), "expected x, y and z in m"),
+        (("--payload-mass", "1", "--payload-link", "99"), "payload: no link 99"),
+        (("--payload-mass", "-1"), "expected a mass above 0"),
+    ],
+)
+def test_a_load_that_makes_no_sense_is_refused(cell, capsys, words, told):
+    assert modeler("compare", cell / "model.json", cell / "second.parquet", *words) == 1
+    assert told in capsys.readouterr().err
+
+
 @pytest.fixture(scope="module")
 def arm(tmp_path_factory):
     """Short logs of an arm: currents bare and loaded, and torques."""

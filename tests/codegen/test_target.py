@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from modeler.codegen.block import Block, make_block, number_text
-from modeler.codegen.targets import DOUBLE, FUNCTIONS, SINGLE, TILE
+from modeler.codegen.targets import DOUBLE, FUNCTIONS, SINGLE, TILES
 from modeler.core.errors import EmitError
 from modeler.derivation.graph import Expr, Graph
 from tests.modules import compiler
@@ -78,13 +78,13 @@ def test_single_precision_computes_the_same_without_one_double(tmp_path):
     np.testing.assert_allclose(out, expected, rtol=2e-6, atol=1e-7)
 
 
-@pytest.mark.parametrize("target", [DOUBLE, SINGLE, TILE])
+@pytest.mark.parametrize("target", [DOUBLE, SINGLE, *TILES.values()])
 def test_a_target_names_all_functions(target):
     assert set(target.functions) == set(FUNCTIONS)
 
 
 def test_a_tile_has_lanes_for_what_moves_and_numbers_for_what_does_not():
-    made = block(TILE)
+    made = block(TILES["double"])
     assert all(line.startswith("const double k") for line in made.constants)
     assert not any(word in line for line in made.body for word in ("double", " sin(", " pow("))
     assert made.body[-3].startswith("out[6] = modeler_lanes_spread(")

@@ -1,7 +1,7 @@
 """Tiles: the same values as one sample after another, wherever a sample stands and whatever is in
 the others; robots, compilers and instruction sets side by side."""
 
-import dataclasses
+import platform
 import re
 import subprocess
 
@@ -10,11 +10,13 @@ import pytest
 
 import modeler.runtime.fused as tiling
 import modeler.runtime.threads as threads
+from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
-from modeler.core.errors import ManifestError, ShapeError
-from modeler.runtime.model import load, load_folder
+from modeler.core.errors import LoopError, ManifestError, ShapeError
+from modeler.runtime.bind import Library, tile_library
+from modeler.runtime.model import CompiledModel, load, load_folder
 from tests.codegen.fitted_library import robot_module
-from tests.modules import STRICT, compiled, compiler, loaded, module, states
+from tests.modules import STRICT, compiled, compiler, loaded, module, states, unoptimised
 from tests.robots import LOOPED, ROBOTS
 from tests.turns import IN_TURN
 
@@ -229,13 +231,111 @@ def test_every_instruction_set_of_this_processor_gives_the_same(cc, flags, tmp_p
     assert subprocess.run([tmp_path / "check"], check=False).returncode == 0
 
 
-def test_loops_have_no_tiles_and_say_so():
+def test_robots_with_loops_have_no_entries_of_their_own_and_say_so():
     model = compiled("five-bar")
-    assert model.spec.tile_sources == ()
-    assert not any("tile" in name for name in module("five-bar").emitted.files)
     q = np.array([model.spec.closure.home[place] for place in model.spec.closure.given])[None]
     with pytest.raises(ManifestError, match=r"five-bar has loops: every entry .* base_regressor"):
         model.nonzeros(q, 0 * q, 0 * q)
+
+
+@pytest.mark.parametrize("name", ["five-bar", "3rrr"])
+@pytest.mark.parametrize("plain", [False, True])
+def test_loops_closed_side_by_side_are_those_closed_one_by_one(name, plain):
+    """Fast and slow, at rest, with leaps, out of reach and back, with values that are none."""
+    model = compiled(name)
+    with unoptimised(*["-O1", "-DMODELER_PLAIN"] * plain):
+        tiles = tile_library(model.spec, model._tile_files, model._library)
+    home = np.array([model.spec.closure.home[place] for place in model.spec.closure.given])
+    rng = np.random.default_rng()
+    for far in (1e-3, 0.3, 3.0):
+        samples = 203
+        t = np.linspace(0, 9, samples)[:, None]
+        q = home + far * np.sin(t * rng.uniform(0.5, 1, len(home)))
+        q[60:90] = q[60]
+        q[120:] += 0.01
+        qd, qdd = rng.normal(0, 2, (2, *q.shape))
+        q[140, 0] = qd[150, 1] = np.nan
+        shape, own, told = (samples * len(home), len(model.spec.base)), *np.zeros((2, samples), "i")
+        W, order = np.empty(shape), np.empty(shape, order="F")
+        model._library.observation([q, qd, qdd], W, own)
+        for out in (np.empty(shape), order):
+            tiles.fill([q, qd, qdd], out, True, told)
+            np.testing.assert_array_equal(told, own)
+            largest = np.abs(W).reshape(samples, -1).max(axis=1).repeat(len(home))[:, None]
+            apart = np.abs(out - W) / largest
+            assert not (apart > 1e-9).any() and np.nanmedian(apart.max(axis=1)) < 1e-13
+            np.testing.assert_array_equal(np.isnan(out), np.isnan(W))
+    assert own[140] == own[150] == 3
+
+
+def test_the_observation_matrix_of_loops_uses_tiles(tiled):
+    model = compiled("five-bar")
+    home = np.array([model.spec.closure.home[place] for place in model.spec.closure.given])
+    q = home + 1e-3 * np.arange(40)[:, None]
+    W = model.observation(q, 0 * q, 1 + 0 * q)
+    np.testing.assert_allclose(
+        W, model.base_regressor(q, 0 * q, 1 + 0 * q).reshape(W.shape), atol=1e-11
+    )
+    with pytest.raises(LoopError, match="five-bar: sample 3: the loops"):
+        model.observation(q + [[9.0, -9.0]] * (np.arange(40) == 2)[:, None], 0 * q, q)
+
+
+@pytest.mark.parametrize("name", ["wrist", "five-bar"])
+def test_tiles_in_single_precision(name, tiled, monkeypatch):
+    made = module(name)
+    model = loaded(emit(made.model, made.base, precision="single"))
+    closure = model.spec.closure
+    joints = len(model.spec.joints)
+    q, qd, qdd = states(joints, 37)
+    if closure is not None:
+        q = np.array([closure.home[k] for k in closure.given]) + 1e-3 * q
+    W = model.observation(q, qd, qdd)
+    np.testing.assert_array_equal(model.observation(q, qd, qdd, order="F"), W)
+    monkeypatch.setattr(tiling, "TILED_FROM", 2**18)
+    expected = compiled(name).observation(q, qd, qdd)
+    size = np.abs(expected).max()
+    assert np.abs(W - expected).max() < 3e-6 * size
+    assert np.abs(model.observation(q, qd, qdd) - expected).max() < 3e-6 * size
+
+
+@pytest.mark.parametrize("name", ["emps", "wrist", "scara"])
+def test_columns_are_filled_as_rows_are(name, tiled):
+    """Any number of samples, wherever the memory starts, nothing beside it touched."""
+    model = compiled(name)
+    joints, width = len(model.spec.joints), len(model.spec.base)
+    for samples in (1, 2, 7, 8, 33, 70):
+        motion = states(joints, samples)
+        W = model.observation(*motion)
+        for start in (0, 1, 3):
+            place = np.full((samples * joints + 9, width), 7.0, order="F")
+            own = place[start : start + samples * joints]
+            model._tiles.fill([np.ascontiguousarray(x) for x in motion], own, True)
+            np.testing.assert_array_equal(own, W)
+            assert (place[:start] == 7).all() and (place[start + len(W) :] == 7).all()
+        by_columns = model.observation(*motion, order="F")
+        assert by_columns.flags.f_contiguous
+        np.testing.assert_array_equal(by_columns, W)
+        assert model.observation(*motion, out=by_columns) is by_columns
+
+
+@pytest.mark.skipif(
+    platform.machine() != "x86_64" or platform.libc_ver()[0] != "glibc", reason="NOT CHECKED: ifunc"
+)
+def test_the_loader_picks_the_machine_code_of_a_regressor(tmp_path):
+    """Without contraction the digits are those of one text for all processors."""
+    emitted = module("wrist").emitted
+    write_emitted(emitted, tmp_path)
+    found = {}
+    for flag in ("-DMODELER_NO_CLONES", "-DMODELER_WITH"):
+        library = tmp_path / f"{flag}.so"
+        units = [tmp_path / n for n in emitted.spec.sources if n.endswith(".c")]
+        command = [compiler("gcc"), *STRICT, "-O2", "-fPIC", "-shared", flag, "-o", library]
+        subprocess.run([*command, *units, "-lm"], check=True)
+        listed = subprocess.run(["nm", library], capture_output=True, text=True, check=True)
+        assert (" i wrist_base_regressor" in listed.stdout) == (flag == "-DMODELER_WITH")
+        found[flag] = CompiledModel(emitted.spec, Library(emitted.spec, library))
+    one, two = (m.base_regressor(*states(3, 50)) for m in found.values())
+    np.testing.assert_array_equal(one, two)
 
 
 def test_a_module_without_the_unit_is_evaluated_sample_by_sample(tiled):
@@ -282,5 +382,3 @@ def test_triangles_of_tiles_are_those_of_samples(monkeypatch):
 def test_the_manifest_names_the_files_of_tiles():
     emitted = module("wrist").emitted
     assert set(emitted.spec.tile_sources) <= set(emitted.files)
-    single = dataclasses.replace(emitted.spec, precision="single")
-    assert single.tile_sources == ()

@@ -131,7 +131,7 @@ COMMANDS = {
     "fit several": (ROBOT, "a.csv", "--method", "weighted,ridge", "--holdout", "b.csv"),
     "robots one": ("wrist",),
     "physical sets": (ROBOT, "--sets"),
-    "derive forms": (ROBOT, "--closed-form", "--regressor"),
+    "derive forms": (ROBOT, "--closed-form", "--regressor", "--energy", "--kane"),
     "demo": ("--duration", "6"),
     "fleet": (ROBOT, "a.csv", "b.csv"),
     "diagnose": ("m.json", "a.csv", "--holdout", "silent.csv", "--report", "d.html"),

@@ -27,6 +27,7 @@ def parser() -> argparse.ArgumentParser:
     one.add_argument("--seeds", type=int, default=50, help="machines; default: %(default)s")
     one.add_argument("--first", type=int, default=1, help="number of the first; default: 1")
     one.add_argument("--cases", default=",".join(CASES), help="default: %(default)s")
+    one.add_argument("--jobs", type=int, default=1, help="processes; default: %(default)s")
     two = commands.add_parser("measured", help="errors on real machines")
     two.add_argument("--sets", default=",".join(SETS), help="default: %(default)s")
     two.add_argument("--data", type=Path, default=DATA, help="folder of the measured logs")
@@ -54,7 +55,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     seeds = range(options.first, options.first + options.seeds)
     for case in named(options.cases, list(CASES)):
-        print(table(case, covered(seeds, case, methods)), flush=True)
+        print(table(case, covered(seeds, case, methods, options.jobs)), flush=True)
         print(flush=True)
     return 0
 

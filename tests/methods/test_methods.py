@@ -3,6 +3,7 @@
 import json
 import re
 
+import numpy as np
 import pytest
 
 from modeler.cli import main
@@ -11,12 +12,20 @@ from modeler.core.builtin import paper_names
 from modeler.core.errors import RobotError
 from modeler.papers.methods import MethodTable, Outcome, Row, figures, quoted, recovered
 from modeler.papers.paper import read_paper
+from tests.json_schemas import check_schema
 
 TITLES = {
-    "guegan-2003": ["Table 2", "The direction", "Table 3", "Condition numbers"],
-    "briot-2012": ["Table 3", "The second load"],
+    "guegan-2003": [
+        "Blocks",
+        "Table 2",
+        "The direction",
+        "Table 3",
+        "Condition numbers",
+        "The exciting motion",
+    ],
+    "briot-2012": ["Table 3", "Figure 3", "The second load"],
     "houda": ["Table 1", "Table 1", "The energy model"],
-    "hanssen-2000": ["Eq. (3)", "Persistent excitation", "Two steps", "Physical parameters"],
+    "hanssen-2000": ["Eq. (3)", "Persistent excitation", "Two steps", "Figure 2", "Physical"],
 }
 QUICK = "hanssen-2000"
 
@@ -30,7 +39,10 @@ def test_every_paper_has_its_method():
 )
 def test_every_identification_is_reproduced(name, capsys, tmp_path):
     place = tmp_path / "methods.json"
-    assert main(["reproduce", name, "--section", "methods", "--json", str(place)]) == 0
+    drawn = ["--picture", str(tmp_path / "drawn.json")] if name == QUICK else []
+    assert main(["reproduce", name, "--section", "methods", "--json", str(place), *drawn]) == 0
+    if drawn:
+        check_figure_2(json.loads((tmp_path / "drawn.json").read_text()))
     assert "[truth recovered]" in capsys.readouterr().out
     told = json.loads(place.read_text())
     assert "lines" not in told
@@ -43,6 +55,38 @@ def test_every_identification_is_reproduced(name, capsys, tmp_path):
         share = re.search(r"\(([\d.e+]+) %\)$", row["ours"])
         if row["outcome"] == "truth recovered":
             assert share is not None and float(share[1]) <= 50, row
+
+
+def check_figure_2(told):
+    """The measured torque is noisy about the modelled one, which is none where the axis stands."""
+    check_schema("pictures", told)
+    ((left, right),) = told["pictures"][0]["panels"]
+    measured, modelled = ([np.nan if y is None else y for y in s["y"]] for s in left["series"])
+    off = np.subtract(measured, modelled)
+    known = ~np.isnan(off)
+    assert 0.3 < known.mean() < 0.99 and np.std(off[known]) < 0.05 * np.std(measured)
+    position, speed, acceleration = (np.array(s["y"]) for s in right["series"])
+    time = np.array(right["series"][0]["x"])
+    assert np.abs(speed[~known]).max() < 0.2 < np.abs(speed[known]).max()
+    assert np.ptp(position) == pytest.approx(2.0, abs=0.05)
+    slope = np.gradient(speed, time)[5:-5] - acceleration[5:-5]
+    assert np.std(slope) < 0.1 * np.std(acceleration)
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("hanssen-2000", "--section", "print"), "figures are of the methods"),
+        (
+            ("guegan-2003", "--section", "methods"),
+            "guegan-2003 has no figure to draw; leave it out",
+        ),
+    ],
+)
+def test_a_picture_that_is_not_there_is_refused(capsys, monkeypatch, tmp_path, words, told):
+    monkeypatch.setitem(METHODS, "guegan-2003", lambda paper, report: [])
+    assert main(["reproduce", *words, "--picture", str(tmp_path / "p")]) == 1
+    assert told in capsys.readouterr().err
 
 
 def test_a_method_that_fails_ends_with_status_1(capsys, monkeypatch):

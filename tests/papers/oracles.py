@@ -216,18 +216,74 @@ def column(paper, line):
     return len(entries) == 10 and bool(np.isclose(above @ entries, wanted))
 
 
-def speed(paper, line):
-    """What the joint's own speed adds, for a joint that turns and one that slides."""
+class Dot:
+    """Numbers, vectors and matrices that `*` multiplies as they stand side by side."""
+
+    def __init__(self, value):
+        self.value = np.asarray(value)
+
+    def __mul__(self, other):
+        return Dot(np.dot(self.value, other.value))
+
+    def __add__(self, other):
+        return Dot(self.value + other.value)
+
+    def __sub__(self, other):
+        return Dot(self.value - other.value)
+
+    def __neg__(self):
+        return Dot(-self.value)
+
+    def cross(self, other):
+        return Dot(np.cross(self.value, other.value))
+
+
+def side_by_side(text, letters):
+    """`Mk Vk^T Vk`: the number or the vector."""
+    text = text.replace("[", "(").replace("]", ")").replace("1/2", " half ").replace("2M", " two M")
+    names = {f"v{k}": word for k, word in enumerate(sorted(letters, key=len, reverse=True))}
+    for name, word in names.items():
+        text = text.replace(word, f" {name} ")
+    text = re.sub(r"(\w+) +x +(\w+)", r"\1.cross(\2)", text)
+    text = re.sub(r"(?<=[\w)]) +(?=[\w(])", "*", text.strip())
+    known = {name: Dot(letters[word]) for name, word in names.items()}
+    return eval(text, {"half": Dot(0.5), "two": Dot(2.0)}, known).value
+
+
+def recursion(paper, line):
+    """A frame on a moving one, by a joint that turns and by one that slides; speeds by steps."""
     for slides in (0, 1):
-        q = 0.4 + 1j * m.STEP * 1.7
-        frame = m.GROUND.then(0, 0, 0, 0, 0 if slides else q, q if slides else 0)
-        w, v = m.rigid(m.Frame(frame.turn + 0j, frame.place + 0j))[:2]
-        wanted = (w if line.gives[0] == "angular" else v)[2]
-        text = line.quote.replace("barsigmak", f"{1 - slides}")
-        printed = value(text.replace("^kak", "").replace("sigmak", f"{slides}"), {"qdk": 1.7})
-        if not np.isclose(printed, wanted):
+        start = m.moving(lambda u: m.GROUND.then(u[0], u[1], u[2], u[3], u[4], u[5]),
+                         *RNG.uniform(-1, 1, (2, 6)))  # fmt: skip
+        q, qd, row = 0.4, 1.7, (0.0, 0.0, *RNG.uniform(-1, 1, 2))
+        joint = q + 1j * m.STEP * qd
+        end = start.then(*row, *((0.3, joint) if slides else (joint, 0.3)))
+        (w, v), (wk, vk) = m.rigid(start)[:2], m.rigid(end)[:2]
+        R = end.turn.real.T @ start.turn.real
+        P = start.turn.real.T @ (end.place - start.place).real
+        letters = {
+            "^kRk-1": R, "^k-1omegak-1": w, "^komegak-1": R @ w, "^k-1Vk-1": v, "^k-1Pk": P,
+            "barsigmak": 1 - slides, "sigmak": slides, "qdk": qd, "^kak": np.array([0, 0, 1]),
+        }  # fmt: skip
+        found = side_by_side(line.quote, letters)
+        if not np.allclose(found, wk if line.gives[0] == "angular" else vk):
             return False
     return True
+
+
+def body(paper, line):
+    """Energy of twelve points with masses."""
+    masses, (w, v, g, place) = RNG.uniform(0.1, 1, 12), RNG.normal(0, 1, (4, 3))
+    xx, xy, xz, yy, yz, zz, *first, mass = m.POINTS_AS_PARAMETERS @ masses
+    axes = m.about_z(0.3) @ m.about_x(0.7)
+    letters = {
+        "omegak^T": w, "omegak": w, "Jk": [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], "Mk": mass,
+        "Vk^T": v, "Vk": v, "MSk^T": first, "^0g^T": g, "^0Pk": place, "^0Ak": axes,
+        "^kSk": np.array(first) / mass,
+    }  # fmt: skip
+    height = -masses @ np.array([g @ (place + axes @ r) for r in m.POINTS])
+    wanted = masses @ m.point_energies(w, v) / 2 if line.gives[0] == "E" else height
+    return bool(np.allclose(side_by_side(line.quote, letters), wanted))
 
 
 # The wrist: its own links in floats, torques by differences of energies.
@@ -369,6 +425,7 @@ def vector(text, q, p, qd):
     known |= {f"tau{k}": 1.0 + k for k in (1, 2, 3)}
     axes = {f"{b}{k + 1}": t[:, k] for b, t in (triads(q) | {"n": np.eye(3)}).items()
             for k in range(3)}  # fmt: skip
+    axes |= {f"v^CM{b}": v for b, (v, _, _) in bodies(q, qd, p).items()}
     total, depth, terms = np.zeros(3), 0, [""]
     for letter in text:
         depth += {"(": 1, ")": -1}.get(letter, 0)
@@ -382,10 +439,19 @@ def vector(text, q, p, qd):
 
 
 def velocity(paper, line):
+    """Velocities, their changes with one speed, and momenta, by complex steps of the places."""
     q, qd, p = *RNG.uniform(-1, 1, (2, 3)), wrist(8)
-    body, _, angular = line.gives[0].partition(" ")
-    v, w, turn = bodies(q, qd, p)[body]
-    return bool(np.allclose(vector(line.quote, q, p, qd), turn @ w if angular else v))
+    for name, cell in zip(line.gives, line.text.split(";"), strict=True):
+        row = re.fullmatch(r"(beta|p)(\d)(\d?)", name)
+        which = "abc"[(int(row[2]) - 1) // 2] if row else name[-1].lower()
+        turns = int(row[2]) % 2 == 0 if row else name.startswith("omega")
+        speed = np.eye(3)[int(row[3]) - 1] if row and row[3] else qd
+        v, w, turn = bodies(q, speed, p)[which]
+        if row and row[1] == "p":
+            v, w = p[f"{which}m"] * v, inertia_of(which, p) @ w
+        if not np.allclose(vector(cell, q, p, qd), turn @ w if turns else v):
+            return False
+    return True
 
 
 def applied(paper, line):
@@ -532,7 +598,8 @@ def arithmetic(paper, line):
 
 ORACLES = {
     "relation": relation, "row": row, "closure": closure, "platform": platform, "effort": effort,
-    "energy": energy, "rotation": rotation, "element": element, "column": column, "speed": speed,
+    "energy": energy, "rotation": rotation, "element": element, "column": column, 
+    "recursion": recursion, "body": body,
     "function": wrist_function, "definition": definition, "solution": solution,
     "independent": independent, "velocity": velocity, "applied": applied, "indices": indices,
     "friction": friction, "numbers": numbers, "names": names, "arithmetic": arithmetic,

@@ -101,6 +101,12 @@ def test_a_line_that_differs_ends_with_status_1(capsys, monkeypatch):
     assert "1 line is different: as many as 33 physical" in capsys.readouterr().err
 
 
+def test_a_robot_names_its_paper():
+    named = {"evra": "houda", "wrist": "hanssen-2000", "orthoglide-leg": "guegan-2003",
+             "orthoglide-2012": "briot-2012"}  # fmt: skip
+    assert {robot: read_paper(robot).name for robot in named} == named
+
+
 def test_an_unknown_paper_is_told(capsys):
     assert main(["reproduce", "newton-1687"]) == 1
     assert 'no paper "newton-1687"; expected one of briot-2012' in capsys.readouterr().err
@@ -125,7 +131,14 @@ def test_a_known_difference_that_is_not_there_is_a_difference():
                    "gives": ("11", "21")}),
         ("houda", {"check": "names", "gives": ("prefix(within(standard('*31'), standard('*21')))",),
                    "quote": "hXX, hXY, hXZ, hYY, hYZ, hZZ, hM"}),
-        ("houda", {"check": "speed", "quote": "sigmak qdk ^kak", "gives": ("angular",)}),
+        ("houda", {"check": "recursion", "gives": ("angular",),
+                   "quote": "^komegak-1 + sigmak qdk ^kak"}),
+        ("houda", {"check": "recursion", "gives": ("angular",), "quote": "qdk (^kak"}),
+        ("houda", {"check": "body", "gives": ("E",), "quote": "Mk + Vk"}),
+        ("houda", {"check": "energy", "gives": ("XY",), "quote": "1/2 omega1 omega2",
+                   "difference": "1/2 w1 w2 inXY", "slip": "misprint",
+                   "corrected": "2 omega1 omega2"}),
+        ("hanssen-2000", {"check": "velocity", "gives": ("vCMa",), "quote": "-at3 qd1"}),
         ("houda", {"check": "energy", "quote": "uk 0 | 0", "gives": ("ZZ", "M")}),
         ("houda", {"check": "energy", "quote": "^kVk^T kVk", "gives": ("M",)}),
         ("hanssen-2000", {"check": "indices", "quote": "Jij ddotqi + gi = taui"}),

@@ -78,7 +78,7 @@ def test_a_row_is_predicted_from_others() -> None:
     y = np.sin(3.0 * m.q[:, 1]) + noise(1)
     other = y.copy()
     other[where] = other[where][::-1]
-    sets = functions(m)
+    sets = [*functions(m)]
     first, second = (flexible(sets, r, fold()).prediction[where] for r in (y, other))
     np.testing.assert_allclose(first, second, atol=1e-5)
 
@@ -105,7 +105,7 @@ def test_work_does_not_grow_with_rows_or_pairs_of_joints(
         return solved(gram, ridge, side)
 
     monkeypatch.setattr(rival, "_solved", counted)
-    sets = functions(measured(0, 0, rows, joints))
+    sets = [*functions(measured(0, 0, rows, joints))]
     flexible(sets, noise(0, rows=rows), fold(rows))
     assert len(sets) <= 4 + joints
     assert len(sizes) == 2 * 36 * len(sets)

@@ -64,7 +64,7 @@ def check_log(log: str) -> None:
 @pytest.mark.parametrize(
     "words",
     [
-        ("wrist", "--closed-form", "--terms", "--expanded", "--document"),
+        ("wrist", "--closed-form", "--terms", "--expanded", "--kane", "--energy", "--document"),
         ("orthoglide-2003", "--closed-form", "--regressor"),
         pytest.param(("stewart", "--document"), marks=pytest.mark.slow),
         ("every", *ALL_FORMS, "--document"),

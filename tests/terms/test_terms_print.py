@@ -14,7 +14,6 @@ from modeler.formulas.print_checks import (
     check_twin,
     exact_state,
     power_balance,
-    projected_motor_torques,
     wrong_definitions,
     wrong_functions,
 )
@@ -107,11 +106,6 @@ def test_two_wrists_with_the_same_coefficients(table):
 def test_a_twin_that_is_none_is_found_out():
     check = check_twin(table_with(('cm = "21/5"', 'cm = "22/5"')))
     assert {"PG2", "PG3", "PJ16"} <= set(check.different)
-
-
-def test_motor_torques_without_reactions():
-    assert projected_motor_torques(model_of("wrist")) == ["tau1 + c2*tau3", "tau2", "tau3"]
-    assert projected_motor_torques(model_of("two-link")) == ["tau1 + tau2", "tau2"]
 
 
 def test_a_right_print_is_not_called_wrong():
