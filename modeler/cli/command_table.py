@@ -420,7 +420,8 @@ _EXCITE = Command(
     "and writes it as a table for a controller or `modeler simulate --motion`. Of a MODEL: its "
     "essential parameters, its torque noise. With --from: what to record next, beside logs that "
     "there are. With --between: the motion that tells two effects apart. With --choose: the best "
-    "of motions that there are. With --check: do links run into each other along a motion?",
+    "of motions that there are. With --check: do links run into each other along a motion? The "
+    "page shows the robot where two links come nearest.",
     "modeler excite panda --duration 10 --out motion.csv --picture motion.png",
     (
         value("robot", "ROBOT|MODEL", places.RobotOrModel, ROBOT_OR_MODEL),
@@ -428,8 +429,7 @@ _EXCITE = Command(
         value("--out", "MOTION", places.NewLog,
               "motion to write, .csv or .parquet: time, q, qd and qdd of every joint"),
         value("--picture", "FILE", places.Output, "draw it against its limits: .png, .svg or .pdf"),
-        value("--report", "PAGE", places.Output,
-              "page of the robot where two links come nearest, with its capsules"),
+        *page(),
         Group("the motion", None, (
             choice("--family", ("fourier", "bspline", "trapezoid"),
                    "fourier: periodic; bspline: quintic; trapezoid: moves from place to place, "
