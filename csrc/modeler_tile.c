@@ -411,22 +411,23 @@ typedef WHOLE MODELER_VERSION(places) __attribute__((vector_size(FEW * sizeof(mo
 /* A square of FEW entries and FEW samples is turned in the registers. */
 #undef SHUFFLE
 #define SHUFFLE(...) MODELER_SHUFFLE(MODELER_VERSION(places), __VA_ARGS__)
-#undef SQUARE
-#define SQUARE(A, B, C, D, to, width) \
-    do { \
-        const MODELER_VERSION(four) a0 = *(const MODELER_VERSION(four) *)(A); \
-        const MODELER_VERSION(four) a1 = *(const MODELER_VERSION(four) *)(B); \
-        const MODELER_VERSION(four) a2 = *(const MODELER_VERSION(four) *)(C); \
-        const MODELER_VERSION(four) a3 = *(const MODELER_VERSION(four) *)(D); \
-        const MODELER_VERSION(four) b0 = SHUFFLE(a0, a1, 0, 4, 2, 6); \
-        const MODELER_VERSION(four) b1 = SHUFFLE(a0, a1, 1, 5, 3, 7); \
-        const MODELER_VERSION(four) b2 = SHUFFLE(a2, a3, 0, 4, 2, 6); \
-        const MODELER_VERSION(four) b3 = SHUFFLE(a2, a3, 1, 5, 3, 7); \
-        *(MODELER_VERSION(four) *)(to) = SHUFFLE(b0, b2, 0, 1, 4, 5); \
-        *(MODELER_VERSION(four) *)((to) + (width)) = SHUFFLE(b1, b3, 0, 1, 4, 5); \
-        *(MODELER_VERSION(four) *)((to) + 2 * (width)) = SHUFFLE(b0, b2, 2, 3, 6, 7); \
-        *(MODELER_VERSION(four) *)((to) + 3 * (width)) = SHUFFLE(b1, b3, 2, 3, 6, 7); \
-    } while (0)
+MODELER_TARGET static inline void MODELER_VERSION(square)(const modeler_real *A,
+                                                          const modeler_real *B,
+                                                          const modeler_real *C,
+                                                          const modeler_real *D, modeler_real *to,
+                                                          size_t width)
+{
+    typedef MODELER_VERSION(four) four;
+    const four a0 = *(const four *)A, a1 = *(const four *)B;
+    const four a2 = *(const four *)C, a3 = *(const four *)D;
+    const four b0 = SHUFFLE(a0, a1, 0, 4, 2, 6), b1 = SHUFFLE(a0, a1, 1, 5, 3, 7);
+    const four b2 = SHUFFLE(a2, a3, 0, 4, 2, 6), b3 = SHUFFLE(a2, a3, 1, 5, 3, 7);
+
+    *(four *)to = SHUFFLE(b0, b2, 0, 1, 4, 5);
+    *(four *)(to + width) = SHUFFLE(b1, b3, 0, 1, 4, 5);
+    *(four *)(to + 2 * width) = SHUFFLE(b0, b2, 2, 3, 6, 7);
+    *(four *)(to + 3 * width) = SHUFFLE(b1, b3, 2, 3, 6, 7);
+}
 
 MODELER_TARGET static void MODELER_VERSION(turn)(const plan *p, const modeler_real *values)
 {
@@ -437,8 +438,10 @@ MODELER_TARGET static void MODELER_VERSION(turn)(const plan *p, const modeler_re
         const int *const source = p->source + b * FEW;
         modeler_real *const to = p->rows + p->first[b];
 
-        SQUARE(values + source[0] * MODELER_LANES, values + source[1] * MODELER_LANES,
-               values + source[2] * MODELER_LANES, values + source[3] * MODELER_LANES, to, p->width);
+        MODELER_VERSION(square)(values + source[0] * MODELER_LANES,
+                                values + source[1] * MODELER_LANES,
+                                values + source[2] * MODELER_LANES,
+                                values + source[3] * MODELER_LANES, to, p->width);
     }
 }
 
@@ -458,7 +461,7 @@ MODELER_TARGET static void MODELER_VERSION(column)(const plan *p, const modeler_
 
         for (size_t i = 0; i < samples; i += MODELER_LANES) {
             for (int lane = 0; lane < MODELER_LANES; lane += FEW) {
-                SQUARE(A + lane, B + lane, C + lane, D + lane, to, width);
+                MODELER_VERSION(square)(A + lane, B + lane, C + lane, D + lane, to, width);
                 to += FEW * width;
             }
             A += length;
