@@ -6,6 +6,7 @@ from benchmarks import (
     casadi_c,
     control,
     cortex,
+    fleets,
     folder,
     least_squares,
     loops,
@@ -30,6 +31,7 @@ LINES = (
     *least_squares.LINES,
     *loops.LINES,
     *streams.LINES,
+    *fleets.LINES,
     *pictures.LINES,
     *answers.LINES,
 )

@@ -1,8 +1,10 @@
 """Whole processes: what a user waits for, start of Python included."""
 
+import os
 import subprocess
 import sys
-from collections.abc import Sequence
+import tempfile
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -48,7 +50,9 @@ def cost(command: Sequence[str]) -> Cost:
     """
     # A process begins with the memory of the one that starts it: a small one stands between.
     between = [sys.executable, "-S", "-c", _BETWEEN, *command]
-    done = subprocess.run(between, capture_output=True, text=True, cwd=_top(), check=False)
+    done = subprocess.run(
+        between, capture_output=True, text=True, cwd=_top(), env=_installed(), check=False
+    )
     if done.returncode:
         words = " | ".join(done.stderr.strip().splitlines()[-_TAIL:])
         raise Missing(f"{' '.join(command)} ended with {done.returncode}: {words}")
@@ -56,9 +60,19 @@ def cost(command: Sequence[str]) -> Cost:
     return Cost(wall, cpu, peak / (1e6 if sys.platform == "darwin" else 1e3))
 
 
-def least(command: Sequence[str], times: int) -> Cost:
+def _installed() -> dict[str, str]:
+    """As where the package was installed: its bytecode is there, from the second run on."""
+    found = dict(os.environ)
+    if found.pop("PYTHONDONTWRITEBYTECODE", ""):
+        found["PYTHONPYCACHEPREFIX"] = str(Path(tempfile.gettempdir()) / "modeler-bytecode")
+    return found
+
+
+def least(
+    command: Sequence[str], times: int, run: Callable[[Sequence[str]], Cost] = modeler
+) -> Cost:
     """The smallest of each figure over several runs."""
-    costs = [modeler(command) for _ in range(times)]
+    costs = [run(command) for _ in range(times)]
     return Cost(*(min(getattr(c, name) for c in costs) for name in ("wall", "cpu", "peak")))
 
 

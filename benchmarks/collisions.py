@@ -79,7 +79,7 @@ def main(first: int, count: int) -> None:
         if (k + 1) % 10 == 0:
             print(f"{k + 1}: {hits}, nearer than told {near}", flush=True)
     print(
-        f"{count} motions: links meet in {hits[1]}, in {hits[0]} of every fourth without clearance; "
+        f"{count} motions: meet in {hits[1]}; without clearance in {hits[0]} of every fourth; "
         f"nearer than {MARGIN:g} m or than told: {near}; cpu seconds {cost[0]:.0f}, {cost[1]:.0f}"
     )
     for name, (free, clear) in conditions.items():

@@ -1,43 +1,67 @@
-"""From a command typed to its answer: help, derivations."""
+"""From a command typed to its answer: help, derivations; beside them what Python itself takes."""
 
+import sys
 from collections.abc import Mapping
 
-from benchmarks.child import least
+from benchmarks.child import cost, least
 from benchmarks.line import Key, Line
 
-DERIVED = {"wrist": 0.5, "puma560": 0.5, "panda": 0.5, "orthoglide-2003": None, "evra": None}
+DERIVED: Mapping[str, tuple[float, float] | tuple[None, None]] = {
+    "wrist": (0.45, 0.3), "puma560": (0.45, 0.3), "panda": (0.45, 0.3),
+    "orthoglide-2003": (None, None), "evra": (0.9, 0.6),
+}  # fmt: skip
+"""Robots, with what must be reached and what would be best, s."""
+
+_LIBRARIES = "import numpy, sympy, flint, casadi"
 _TIMES, _FEW = 7, 2
 
 
 def _help(quick: bool) -> Mapping[str, float]:
     times = _FEW if quick else _TIMES
+    python = least([sys.executable, "-c", "pass"], times, cost).wall
+    told = least(["--help"], times).wall
     return {
-        "help_seconds": least(["--help"], times).wall,
+        "python_seconds": python,
+        "help_seconds": told,
+        "help_vs_python": told / python,
         "version_seconds": least(["--version"], times).wall,
     }
 
 
 def _derive(quick: bool) -> Mapping[str, float]:
     times = _FEW if quick else _TIMES
-    return {f"derive_seconds.{name}": least(["derive", name], times).wall for name in DERIVED}
+    python = least([sys.executable, "-c", "pass"], times, cost).wall
+    found = {"libraries_seconds": least([sys.executable, "-c", _LIBRARIES], times, cost).wall}
+    for name in DERIVED:
+        used = least(["derive", name], times)
+        found[f"derive_seconds.{name}"] = used.wall
+        found[f"derive_cpu_seconds.{name}"] = used.cpu
+        found[f"derive_vs_python.{name}"] = used.wall / python
+    return found
+
+
+def _derive_keys() -> list[Key]:
+    keys = [Key("libraries_seconds", "s", f"`python -c '{_LIBRARIES}'`: what derivations load.")]
+    for name, (must, aim) in DERIVED.items():
+        what = f"`modeler derive {name}`, the whole process"
+        keys += [
+            Key(f"derive_seconds.{name}", "s", f"{what}.", must, aim),
+            Key(f"derive_cpu_seconds.{name}", "s", f"{what}: processor time of all threads."),
+            Key(f"derive_vs_python.{name}", "x", f"{what}, over `python -c pass`."),
+        ]
+    return keys
 
 
 LINES = (
     Line(
         (
+            Key("python_seconds", "s", "`python -c pass`, the whole process."),
             Key("help_seconds", "s", "`modeler --help`, the whole process.", 0.25, 0.1),
+            Key("help_vs_python", "x", "The same over `python -c pass`."),
             Key("version_seconds", "s", "`modeler --version`, the whole process.", 0.25, 0.1),
         ),
         _help,
         3,
     ),
-    Line(
-        tuple(
-            Key(f"derive_seconds.{name}", "s", f"`modeler derive {name}`, the whole process.", must,
-                0.3 if must else None)
-            for name, must in DERIVED.items()
-        ),
-        _derive,
-        30,
-    ),
-)  # fmt: skip
+    Line(tuple(_derive_keys()), _derive, 30),
+)

@@ -143,15 +143,21 @@ def missing(
 
 
 def logs_of(
-    model: IdentifiedModel, logs: Sequence[AnyLog], holdout: Sequence[AnyLog],
-    mapping: Mapped = (), spread: bool = False,
+    model: IdentifiedModel,
+    logs: Sequence[AnyLog],
+    holdout: Sequence[AnyLog],
+    mapping: Mapped = (),
+    spread: bool = False,
 ) -> tuple[CompiledModel, diagnosis.Logs]:
-    """The robot of a model, compiled, and the logs that it is held against; `spread` as `read_logs`.
+    """The robot of a model, compiled, and the logs that it is held against.
+
+    Of long logs stretches where `spread` is true, see `read_logs`.
 
     Raises:
         DataError: a log cannot be read, or rows are given twice.
     """
     compiled = recompile(model)
-    given = diagnosis.Logs(*(read_logs(compiled, some, mapping, spread) for some in (logs, holdout)))
+    every = (read_logs(compiled, some, mapping, spread) for some in (logs, holdout))
+    given = diagnosis.Logs(*every)
     check_apart(given.fitted, given.held_out)
     return compiled, given

@@ -50,12 +50,9 @@ class Subject:
     cutoff: float = 0.0
 
     def search(
-        self,
-        bounds: excitation.Bounds,
-        wish: excitation.Wish,
-        progress: Progress = _no_progress,
+        self, bounds: excitation.Bounds, wish: excitation.Wish, progress: Progress = _no_progress,
         known: excitation.Known | None = None,
-    ) -> excitation.Exciting:
+    ) -> excitation.Exciting:  # fmt: skip
         """The motion that tells its parameters apart."""
         return excitation.excite(
             self.compiled, bounds, wish, self.sigma, self.kept, self.beta, progress, known

@@ -14,7 +14,6 @@ from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, 
 from modeler.cli.places import ModelFile
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
-from modeler.core.figure import Picture
 from modeler.estimation import (
     IdentifiedModel,
     load_model,
@@ -44,8 +43,9 @@ def run_compare(args: argparse.Namespace) -> Json:
         comparison, lines, found = judged(model, args.logs, compiled, args.map, bar)
     doubts = [fault.line for fault in found]
     told = [line for line in lines if line.startswith((_TRAINING, "long logs: "))]
-    without, beside = _without_load(args, model, compiled)
-    summary = [comparison.summary(), *without, ""]
+    beside = _without_load(args, model, compiled)
+    loads = [] if beside is None else ["", *validation.contest_lines(beside)]
+    summary = [comparison.summary(), *loads, ""]
     say_lines([*summary, *validation.verdict(comparison), *model.warning, *told, *doubts])
     held = not any(line.startswith(_TRAINING) for line in lines)
     noise = (
@@ -56,7 +56,8 @@ def run_compare(args: argparse.Namespace) -> Json:
     following = after_compare(args.model, [*fitted], args.logs, held, noise)
     origin = Origin(args.model, comparison.prediction.logs, held, [following])
     draw_page(args.report, lambda: pages.comparison_page(comparison, lines, origin))
-    draw_pictures(args.picture, lambda: [*beside(), *pages.all_pictures(comparison)])
+    more = [] if beside is None else pages.contest_pictures(beside)
+    draw_pictures(args.picture, lambda: [*pages.all_pictures(comparison), *more])
     say_lines([following], "next: ")
     return comparison.to_json() | {"doubts": doubts}
 
@@ -164,15 +165,12 @@ def _load(args: argparse.Namespace) -> dict[str, Any]:
 
 def _without_load(
     args: argparse.Namespace, model: IdentifiedModel, compiled: CompiledModel
-) -> tuple[list[str], Callable[[], list[Picture]]]:
-    """What is said of the model with its load and without, and their picture."""
+) -> validation.Contest | None:
+    """The model with its load beside the same without."""
     if args.payload_mass is None or are_long(args.logs):
-        return [], lambda: []
-    bare = _bare(args, args.model)
-    both = {f"with {args.payload_mass:g} kg": model, "without the load": bare}
-    found = checks.contested(both, [compiled] * 2, args.logs, args.map, args.logs)[0]
-    picture = validation.torques_picture("load", found.names, found.predictions)
-    return ["", *validation.contest_lines(found)], lambda: [picture]
+        return None
+    both = {f"with {args.payload_mass:g} kg": model, "without the load": _bare(args, args.model)}
+    return checks.contested(both, [compiled] * 2, args.logs, args.map, args.logs)[0]
 
 
 def _compiled(args: argparse.Namespace, model: IdentifiedModel) -> CompiledModel:

@@ -26,8 +26,7 @@ from modeler.robot import Robot
 if TYPE_CHECKING:
     from modeler.core.manifest import FunctionSpec
     from modeler.estimation import IdentifiedModel
-    from modeler.formulas.coefficients import CoefficientTable
-    from modeler.formulas.function_sheet import Sheet
+    from modeler.formulas import CoefficientTable, function_sheet
 
 # Words around printed formulas: as they are, as comments of LaTeX, or as a whole document.
 
@@ -143,7 +142,7 @@ MANY = 200
 PAGE = 40
 """Coefficients that are listed unasked."""
 
-_SHEETS: "dict[Form, Callable[[Sheet, Words], str]]" = {
+_SHEETS: "dict[Form, Callable[[function_sheet.Sheet, Words], str]]" = {
     "text": lambda sheet, _: "\n".join(formulas.function_sheet.sheet_lines(sheet)),
     "latex": lambda sheet, words: formulas.function_sheet.sheet_latex(sheet, words.heading),
     "markdown": lambda sheet, _: formulas.function_sheet.sheet_markdown(sheet),

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import modeler.api.motion as motions
 from modeler import excitation, simulation
-from modeler.api import clearance
+from modeler.api.clearance import USUAL, nearest_along
 from modeler.cli.console import Json, progress, say, say_lines, working
 from modeler.cli.lists import robot_of
 from modeler.core.builtin import MOTIONS
@@ -17,7 +17,6 @@ from modeler.core.files import write_atomically
 from modeler.core.json import entries
 from modeler.core.table import percent
 from modeler.estimation import load_model
-from modeler.report import nearest_html
 from modeler.robot import Robot, near
 from modeler.runtime import CompiledModel
 
@@ -29,7 +28,15 @@ def run_excite(args: argparse.Namespace) -> Json:
     encoders = motions.Encoders(args.encoder_counts or 0, args.position_noise or 0.0)
     if encoders != motions.Encoders():
         subject.check_forecast("--encoder-counts, --position-noise: ")
-    bounds = bounds_of(subject.robot, subject.compiled, args.limit, args.box, args.clearance)
+    margin = args.clearance
+    if margin is None and args.check is not None:
+        margin = USUAL
+    bounds = bounds_of(subject.robot, subject.compiled, args.limit, args.box, margin)
+    if args.report is not None and not (bounds.clearance and len(bounds.clearance.solids.pairs)):
+        raise DataError(
+            "--report: no two links are looked at; expected --clearance, or [capsules] of the "
+            "robot file, and links that may meet"
+        )
     if args.choose is not None:
         return _choose(args, subject)
     if args.check is not None:
@@ -70,8 +77,7 @@ def run_excite(args: argparse.Namespace) -> Json:
     )
     write_atomically(Path(args.out), table)
     say(f"written: {args.out}, {len(columns['time'])} samples, {motion.seconds:.1f} s of search")
-    if args.report is not None:
-        _draw_nearest(args, subject.robot, bounds, motion.nearest)
+    _draw_nearest(args, subject.robot, bounds, motion.nearest)
     if args.picture is not None:
         with working("drawing"):
             drawn = excitation.picture(
@@ -82,19 +88,14 @@ def run_excite(args: argparse.Namespace) -> Json:
     return motion.to_json() | {"effects": [u.effect for u in subject.robot.effects]} | extra
 
 
-def _check(
-    args: argparse.Namespace, subject: motions.Subject, bounds: excitation.Bounds
-) -> Json:  # fmt: skip
+def _check(args: argparse.Namespace, subject: motions.Subject, bounds: excitation.Bounds) -> Json:
     """Do links keep their distance along the motion of a file?"""
-    if bounds.clearance is None:
-        bounds = bounds_of(subject.robot, subject.compiled, args.limit, args.box, clearance.USUAL)
     kept = bounds.clearance
     assert kept is not None
     with working(f"looking at {args.check}"):
-        near = clearance.nearest_along(subject.compiled, kept, args.check)
+        near = nearest_along(subject.compiled, kept, args.check)
     say(f"{args.check}: {kept.line(near)}")
-    if args.report is not None:
-        _draw_nearest(args, subject.robot, bounds, near)
+    _draw_nearest(args, subject.robot, bounds, near)
     if near is not None and near.bound < kept.margin:
         raise DataError(
             f"{args.check}, {near.time:.4g} s: {near.pair[0]} and {near.pair[1]} are "
@@ -108,14 +109,12 @@ def _draw_nearest(
     args: argparse.Namespace, robot: Robot, bounds: excitation.Bounds,
     near: excitation.Nearest | None,
 ) -> None:  # fmt: skip
-    """The page of the robot where two come nearest, with its capsules."""
-    if near is None or bounds.clearance is None:
-        raise DataError(
-            "--report: got no two links to look at; expected --clearance, or [capsules] in the "
-            "robot file"
-        )
-    write_atomically(Path(args.report), nearest_html(robot, bounds, near))
-    say(f"written: {args.report}")
+    """The page of the robot where two come nearest, if it is wanted and there are two."""
+    if args.report is not None and near is not None:
+        from modeler.report import nearest_html  # which takes long to load
+
+        write_atomically(Path(args.report), nearest_html(robot, bounds, near))
+        say(f"written: {args.report}")
 
 
 def forecast_line(
@@ -192,12 +191,9 @@ def _subject(args: argparse.Namespace) -> motions.Subject:
 
 
 def bounds_of(
-    robot: Robot,
-    compiled: CompiledModel,
-    limits: Sequence[str],
-    boxes: Sequence[str],
+    robot: Robot, compiled: CompiledModel, limits: Sequence[str], boxes: Sequence[str],
     clearance: float | None = None,
-) -> excitation.Bounds:
+) -> excitation.Bounds:  # fmt: skip
     """The limits of the robot file, with those of the command line in their place.
 
     Raises:

@@ -216,10 +216,13 @@ class Pictures(OutputFolder):
         return PictureData(text) if text.lower().endswith(".json") else super().__new__(cls, text)
 
 
+_OF_JOINTS = ("time", "residual", "free_run", "models")
+
+
 class PictureFolder(Pictures):
     """Of the pictures of a comparison."""
 
-    writes = ("overview.*", "load.*", "joint_*_time.*", "joint_*_residual.*", "joint_*_free_run.*")
+    writes = ("overview.*", *(f"joint_*_{kind}.*" for kind in _OF_JOINTS))
 
 
 class LogPictures(Pictures):

@@ -583,7 +583,9 @@ def _letters(functions: Sequence[_Written]) -> list[str]:
 
 
 def _constants(
-    functions: Sequence[_Written | Tile | ClosingTile], values: dict[str, Any], initial: Mapping[str, str]
+    functions: Sequence[_Written | Tile | ClosingTile],
+    values: dict[str, Any],
+    initial: Mapping[str, str],
 ) -> list[tuple[str, str]]:
     """(name, what it is initialised with) of the geometric constants that the functions read."""
     read = frozenset[str]().union(*(function.symbols for function in functions))

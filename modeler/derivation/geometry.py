@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import partial
+from functools import lru_cache, partial
 from math import comb, prod
 
 import sympy
@@ -31,6 +31,7 @@ Pair = tuple[sympy.Expr, sympy.Expr]
 """(cosine, sine)."""
 
 
+@lru_cache(maxsize=1024)
 def cos_sin(angle: sympy.Expr) -> Pair:
     """Cosine and sine: exact 0 and +-1 at right angles; other constants are left standing.
 
@@ -168,7 +169,12 @@ def resolved_relations(
                 values[_joint_symbol(joint)] = sympy.expand(value.subs(values))
                 waiting.discard(joint)
     forms, constants = [], {}
+    places = {joint.name: k for k, joint in enumerate(robot.free)}
     for joint in robot.moving:
+        if joint.name in places:  # it follows no other
+            constants[joint.name] = sympy.Integer(0)
+            forms.append({places[joint.name]: Fraction(1)})
+            continue
         value = values[_joint_symbol(joint)]
         coefficients = {k: value.coeff(symbol, 1) for k, symbol in enumerate(free)}
         constant = value - sum(c * free[k] for k, c in coefficients.items())

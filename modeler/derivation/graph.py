@@ -159,6 +159,7 @@ class Graph:
         self._read = [0, 0]  # symbols that a node reads, a bit for each
         self._symbols = 0
         self._plans: dict[tuple[int, ...], Plan] = {}
+        self._reached: tuple[list[int], list[int]] = ([], [])
         self.labels: dict[int, Label] = {}
         self.links: dict[str, Link] = {}
         self.called: Mapping[str, str] = {}
@@ -378,6 +379,10 @@ class Graph:
         """Nodes that the outputs need, arguments first; node 0 left out."""
         needed: set[int] = set()
         stack = [abs(output.ref) for output in outputs]
+        asked, found = self._reached  # Jacobians ask once for each variable
+        if stack == asked:
+            return found
+        asked = stack.copy()
         while stack:
             index = stack.pop()
             if index in needed or index == 0:
@@ -386,7 +391,8 @@ class Graph:
             node = self.nodes[index]
             if node.op not in ("num", "pi", "sym"):
                 stack.extend(abs(arg) for arg in node.args)
-        return sorted(needed)
+        self._reached = asked, sorted(needed)
+        return self._reached[1]
 
     def operations(self, outputs: Sequence["Expr"]) -> tuple[int, int]:
         """(additions, multiplications) per call; static parts and functions are not counted."""

@@ -291,4 +291,5 @@ def grouping_matrix(model: SymbolicModel, parameters: Sequence[BaseParameter]) -
 
 def coefficient_value(coefficient: sympy.Expr, values: Mapping[str, float]) -> float:
     """A coefficient at the nominal geometry."""
-    return float(coefficient.subs({s: values[s.name] for s in coefficient.free_symbols}))
+    at = {s: sympy.Float(values[s.name]) for s in coefficient.free_symbols}
+    return float(coefficient.xreplace(at))

@@ -43,8 +43,15 @@ _J = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
 
 def product(a: Matrix, b: Matrix, zero: Element) -> Matrix:
     """a b."""
-    columns = list(zip(*b, strict=True))
-    return [[_dot(line, column, zero) for column in columns] for line in a]
+    there = [[(j, y) for j, y in enumerate(line) if y] for line in b]  # most entries are 0
+    found = []
+    for line in a:
+        total = [zero] * len(b[0])
+        for x, own in zip(line, there, strict=True):
+            for j, y in own if x else ():
+                total[j] = total[j] + x * y
+        found.append(total)
+    return found
 
 
 def _dot(a: Sequence[Element], b: Sequence[Element], zero: Element) -> Element:

@@ -39,6 +39,7 @@ from modeler.diagnosis.timing import instrumental
 from modeler.effects import Acts, effect_named
 from modeler.estimation import IdentifiedModel
 from modeler.observation import Doubt
+from modeler.runtime import mapped
 
 LOST = 1.0
 """Held-out error from which on a model says nothing about that motion, nor what it lacks."""
@@ -104,9 +105,7 @@ def band_search(
     return BandSearch(found, other, seen, shares[0], findings)
 
 
-def _systematic(
-    state: State, left: Sequence[np.ndarray], tick: Tick
-) -> Callable[[int], float]:
+def _systematic(state: State, left: Sequence[np.ndarray], tick: Tick) -> Callable[[int], float]:
     """Systematic share of what is left on a joint of some logs; it takes long."""
 
     @cache
@@ -262,8 +261,12 @@ def _joints(
     found: Search, seen: Sequence[Residuals], systematic: Callable[[int], float]
 ) -> dict[str, JointState]:
     states, ends = {}, [errors_of(seen[k]) for k in (0, -1)]
+    shown = [j for j, y in enumerate(found.start.rows.y) if y.size]
+    # what all joints share is made by the first
+    shares = dict(zip(shown, [*map(systematic, shown[:1]), *mapped(systematic, shown[1:])],
+                      strict=True))  # fmt: skip
     for j, joint in enumerate(found.spec.joints):
-        if not found.start.rows.y[j].size:
+        if j not in shares:
             continue
         size = mean_square(found.start.rows.y[j])
         before, after = (mean_square(s.residual[j]) for s in (found.start, found.end))
@@ -275,8 +278,8 @@ def _joints(
             rms_before=math.sqrt(before),
             rms_after=math.sqrt(after),
             explained=1.0 - share,
-            systematic=share * systematic(j),
-            noise=share * (1.0 - systematic(j)),
+            systematic=share * shares[j],
+            noise=share * (1.0 - shares[j]),
         )
     return states
 

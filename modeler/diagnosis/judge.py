@@ -137,9 +137,7 @@ def tried(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[Tria
     pool = pool_of(state.folded, [columns for _, columns in pairs])
     return [
         Trial(candidate, possible(candidate, value), float(fall))
-        for (candidate, _), fall, value in zip(
-            pairs, *total_falls(state.folded, pool), strict=True
-        )
+        for (candidate, _), fall, value in zip(pairs, *total_falls(state.folded, pool), strict=True)
     ]
 
 

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import ClassVar
+from weakref import WeakSet
 
 import numpy as np
 
@@ -32,7 +34,7 @@ class Base(Brief):
     """The base columns as an orthonormal set over all weighted rows; c columns, r of them kept.
 
     Attributes:
-        columns: (rows_j, r) by joint, weighted: W turn / sigma.
+        source: of the columns.
         y: (rows_j,) by joint, weighted.
         turn: (c, r) of the base columns W.
         sigma: (J,) rms residual of each joint, N m or N: the weights are its inverse.
@@ -43,7 +45,7 @@ class Base(Brief):
         prior: (r, r + 1) what is known beforehand, in every fold: its Gram matrix and products.
     """
 
-    columns: tuple[np.ndarray, ...]
+    source: "BaseColumns"
     y: tuple[np.ndarray, ...]
     turn: np.ndarray
     sigma: np.ndarray
@@ -52,6 +54,11 @@ class Base(Brief):
     G: np.ndarray
     u: np.ndarray
     prior: np.ndarray
+
+    @property
+    def columns(self) -> tuple[np.ndarray, ...]:
+        """(rows_j, r) by joint, weighted: W turn / sigma; those of the last base are kept."""
+        return self.source.columns()
 
     @property
     def blocks(self) -> int:
@@ -80,6 +87,29 @@ class Base(Brief):
             y - np.einsum("ij,ij->i", columns, fits.beta[fits.place[block]])
             for columns, y, block in zip(self.columns, self.y, self.block, strict=True)
         )
+
+
+class BaseColumns:
+    """The columns of a base: W (rows_j, c) by joint, turn (c, r), sigma (J,).
+
+    Many bases are there at a time: only the one that was asked last keeps its columns.
+    """
+
+    _last: ClassVar["WeakSet[BaseColumns]"] = WeakSet()
+
+    def __init__(self, W: Sequence[np.ndarray], turn: np.ndarray, sigma: np.ndarray) -> None:
+        self._of, self._made = (W, turn, sigma), tuple[np.ndarray, ...]()
+
+    def columns(self) -> tuple[np.ndarray, ...]:
+        """(rows_j, r) by joint."""
+        if not self._made:
+            for other in list(self._last):
+                other._made = ()
+            self._last.clear()
+            self._last.add(self)
+            W, turn, sigma = self._of
+            self._made = tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True))
+        return self._made
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,13 +162,13 @@ def base_of(
     prior = np.zeros((0, W[0].shape[1] + 1)) if prior is None else prior
     if turn is None:
         turn = turn_of([*W, prior[:, :-1]], np.append(sigma, 1.0))
-    columns = tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True))
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
     G, u = np.zeros((len(fold), *turn.shape[1:] * 2)), np.zeros((len(fold), turn.shape[1]))
     known = np.column_stack([prior[:, :-1] @ turn, prior[:, -1]])
     known = known[:, :-1].T @ known
-    base = Base(columns, target, turn, sigma, tuple(block), fold, G, u, known)
-    for w, t, own in zip(columns, target, base.pieces, strict=True):
+    source = BaseColumns(W, turn, sigma)
+    base = Base(source, target, turn, sigma, tuple(block), fold, G, u, known)
+    for w, t, own in zip(base.columns, target, base.pieces, strict=True):
         for b, rows in own:
             G[b] += w[rows].T @ w[rows]
             u[b] += w[rows].T @ t[rows]

@@ -200,7 +200,7 @@ def didim_robust(problem: Problem) -> Estimate:
 
 
 def didim_consistent(problem: Problem) -> Estimate:
-    """`didim` whose steps are machines that could be built: each of them can be simulated."""
+    """`didim` whose steps are machines that could be built: their inertia matrices are such."""
     return didim(problem, "didim-consistent", buildable)
 
 
@@ -240,7 +240,7 @@ def _repeated(
     first: Callable[[Problem], Estimate],
     estimate: Callable[[np.ndarray], Estimate],
 ) -> Estimate:
-    """From the first estimate on: simulate, estimate, until the step is small beside the standard deviations."""
+    """Simulate, estimate, from the first on, until the step is small beside the sigmas."""
     model = problem.robot(method)
     idle = [joint.name for joint in model.spec.joints if not joint.actuated]
     if idle:
@@ -323,7 +323,7 @@ def _sentences(
         light = problem.observation.joints[robot.lightest].name
         said.append(
             "the fitted inertia matrix is nearly singular or not positive definite in "
-            f"{percent(robot.raised)} of the postures, most at joint {light}: it was raised for the simulation; record "
-            "more motion, or leave out parameters that are not essential"
+            f"{percent(robot.raised)} of the postures, most at joint {light}: it was raised for "
+            "the simulation; record more motion, or leave out parameters that are not essential"
         )
     return said

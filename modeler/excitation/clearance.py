@@ -38,15 +38,24 @@ class Solids(Brief):
     offsets: np.ndarray
     pairs: np.ndarray
 
+    @property
+    def middle(self) -> float:
+        """The middle radius of capsules, m."""
+        return float(np.median(self.radius[: len(self.ends)]))
+
     def who(self, pair: int) -> tuple[str, str]:
         """The names of a pair."""
         one, other = self.pairs[pair]
         return self.names[one], self.names[other]
 
+    def frames(self, poses: np.ndarray) -> np.ndarray:
+        """(n, k + m, 3, 4) of the carriers, of poses (n, rows, 3, 4)."""
+        still = np.eye(3, 4)[None, None].repeat(len(poses), axis=0)
+        return np.concatenate([poses, still], axis=1)[:, self.carriers]
+
     def placed(self, poses: np.ndarray) -> np.ndarray:
         """(n, k, 2, 3) ends in frame 0, of poses (n, rows, 3, 4)."""
-        still = np.eye(3, 4)[None, None].repeat(len(poses), axis=0)
-        own = np.concatenate([poses, still], axis=1)[:, self.carriers[: len(self.ends)]]
+        own = self.frames(poses)[:, : len(self.ends)]
         return np.einsum("nkab,ksb->nksa", own[..., :3], self.ends) + own[:, :, None, :, 3]
 
     def distances(self, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -132,11 +141,6 @@ class Clearance(Brief):
     margin: float
     left_out: tuple[tuple[str, str, str], ...] = ()
 
-    @property
-    def soft(self) -> float:
-        """Beyond the margin, the distance at which the share of it is 1/e, m."""
-        return float(np.median(self.solids.radius))
-
     def line(self, near: Nearest | None) -> str:
         """What a motion keeps of it, as a sentence."""
         out = ", ".join(f"{a} and {b} ({why})" for a, b, why in self.left_out)
@@ -158,9 +162,9 @@ class Clearance(Brief):
         }
 
     def shares(self, compiled: CompiledModel, q: np.ndarray) -> np.ndarray:
-        """(n, pairs) exp((margin - distance) / soft): below 1 where links are far enough apart."""
+        """(n, pairs) exp((margin - distance) / middle radius): below 1 where they are far apart."""
         ends = self.solids.placed(compiled.forward_kinematics(q))
-        return np.exp((self.margin - self.solids.distances(ends)[0]) / self.soft)
+        return np.exp((self.margin - self.solids.distances(ends)[0]) / self.solids.middle)
 
     def pulled_back(
         self, compiled: CompiledModel, q: np.ndarray, pull: np.ndarray, steps: np.ndarray
@@ -175,8 +179,8 @@ class Clearance(Brief):
         gaps, points = solids.distances(solids.placed(poses))
         apart = points[:, :, 0] - points[:, :, 1]
         length = np.linalg.norm(apart, axis=2)
-        share = np.exp((self.margin - gaps) / self.soft)
-        push = (-pull * share / self.soft / np.maximum(length, 1e-12))[..., None] * apart
+        share = np.exp((self.margin - gaps) / self.solids.middle)
+        push = (-pull * share / self.solids.middle / np.maximum(length, 1e-12))[..., None] * apart
         moments = np.zeros(poses.shape)
         for column, side in np.ndindex(solids.pairs.shape):
             carrier = solids.carriers[solids.pairs[column, side]]
@@ -210,12 +214,10 @@ def without_neighbours(
         ranges: (2, J) lower and upper limits, in which postures are drawn.
         home: (J,) of a robot with loops.
     """
-    whole = Clearance(solids, margin)
     q = np.random.default_rng(0).uniform(ranges[0], ranges[1], (_POSTURES, ranges.shape[1]))
-    often = (whole.shares(compiled, q[compiled.closing_status(q) == 0]) > 1.0).mean(axis=0)
-    at_home = np.zeros(len(often), dtype=bool)
-    if home is not None:
-        at_home = whole.shares(compiled, home[None, :])[0] > 1.0
+    q = np.vstack([q[compiled.closing_status(q) == 0], *([] if home is None else [home])])
+    near = Clearance(solids, margin).shares(compiled, q) > 1.0
+    often, at_home = near.mean(axis=0), near[-1] & (home is not None)
     out = at_home | (often > _ALWAYS)
     told = {
         solids.who(int(k)): "at home" if at_home[k] else f"in {100.0 * often[k]:.0f} % of postures"
@@ -232,21 +234,19 @@ SAMPLES = 1500
 """Of a motion, between which it is looked at more closely where links come near."""
 
 _SHARP = 2e-3  # of the middle radius, to which the least distance is found
-_ROUNDS = 25
+_ROUNDS = 20  # of halved intervals
+_MOST = 200_000  # samples
 
 
 def nearest(
-    compiled: CompiledModel,
-    solids: Solids,
-    path: Callable[[np.ndarray], np.ndarray],
-    duration: float,
-    samples: int = SAMPLES,
-) -> Nearest:
+    compiled: CompiledModel, solids: Solids, path: Callable[[np.ndarray], np.ndarray],
+    duration: float, samples: int = SAMPLES,
+) -> Nearest:  # fmt: skip
     """The least distance along a motion, by intervals that are halved where it may lie.
 
-    Within an interval h the ends of an axis leave their chords by A h^2 / 8 at most, A twice the
-    largest second difference of the samples. On chords, a distance d falls no faster than both
-    travel: d >= (d_0 + d_1 - travel) / 2 - (A_1 + A_2) h^2 / 8.
+    Seen from the other one, the ends of an axis leave their chords within an interval h by
+    A h^2 / 8 at most, A twice the largest second difference of the samples. On the chords the
+    distance d falls no faster than they travel: d >= (d_0 + d_1 - travel) / 2 - A h^2 / 8.
 
     Args:
         compiled: the robot.
@@ -255,47 +255,34 @@ def nearest(
         duration: s.
         samples: to begin with.
     """
-
-    def seen(times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        ends = solids.placed(compiled.forward_kinematics(path(times)))
-        return ends, solids.distances(ends)[0]
-
-    def of_pairs(values: np.ndarray) -> np.ndarray:
-        """Sums over both, of values (n, k) by capsule; planes stand still."""
-        return np.pad(values, ((0, 0), (0, len(solids.offsets))))[:, solids.pairs].sum(axis=2)
-
-    times, sharp = np.linspace(0.0, duration, samples), _SHARP * float(np.median(solids.radius))
-    h = times[1]
-    ends, gaps = seen(times)
-    bend = 2.0 * np.linalg.norm(np.diff(ends, 2, axis=0), axis=3).max(axis=(0, 2)) / h**2
-    bends = of_pairs(bend[None, :])
-    at, begin, end = times[:-1], (ends[:-1], gaps[:-1]), (ends[1:], gaps[1:])
-    best = np.unravel_index(np.argmin(gaps), gaps.shape)
-    least, when, column, bound = float(gaps[best]), float(times[best[0]]), int(best[1]), np.inf
+    one, other = solids.pairs.T
+    times, bend = np.linspace(0.0, duration, samples), np.zeros(0)
     for _ in range(_ROUNDS):
-        travel = of_pairs(np.linalg.norm(end[0] - begin[0], axis=3).max(axis=2))
-        low = (0.5 * (begin[1] + end[1] - travel) - bends * h**2 / 8.0).min(axis=1)
-        open_ = low < least - sharp
-        bound = min(bound, float(low[~open_].min(initial=np.inf)))
-        if not open_.any():
+        at, q = times, path(times)
+        poses = compiled.forward_kinematics(q)
+        ends, frames = solids.placed(poses), solids.frames(poses)[:, other]
+        gaps, points = solids.distances(ends)
+        away = ends[:, one] - frames[:, :, None, :, 3]
+        seen = np.einsum("npba,npsb->npsa", frames[..., :3], away)
+        h = np.diff(times)
+        if not bend.size:
+            bend = (
+                2.0 * np.linalg.norm(np.diff(seen, 2, axis=0), axis=3).max(axis=(0, 2)) / h[0] ** 2
+            )
+        travel = np.linalg.norm(np.diff(seen, axis=0), axis=3).max(axis=2)
+        low = 0.5 * (gaps[1:] + gaps[:-1] - travel) - bend * h[:, None] ** 2 / 8.0
+        near = low.min(axis=1) < gaps.min() - _SHARP * solids.middle
+        if not near.any() or len(times) > _MOST:
             break
-        h *= 0.5
-        ends, gaps = seen(at[open_] + h)
-        best = np.unravel_index(np.argmin(gaps), gaps.shape)
-        if gaps[best] < least:
-            least, when, column = float(gaps[best]), float(at[open_][best[0]] + h), int(best[1])
-        first, last = ([part[open_] for part in side] for side in (begin, end))
-        at = np.concatenate([at[open_], at[open_] + h])
-        begin = (np.concatenate([first[0], ends]), np.concatenate([first[1], gaps]))
-        end = (np.concatenate([ends, last[0]]), np.concatenate([gaps, last[1]]))
-    else:
-        bound = min(bound, float(low.min()))
-    q = path(np.array([when]))
-    points = solids.distances(solids.placed(compiled.forward_kinematics(q)))[1][0, column]
-    way = points[1] - points[0]
+        times = np.sort(np.append(times, times[:-1][near] + 0.5 * h[near]))
+    row, pair = (int(k) for k in np.unravel_index(np.argmin(gaps), gaps.shape))
+    way = points[row, pair, 1] - points[row, pair, 0]
     way = way / max(float(np.linalg.norm(way)), 1e-12)
-    surface = points + np.outer([1.0, -1.0] * solids.radius[solids.pairs[column]], way)
+    surface = points[row, pair] + np.outer([1.0, -1.0] * solids.radius[solids.pairs[pair]], way)
     closure = compiled.spec.closure
     names = [j.name for j in compiled.spec.joints] if closure is None else closure.variables
-    posture = dict(zip(names, compiled.close(q)[0].tolist(), strict=True))
-    return Nearest(solids.who(column), least, min(bound, least), when, posture, surface)
+    posture = dict(zip(names, compiled.close(q[row : row + 1])[0].tolist(), strict=True))
+    least = float(gaps[row, pair])
+    return Nearest(
+        solids.who(pair), least, min(least, float(low.min())), float(at[row]), posture, surface
+    )

@@ -49,12 +49,9 @@ class Series(Brief):
 
 
 def series(
-    duration: float,
-    harmonics: int,
-    times: np.ndarray | None = None,
-    dense: int = DENSE,
+    duration: float, harmonics: int, times: np.ndarray | None = None, dense: int = DENSE,
     family: str = "fourier",
-) -> Series:
+) -> Series:  # fmt: skip
     """A family over a lap, at even times; at `times` (s) if given."""
     if times is None:
         return _sampled(family, duration, harmonics, dense * harmonics)
@@ -131,18 +128,17 @@ def _bspline(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
 
     The first three and the last three control points are one: rest at the ends, in one posture.
     """
-    knots = spline_knots(duration, harmonics)
-    inner = np.eye(len(knots) - DEGREE - 1)[:, 3:-3]
-    curve = BSpline(knots, inner, DEGREE)
-    one = np.ones((len(times), 1))
-    values, slopes, bends = (np.asarray(curve(times, order)) for order in range(3))
-    return (np.hstack([one, values]), np.hstack([0.0 * one, slopes]), np.hstack([0.0 * one, bends]))
-
-
-def spline_knots(duration: float, harmonics: int) -> np.ndarray:
-    """Of the B-splines, s; those at the ends are of full multiplicity."""
     inside = np.linspace(0.0, duration, pieces(harmonics) + 1)
-    return np.concatenate([np.zeros(DEGREE), inside, np.full(DEGREE, duration)])
+    knots = np.concatenate([np.zeros(DEGREE), inside, np.full(DEGREE, duration)])
+    curve = BSpline(knots, np.eye(len(knots) - DEGREE - 1)[:, 3:-3], DEGREE)
+    return _beside_start([curve(times, order) for order in range(3)])
+
+
+def _beside_start(waves: list[np.ndarray]) -> _Waves:
+    """Columns with their derivatives, and before them that of the posture at the start."""
+    first = np.zeros((len(waves[0]), 1))
+    q, qd, qdd = (np.hstack([first + (k == 0), wave]) for k, wave in enumerate(waves))
+    return q, qd, qdd
 
 
 SHAPE = (0.625, 0.25, 0.125)
@@ -154,10 +150,10 @@ _EIGHT = 8  # parts of a move, at whose ends its speed and acceleration are larg
 def _move() -> PPoly:
     """0 to 1 over a time of 1: speed a trapezoid, acceleration too, jerk constant by pieces."""
     cruise, ramp, jerk = SHAPE
-    places = np.arange(_EIGHT + 1) / _EIGHT
     steps = np.zeros(_EIGHT)
-    for begin, sign in ((0.0, 1.0), (ramp, -1.0), (cruise, -1.0), (cruise + ramp, 1.0)):
-        steps[round(begin * _EIGHT)] += sign
+    steps[[round(x * _EIGHT) for x in (0.0, cruise + ramp)]] = 1.0
+    steps[[round(x * _EIGHT) for x in (ramp, cruise)]] = -1.0
+    places = np.arange(_EIGHT + 1) / _EIGHT
     return PPoly(steps[None, :] / (cruise * ramp * jerk), places).antiderivative(3)
 
 
@@ -170,12 +166,8 @@ def _trapezoid(duration: float, harmonics: int, times: np.ndarray) -> _Waves:
     count, move = pieces(harmonics), _move()
     lasts = duration / count
     since = np.clip(times[:, None] / lasts - np.arange(count), 0.0, 1.0)
-    waves = []
-    for order in range(3):
-        gone = np.asarray(move(since, order)) / lasts**order
-        first = np.full((len(times), 1), 1.0 if order == 0 else 0.0)
-        waves.append(np.hstack([first, gone[:, :-1] - gone[:, 1:]]))
-    return waves[0], waves[1], waves[2]
+    gone = [np.asarray(move(since, order)) / lasts**order for order in range(3)]
+    return _beside_start([each[:, :-1] - each[:, 1:] for each in gone])
 
 
 FAMILIES: dict[str, Callable[[float, int, np.ndarray], _Waves]] = {
@@ -187,24 +179,18 @@ FAMILIES: dict[str, Callable[[float, int, np.ndarray], _Waves]] = {
 def coefficients_json(motion: Series, x: np.ndarray, joints: tuple[str, ...]) -> dict[str, object]:
     """What a controller needs to compute the motion itself, by joint."""
     K, told = motion.harmonics, {"family": motion.family, "period": motion.duration}
-    if motion.family == "trapezoid":
-        places = np.hstack([x[:, :1], x[:, :1] + x[:, 1:], x[:, :1]])
-        own = {"moves": pieces(K), "shape": list(SHAPE)}
-        return {**told, **own, "points": dict(zip(joints, places.tolist(), strict=True))}
-    if motion.family == "bspline":
-        inner, ends = x[:, :1] + x[:, 1:], np.repeat(x[:, :1], 3, axis=1)
-        points = np.hstack([ends, inner, ends]).tolist()
-        own = {"degree": DEGREE, "knots": spline_knots(motion.duration, K).tolist()}
+    if motion.family != "fourier":
+        spline = motion.family == "bspline"
+        ends = np.repeat(x[:, :1], 3 if spline else 1, axis=1)
+        points = np.hstack([ends, x[:, :1] + x[:, 1:], ends]).tolist()
+        own = {"degree": DEGREE} if spline else {"shape": list(SHAPE)}
         return {**told, **own, "points": dict(zip(joints, points, strict=True))}
     count = 4 * K
     q = motion.at(np.arange(count) * (motion.duration / count)).values @ x.T
-    spectrum = np.fft.rfft(q, axis=0) / count
+    wave = 2.0 * np.fft.rfft(q, axis=0)[: K + 1].T / count
     waves = {
-        name: {
-            "constant": float(spectrum[0, j].real),
-            "cos": [float(2.0 * spectrum[k, j].real) for k in range(1, K + 1)],
-            "sin": [float(-2.0 * spectrum[k, j].imag) for k in range(1, K + 1)],
-        }
-        for j, name in enumerate(joints)
-    }
+        name: {"constant": float(own[0].real) / 2.0, "cos": own.real[1:].tolist(),
+               "sin": (-own.imag[1:]).tolist()}
+        for name, own in zip(joints, wave, strict=True)
+    }  # fmt: skip
     return {**told, "coefficients": waves}

@@ -174,7 +174,7 @@ class _Pair:
             0, time, step, q, qd, qdd, 0.0 * q, {},
             np.ones(len(q), dtype=bool), np.full(q.shape, -1),
         )  # fmt: skip
-        return Signals(segment, 1, q, qd, qdd, self._reference)
+        return Signals(segment, segment.valid, q, qd, qdd, self._reference)
 
     def _blocks(self, x: np.ndarray) -> list[list[np.ndarray]]:
         """Weighted columns of both effects, one block (n J, k) for each shape."""

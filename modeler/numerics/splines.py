@@ -216,7 +216,7 @@ class Measurements:
 
 
 def functions(measured: Measurements) -> Iterator[tuple[str, np.ndarray]]:
-    """Sets of functions and their names: "own" and "surface" of the joint, "0", "1", ... of others, "wide".
+    """Sets of functions with names: "own", "surface" of the joint, "0", ... of others, "wide".
 
     Curves are sums of hats over one coordinate, with and without the direction of the joint:
     friction and other torques of any shape. Surfaces are random Fourier features (Rahimi and Recht

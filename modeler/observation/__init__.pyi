@@ -8,10 +8,10 @@ from .channels import (
     zero as zero,
 )
 from .chunk import (
+    SPREAD as SPREAD,
     Chunk as Chunk,
     chunks as chunks,
     chunks_between as chunks_between,
-    SPREAD as SPREAD,
     read_part as read_part,
     read_spread as read_spread,
     window as window,

@@ -188,8 +188,9 @@ def read_part(source: FileSource, spec: ModuleSpec, start: float | None, end: fl
         return chunk.log if chunk.log.time[0] < high and chunk.log.time[-1] >= low else None
 
     kept, last, span = _passed(source, spec, there)
-    told = {"notes": last.notes, "content": last.content}
-    return window(dataclasses.replace(joined(kept or [last]), **told), start, end, span)
+    log = joined(kept or [last])
+    whole = dataclasses.replace(log, notes=last.notes, content=last.content)
+    return window(whole, start, end, span)
 
 
 SPREAD = 2**20

@@ -4,6 +4,7 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy.ndimage import maximum_filter1d
@@ -48,7 +49,7 @@ class Segment(Brief):
         cause: (n, joints) place in CAUSES of why a sample does not count, the first that applies;
             -1 where it counts.
         commanded: (n, joints) commanded positions, filtered like q; None where none were logged.
-        read: (n, m) what effects of the model read, made of more samples; None: it is made of these.
+        read: (n, m) what effects of the model read, made of more samples; None: made of these.
         every: how many samples of the log there are from one to the next.
     """
 
@@ -78,8 +79,7 @@ class Segment(Brief):
 
     def thinned(self, every: int, read: np.ndarray | None) -> "Segment":
         """Every so manieth sample of a segment, and of what effects of its model read (n, m)."""
-        arrays = {name: value[::every].copy() for name, value in vars(self).items()
-                  if isinstance(value, np.ndarray) and name in _SAMPLED}  # fmt: skip
+        arrays: dict[str, Any] = {n: getattr(self, n)[::every].copy() for n in _SAMPLED}
         extra = {name: values[::every].copy() for name, values in self.extra.items()}
         return dataclasses.replace(
             self, **arrays, extra=extra, step=self.step * every, every=every, commanded=None,

@@ -142,7 +142,8 @@ class LogRepair(Brief):
         used = tuple(_speeds_used(log, processing) for log in self.logs)
         if (processing.keep_damaged, used) not in self._cut:
             logs = self.logs if processing.keep_damaged else [log for log, _, _ in self.mended]
-            cut = [split(log, run, own) for run, (log, own) in enumerate(zip(logs, used, strict=True))]
+            every = enumerate(zip(logs, used, strict=True))
+            cut = [split(log, run, own) for run, (log, own) in every]
             self._cut[processing.keep_damaged, used] = CutLogs(self.spec, logs, cut)
         return self._cut[processing.keep_damaged, used]
 

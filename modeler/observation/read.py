@@ -49,8 +49,8 @@ def read_log(path: str | Path, spec: ModuleSpec, mapping: LogMap | None = None) 
     if blocks is not None and blocks.rows > MOST_WHOLE:  # as far as it says before it is read
         raise DataError(
             f"{path}: got {blocks.rows} rows; expected at most {MOST_WHOLE} where all are in "
-            "memory; give a part of it, FILE@START:END; `modeler log`, `diagnose`, `compare` of one "
-            "model, and `fit` by weighted or ordinary least squares read logs of any length"
+            "memory; give a part of it, FILE@START:END; `modeler log`, `diagnose`, `compare` of "
+            "one model, and `fit` by weighted or ordinary least squares read logs of any length"
         )
     return whole_log(LogTable(path, mapping, spec.joints), spec)
 

@@ -67,9 +67,7 @@ class Stretch(Brief):
         for part, window, rows in self.parts(samples):
             yield rows, self._means(part, evaluate(window), window, self.used[rows], spans)
 
-    def at(
-        self, rows: np.ndarray, evaluate: Callable[[np.ndarray], np.ndarray]
-    ) -> np.ndarray:
+    def at(self, rows: np.ndarray, evaluate: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
         """(m, joints, ...) the same of some rows (m,), of the samples (b,) that they reach."""
         found, most = list[np.ndarray](), max(1, int(np.diff(self.rows.weights.indptr).max()))
         for some in np.array_split(rows, -(-len(rows) * most // _BLOCK)):

@@ -415,31 +415,30 @@ def read_capsules(
         RobotError: columns, names of rows, or numbers are wrong.
     """
     table = dict(place.table(f"[capsules] {_CAPSULES}"))
-    planes, flat = {}, place.at("planes", table.pop("planes", {}))
+    planes, found = {}, []
+    flat = place.at("planes", table.pop("planes", {}))
     for name, here in flat.items("planes = {floor = [0, 0, 1, 0]}"):
         four = here.entries("[x, y, z, offset], the normal that points to where is room", 4)
-        numbers = tuple(number_at(here.holding(cell), symbols, "m") for cell in four)
-        if not any(numbers[:3]):
+        planes[name] = tuple(number_at(here.holding(cell), symbols, "m") for cell in four)
+        if not any(planes[name][:3]):
             raise here.error("got the normal (0, 0, 0); expected a direction, such as [0, 0, 1, 0]")
-        planes[name] = numbers
-    found = []
+    given = place.holding(table)
     if table:
-        place.holding(table).checked_table(
+        given.checked_table(
             ("columns", "rows"), f"[capsules] {_CAPSULES}", "", f"write {_CAPSULES}"
         )
-        for line, cells in _lines(
-            place, table, ("row", "radius"), ("row", "radius", *_ENDS), _CAPSULES
-        ):
-            sizes = {
-                name: number_at(line.at(f"column {name}", cell), symbols, "m")
-                for name, cell in cells.items()
-                if name != "row"
-            }
-            if sizes["radius"] <= 0.0:
-                raise line.at("column radius", cells["radius"]).mismatch("a length above 0, in m")
-            ends = [sizes.get(name, 0.0) for name in _ENDS]
-            both = (tuple(ends[:3]), tuple(ends[3:])) if len(sizes) > 1 else None
-            found.append(LinkCapsule(_carrier(cells["row"], rows, line), sizes["radius"], both))
+    known = ("row", "radius", *_ENDS)
+    for line, cells in _lines(place, table, known[:2], known, _CAPSULES) if table else ():
+        row = _carrier(cells.pop("row"), rows, line)
+        sizes = {
+            name: number_at(line.at(f"column {name}", cell), symbols, "m")
+            for name, cell in cells.items()
+        }
+        if sizes["radius"] <= 0.0:
+            raise line.at("column radius", cells["radius"]).mismatch("a length above 0, in m")
+        ends = [sizes.get(name, 0.0) for name in _ENDS]
+        both = (tuple(ends[:3]), tuple(ends[3:])) if len(sizes) > 1 else None
+        found.append(LinkCapsule(row, sizes["radius"], both))
     return tuple(found), planes
 
 

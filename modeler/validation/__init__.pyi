@@ -30,7 +30,6 @@ from .pictures import (
     overlay_picture as overlay_picture,
     overview_picture as overview_picture,
     residual_picture as residual_picture,
-    torques_picture as torques_picture,
 )
 from .predict import at_every_row as at_every_row, compare_long as compare_long, predict as predict
 from .prediction import (

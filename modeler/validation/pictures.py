@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from modeler.core.figure import Bars, Curve, Heat, Means, Panel, Picture, Points
-from modeler.core.style import BLACK, BLUE, COLORS, GREY, ORANGE, SLATE, VERMILLION, Style
+from modeler.core.style import BLUE, COLORS, GREY, ORANGE, SLATE, VERMILLION, Style
 from modeler.core.table import percent
 from modeler.core.thinning import thin_curves, thin_points
 from modeler.validation.comparison import METHODS, REGIONS, Comparison, JointComparison
@@ -352,43 +352,6 @@ def overlay_picture(names: Sequence[str], predictions: Sequence[Prediction], j: 
         height=430,
         shared_time=True,
     )  # fmt: skip
-
-
-def torques_picture(name: str, names: Sequence[str], predictions: Sequence[Prediction]) -> Picture:
-    """Measured torque of every joint that has one, and what each model says, against time.
-
-    Args:
-        name: of the picture.
-        names: of the models.
-        predictions: of each, on the same rows.
-    """
-    first = predictions[0]
-    time, label, marks = running_time(first)
-    styles = [Style(BLACK, width=1.4), *(Style(c, width=1.0) for c in COLORS[: len(names)])]
-    panels = []
-    for j, joint in enumerate(first.joints):
-        every = (first.measured[:, j], *(own.predicted[:, j] for own in predictions))
-        if not first.measured[first.used[:, j], j].any():
-            continue
-        kept = thin_curves(every, _MOST)
-        curves = [
-            Curve(told, *broken(first.segment[kept], time[kept], torque[kept]), style)
-            for told, torque, style in zip(("measured", *names), every, styles, strict=True)
-        ]
-        y_label = f"{'torque' if joint.effort_unit == 'N m' else 'force'} [{joint.effort_unit}]"
-        panels.append((Panel(f"Joint {joint.name}", label, y_label, tuple(curves), marks=marks),))
-    said = ", ".join(
-        f"{style.named}: {told}" for told, style in zip(names, styles[1:], strict=True)
-    )
-    return Picture(
-        name=name,
-        title="Measured and predicted torque",
-        caption=f"Black: measured, filtered as the model; {said}.",
-        panels=tuple(panels),
-        heights=(1.0 / len(panels),) * len(panels),
-        height=200 * len(panels),
-        shared_time=True,
-    )
 
 
 def _overlay_caption(names: Sequence[str], styles: Sequence[Style], masks: str) -> str:

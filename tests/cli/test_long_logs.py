@@ -286,3 +286,33 @@ def test_memory_does_not_grow_with_the_rows(place, tmp_path):
             own.append(int(done.stdout.split()[-1]))
     for command, (few, many) in peaks.items():
         assert many - few < 100 * 40 * ROWS, (command, few, many)  # whole: 180 and 390 a row
+
+
+def test_a_log_of_any_length_is_diagnosed_by_stretches_of_it(place, monkeypatch, capsys):
+    """All rows are read: its fingerprint is that of the whole log."""
+    fitted(place, "run.parquet", "whole")
+    words = ["diagnose", str(place / "whole.json"), str(place / "run.parquet"), "--json"]
+    assert main([*words, str(place / "all.json")]) == 0
+    chunk = sys.modules["modeler.observation.chunk"]
+    for name, value in {"FINGER": 1024, "_ROWS": 4096, "_PARTS": 8}.items():
+        monkeypatch.setattr(chunk, name, value)
+    monkeypatch.setattr("modeler.observation.read.MOST_WHOLE", 5000)
+    monkeypatch.setattr(observation, "SPREAD", 5000)
+    capsys.readouterr()
+    assert main([*words, str(place / "few.json")]) == 0
+    out = capsys.readouterr().out
+    assert "9000 rows; 4096 of them are looked at, in 8 stretches of 2.56 s" in out
+    every, few = (json.loads((place / f"{n}.json").read_text()) for n in ("all", "few"))
+    assert few["verdict"] == every["verdict"] == "nothing significant"
+    assert few["joints"]["1"]["error_before"] == pytest.approx(
+        every["joints"]["1"]["error_before"], rel=0.2
+    )
+    spec = compile_model(generate(derive(load("two-link")))).spec
+    source = observation.source_of(place / "run.parquet", spec)
+    log = observation.read_spread(source, spec)
+    whole = next(source.blocks(ROWS))
+    blocks = [observation.log.finger(*(x[k : k + 1024] for x in (whole.time, whole.q, whole.tau)))
+              for k in range(0, ROWS, 1024)]  # fmt: skip
+    assert log.content == observation.log.fingerprint_of(blocks)
+    assert len(np.unique(log.piece_number)) == 8 and log.rows == 4096
+    assert log.span == pytest.approx((0.0, 5e-3 * (ROWS - 1)), abs=2.6)

@@ -5,12 +5,15 @@ import weakref
 
 import numpy as np
 import pytest
+from scipy.signal import cont2discrete, lfilter
 
 from modeler.api import compile_model, derive, generate, load
 from modeler.core.expression import parse
 from modeler.diagnosis import effect_columns as rows_module, signals as signals_module
+from modeler.diagnosis.effect_columns import coarser
 from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.state import SearchData, all_columns_of, analysed, state_of
+from modeler.estimation import findings
 from modeler.observation.prepare import LogRepair
 from modeler.observation.read import read_log
 from modeler.observation.settings import Processing
@@ -84,3 +87,41 @@ def test_a_state_lets_go_of_its_rows(arm, log) -> None:
         assert first() is None
     finally:
         gc.enable()
+
+
+def test_samples_that_the_band_has_no_use_for_are_let_go(arm, log) -> None:
+    """The rows stay the same, and so does what half a sample of the log is."""
+    whole = analysed(arm, [log], Processing(position_cutoff=40.0, parallel_cutoff=8.0))
+    few = coarser(whole, arm)
+    (part,), (left,) = whole.stretches, few.stretches
+    assert left.segment.samples < 0.3 * part.segment.samples
+    assert left.segment.logged_step == pytest.approx(part.segment.step)
+    assert all(x is y for x, y in zip(coarser(few, arm).stretches, few.stretches, strict=True))
+    one, other = (SearchData(arm, own).rows for own in (whole, few))
+    for name in ("y", "W", "time", "segment"):
+        np.testing.assert_equal(getattr(one, name), getattr(other, name))
+
+
+@pytest.mark.parametrize(("frequency", "damping"), [(0.7, 0.1), (6.0, 0.02), (55.0, 0.7)])
+def test_what_rings_is_that_of_scipy(frequency: float, damping: float) -> None:
+    step, w = 4e-3, 2.0 * np.pi * frequency
+    load = np.random.default_rng(int(frequency)).normal(size=5000).cumsum() + 20.0
+    system = [w**2], [1.0, 2.0 * damping * w, w**2]
+    numerator, denominator, _ = cont2discrete(system, step, method="foh")
+    theirs = load[0] + lfilter(np.ravel(numerator), denominator, load - load[0])
+    ours = signals_module.resonance(load, step, frequency, damping)
+    np.testing.assert_allclose(ours, theirs, rtol=0.0, atol=1e-9 * np.abs(load).max())
+
+
+def test_later_torques_and_one_column_more_are_those_of_all_columns(arm, log) -> None:
+    """Of a few rows: torques of a shifted motion, and what a column beside W adds to products."""
+    seen = findings._evidence(arm, analysed(arm, [log], Processing()))
+    rows, beta = seen.rows, np.linspace(-1.0, 2.0, len(arm.spec.base))
+    shift = np.array([2e-3, 0.0, -3e-3])
+    torque = rows.shifted(arm, shift, beta)
+    np.testing.assert_allclose(torque, rows.shifted(arm, shift) @ beta, rtol=1e-9, atol=1e-9)
+    own = findings._bordered(seen.data, seen, rows.W, torque)
+    both = np.concatenate([rows.W, torque[..., None]], axis=2)
+    whole = findings._products(both, rows.tau, rows.used, seen.joints)
+    for name in ("gram", "cross"):
+        np.testing.assert_allclose(getattr(own, name), getattr(whole, name), rtol=1e-9, atol=1e-12)

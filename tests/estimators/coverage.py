@@ -58,8 +58,8 @@ CASES = {
     "arm": Case(0.1, 20_000, "demo-arm", 6.0, 250.0),
     "loop": Case(0.02, 20_000, "five-bar", 8.0, 250.0),
 }
-"""A quiet arm; coarser encoders; sensors that are wrong at times; arms whose links come to the bound
-of what can be built; a closed loop under its controller."""
+"""A quiet arm; coarser encoders; sensors that are wrong at times; arms whose links come to the
+bound of what can be built; a closed loop under its controller."""
 
 _TUBES = ["XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"]
 
@@ -184,8 +184,8 @@ def table(case: str, found: dict[str, Covered]) -> str:
         f"Case {case}: {how.robot}, {how.duration:g} s at {how.rate:g} Hz, torque noise "
         f"{100 * how.noise:g} %, {how.counts} counts a turn{sensors}; {seeds} machines",
         "",
-        "| method | within sigma | within 95 % interval | worst parameter | rms z | mean z, largest "
-        "| median error % | seconds |",
+        "| method | within sigma | within 95 % interval | worst parameter | rms z "
+        "| mean z, largest | median error % | seconds |",
         "|---|---|---|---|---|---|---|---|",
     ]
     for method, own in found.items():

@@ -100,8 +100,8 @@ def test_instruments_end_in_the_machine_nearest_in_their_own_metric(badly_known)
     near = nearest_possible(machine, free.beta, R)
     rise = np.linalg.norm(R @ (bound.beta - free.beta)) ** 2
     assert near.distance > 1.0 and near.distance**2 <= rise < 1.4 * near.distance**2
-    assert any("at the bound of what can be built" in said for said in bound.sentences)
-    assert any(f"{held} " in said for said in bound.sentences for held in ("link 1", "link 3"))
+    (said,) = (said for said in bound.sentences if "at the bound of what can be built" in said)
+    assert "3" in said.partition(":")[0]
 
 
 def test_a_row_that_moves_pulls_a_consistent_estimate_as_it_says():
@@ -189,7 +189,9 @@ def test_methods_that_simulate_say_what_they_lack_without_commands(run):
     bare = Log("bare", log.joints, log.time, log.q, log.tau)
     observation = api.observe(compiled(), [bare])
     for method in ("iv", "iv-consistent"):
-        with pytest.raises(DataError, match=f'^bare: method "{method}" needs commanded.*columns qc1'):
+        with pytest.raises(
+            DataError, match=f'^bare: method "{method}" needs commanded.*columns qc1'
+        ):
             identify(observation, method, compiled())
     fit = identify(observation, "iv-direct", compiled())
     assert any("no commanded positions in these logs" in said for said in fit.own)
@@ -301,6 +303,9 @@ def test_a_loop_that_loses_the_robot_later_is_given_up(monkeypatch):
         observation = api.observe(compiled(), [bare], wide)
         told = [" ".join(identify(observation, m, compiled()).own) for m in SIMULATED]
         lost += [said for said in told if "none that was tried holds the robot" in said]
+        if seed == 1:  # machines that could be built can be held
+            said = " ".join(identify(observation, "didim-consistent", compiled()).own)
+            assert "has speed loops of" in said and "not positive definite" not in said
     assert len(lost) >= 2
     assert all("not positive definite in" in said for said in lost)
 
@@ -375,10 +380,14 @@ def test_the_list_says_law_source_and_when_not(capsys):
         (["estimators", "--methods", "ridg"], "got ridg (did you mean ridge?)"),
         (["fit", "emps", "a.csv", "--method", "all", "--out", "m"], "--out: got it with --method"),
         (["fit", "emps", "a.csv", "--method", "iv,ridge", "--model", "energy"], "--model: got it"),
-        (["fit", "emps", "a.csv", "--method", "didim-robust", "--model", "energy", "--out", "m"],
-         "--method didim-robust: got it with --model energy, whose rows are windows"),
-        (["fit", "emps", "a.csv", "--method", "didim-robust", "--robot-out", "r", "--out", "m"],
-         "--robot-out: --method didim-robust ends in base parameters"),
+        (
+            ["fit", "emps", "a.csv", "--method", "didim-robust", "--model", "energy", "--out", "m"],
+            "--method didim-robust: got it with --model energy, whose rows are windows",
+        ),
+        (
+            ["fit", "emps", "a.csv", "--method", "didim-robust", "--robot-out", "r", "--out", "m"],
+            "--robot-out: --method didim-robust ends in base parameters",
+        ),
         (["fit", "emps", "a.csv", "--out", "m", "--holdout", "b.csv"], "--holdout: got it with"),
     ],
 )
