@@ -51,7 +51,24 @@ METHODS = {
 }
 """A fit of above with other options."""
 DIAGNOSED = {"emps": "emps/pulses", "panda": "panda/excitation@11.55:"}
-"""A fit of above, diagnosed, and the log that it is held against."""
+"""The log that a fit of above is held against when it is diagnosed."""
+HIDDEN = {
+    "a": ("demo-arm", 40, 711, "stribeck@1"),
+    "b": ("demo-arm", 40, 712, "motor_ripple@2"),
+    "c": ("demo-arm", 40, 713, "elasticity@2"),
+    "d": ("ur10e", 40, 714, "stribeck@2"),
+    "e": ("ur10e", 30, 715, "spring@3", "asymmetric_viscous@5"),
+    "f": ("panda", 30, 716, "payload"),
+    "g": ("puma560", 40, 717, "load_friction@2"),
+    "h": ("demo-arm", 30, 718),
+    "i": ("scara", 40, 719, "joint_ripple@1"),
+    "j": ("ur10e", 40, 720, "time_delay"),
+    "k": ("demo-arm", 30, 721, "external_force"),
+    "l": ("demo-arm", 30, 722, "backlash@3"),
+    "m": ("demo-arm", 40, 723, "encoder_offset@2"),
+    "n": ("panda", 40, 724, "drive_gain@3"),
+}
+"""Robot, seconds and seed of two simulated logs, and what is hidden in them."""
 
 
 def main() -> int:
@@ -74,6 +91,7 @@ def commands(scratch: Path, data: Path) -> Iterator[tuple[str, list[str]]]:
     """Names and the words of command lines."""
     for robot in builtin_names():
         yield f"derive.{robot}", ["derive", robot]
+    yield from simulated(scratch)
     for paper in paper_names():
         yield f"reproduce.{paper}", ["reproduce", paper]
     if not data.is_dir():
@@ -83,9 +101,21 @@ def commands(scratch: Path, data: Path) -> Iterator[tuple[str, list[str]]]:
     fits |= {name: [*fits[of], *words] for name, (of, *words) in METHODS.items()}
     for name, words in fits.items():
         yield f"fit.{name}", ["fit", *words, "--out", model]
-        if name in DIAGNOSED:
-            held = _log(DIAGNOSED[name], data)
-            yield f"diagnose.{name}", ["diagnose", model, *words[1:], "--holdout", held]
+        if name in FITS:
+            held = ["--holdout", _log(DIAGNOSED[name], data)] if name in DIAGNOSED else []
+            yield f"diagnose.{name}", ["diagnose", model, *words[1:], *held]
+
+
+def simulated(scratch: Path) -> Iterator[tuple[str, list[str]]]:
+    """What is hidden in simulated logs, diagnosed: all that `diagnose.hidden` begins."""
+    logs, model = [str(scratch / f"{k}.parquet") for k in range(2)], str(scratch / "model.json")
+    for name, (robot, seconds, seed, *effects) in HIDDEN.items():
+        hide = [word for effect in effects for word in ("--hide", str(effect))]
+        for k, log in enumerate(logs):
+            words = ["--out", log, "--duration", str(seconds), "--seed", str(seed + k), *hide]
+            yield f"diagnose.hidden.{name}.log{k}", ["simulate", str(robot), *words]
+        yield f"diagnose.hidden.{name}.fit", ["fit", str(robot), logs[0], "--out", model]
+        yield f"diagnose.hidden.{name}", ["diagnose", model, logs[0], "--holdout", logs[1]]
 
 
 def _fitted(words: tuple[str, ...], data: Path) -> list[str]:

@@ -337,14 +337,17 @@ static void by_columns(supply *all, modeler_real *W, size_t rows, modeler_real *
             p.rows = buffer + phase;
             turned[version](&p, p.values, length, now);
             if (foreign > 0) {
-                memcpy(to, p.rows, (whole < LINE ? now * p.width : LINE - phase) * sizeof(modeler_real));
+                const size_t ours = whole < LINE ? now * p.width : LINE - phase;
+                memcpy(to, p.rows, ours * sizeof(modeler_real));
             }
             if (lines > foreign) {
-                streams[version](buffer + foreign * LINE, to - phase + foreign * LINE, lines - foreign);
+                streams[version](buffer + foreign * LINE, to - phase + foreign * LINE,
+                                 lines - foreign);
             }
             memcpy(rest, buffer + lines * LINE, LINE * sizeof(modeler_real));
             if (all->left == 0 && lines >= foreign) {
-                memcpy(to - phase + lines * LINE, rest, (whole - lines * LINE) * sizeof(modeler_real));
+                memcpy(to - phase + lines * LINE, rest,
+                       (whole - lines * LINE) * sizeof(modeler_real));
             }
         }
         done += now * p.width;
@@ -405,28 +408,30 @@ void modeler_tile_closed(const modeler_tiled *robot, size_t samples, const model
 #if MODELER_WIDTH >= FEW
 
 typedef modeler_real MODELER_VERSION(four)
-    __attribute__((vector_size(FEW * sizeof(modeler_real)), aligned(sizeof(modeler_real)), may_alias));
+    __attribute__((vector_size(FEW * sizeof(modeler_real)), aligned(sizeof(modeler_real)),
+                   may_alias));
 typedef WHOLE MODELER_VERSION(places) __attribute__((vector_size(FEW * sizeof(modeler_real))));
 
 /* A square of FEW entries and FEW samples is turned in the registers. */
 #undef SHUFFLE
 #define SHUFFLE(...) MODELER_SHUFFLE(MODELER_VERSION(places), __VA_ARGS__)
-#undef SQUARE
-#define SQUARE(A, B, C, D, to, width) \
-    do { \
-        const MODELER_VERSION(four) a0 = *(const MODELER_VERSION(four) *)(A); \
-        const MODELER_VERSION(four) a1 = *(const MODELER_VERSION(four) *)(B); \
-        const MODELER_VERSION(four) a2 = *(const MODELER_VERSION(four) *)(C); \
-        const MODELER_VERSION(four) a3 = *(const MODELER_VERSION(four) *)(D); \
-        const MODELER_VERSION(four) b0 = SHUFFLE(a0, a1, 0, 4, 2, 6); \
-        const MODELER_VERSION(four) b1 = SHUFFLE(a0, a1, 1, 5, 3, 7); \
-        const MODELER_VERSION(four) b2 = SHUFFLE(a2, a3, 0, 4, 2, 6); \
-        const MODELER_VERSION(four) b3 = SHUFFLE(a2, a3, 1, 5, 3, 7); \
-        *(MODELER_VERSION(four) *)(to) = SHUFFLE(b0, b2, 0, 1, 4, 5); \
-        *(MODELER_VERSION(four) *)((to) + (width)) = SHUFFLE(b1, b3, 0, 1, 4, 5); \
-        *(MODELER_VERSION(four) *)((to) + 2 * (width)) = SHUFFLE(b0, b2, 2, 3, 6, 7); \
-        *(MODELER_VERSION(four) *)((to) + 3 * (width)) = SHUFFLE(b1, b3, 2, 3, 6, 7); \
-    } while (0)
+MODELER_TARGET static inline void MODELER_VERSION(square)(const modeler_real *A,
+                                                          const modeler_real *B,
+                                                          const modeler_real *C,
+                                                          const modeler_real *D, modeler_real *to,
+                                                          size_t width)
+{
+    typedef MODELER_VERSION(four) four;
+    const four a0 = *(const four *)A, a1 = *(const four *)B;
+    const four a2 = *(const four *)C, a3 = *(const four *)D;
+    const four b0 = SHUFFLE(a0, a1, 0, 4, 2, 6), b1 = SHUFFLE(a0, a1, 1, 5, 3, 7);
+    const four b2 = SHUFFLE(a2, a3, 0, 4, 2, 6), b3 = SHUFFLE(a2, a3, 1, 5, 3, 7);
+
+    *(four *)to = SHUFFLE(b0, b2, 0, 1, 4, 5);
+    *(four *)(to + width) = SHUFFLE(b1, b3, 0, 1, 4, 5);
+    *(four *)(to + 2 * width) = SHUFFLE(b0, b2, 2, 3, 6, 7);
+    *(four *)(to + 3 * width) = SHUFFLE(b1, b3, 2, 3, 6, 7);
+}
 
 MODELER_TARGET static void MODELER_VERSION(turn)(const plan *p, const modeler_real *values)
 {
@@ -437,8 +442,10 @@ MODELER_TARGET static void MODELER_VERSION(turn)(const plan *p, const modeler_re
         const int *const source = p->source + b * FEW;
         modeler_real *const to = p->rows + p->first[b];
 
-        SQUARE(values + source[0] * MODELER_LANES, values + source[1] * MODELER_LANES,
-               values + source[2] * MODELER_LANES, values + source[3] * MODELER_LANES, to, p->width);
+        MODELER_VERSION(square)(values + source[0] * MODELER_LANES,
+                                values + source[1] * MODELER_LANES,
+                                values + source[2] * MODELER_LANES,
+                                values + source[3] * MODELER_LANES, to, p->width);
     }
 }
 
@@ -458,7 +465,7 @@ MODELER_TARGET static void MODELER_VERSION(column)(const plan *p, const modeler_
 
         for (size_t i = 0; i < samples; i += MODELER_LANES) {
             for (int lane = 0; lane < MODELER_LANES; lane += FEW) {
-                SQUARE(A + lane, B + lane, C + lane, D + lane, to, width);
+                MODELER_VERSION(square)(A + lane, B + lane, C + lane, D + lane, to, width);
                 to += FEW * width;
             }
             A += length;
@@ -496,7 +503,8 @@ typedef modeler_real MODELER_VERSION(wide) __attribute__((
 typedef modeler_real MODELER_VERSION(straight)
     __attribute__((vector_size(sizeof(modeler_real) * MODELER_WIDTH), may_alias));
 
-MODELER_TARGET static void MODELER_VERSION(stream)(const modeler_real *from, modeler_real *to, size_t lines)
+MODELER_TARGET static void MODELER_VERSION(stream)(const modeler_real *from, modeler_real *to,
+                                                   size_t lines)
 {
     for (size_t i = 0; i < lines * LINE; i += MODELER_WIDTH) {
         MODELER_STREAM((MODELER_VERSION(straight) *)(void *)(to + i),
@@ -506,7 +514,8 @@ MODELER_TARGET static void MODELER_VERSION(stream)(const modeler_real *from, mod
 
 #else
 
-static void MODELER_VERSION(stream)(const modeler_real *from, modeler_real *to, size_t lines)
+static void MODELER_VERSION(stream)(const modeler_real *from, modeler_real *to,
+                                                   size_t lines)
 {
     memcpy(to, from, lines * LINE * sizeof(modeler_real));
 }

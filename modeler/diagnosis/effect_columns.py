@@ -117,11 +117,6 @@ Columns = tuple[np.ndarray | None, ...]
 """Columns of one candidate by joint, (rows_j, k) each; None where they are zero throughout."""
 
 
-KEPT = 2**27
-"""Bytes of columns that are remembered, for the next state."""
-
-_HELD = "bytes held"
-
 Evaluate = Callable[[int, slice], np.ndarray]
 """Values over a window of the samples of a stretch, by its number."""
 
@@ -174,13 +169,6 @@ class Rows(Brief):
         """The same rows with effects linearised about another reference of the same robot."""
         signals = tuple(dataclasses.replace(s, reference=reference) for s in self.signals)
         return dataclasses.replace(self, signals=signals, known={})
-
-    def remember(self, key: Any, columns: "Columns") -> None:
-        """Columns that do not depend on the model, as long as there is room for them."""
-        held = sum(8 * c.size for c in columns if c is not None)
-        if self.cache.get(_HELD, 0) + held <= KEPT:
-            self.cache[_HELD] = self.cache.get(_HELD, 0) + held
-            self.cache[key] = columns
 
     def filtered(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
         """(rows_j, ...) of values (samples, ...) by stretch, on joint j."""

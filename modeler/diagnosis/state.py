@@ -348,8 +348,21 @@ def all_columns_of(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]
         for candidate, own in zip(every, made, strict=True):
             found[id(candidate)] = own
             if _fixed(candidate):
-                rows.remember(column_key(rows, candidate), own)
+                _remember(rows.cache, column_key(rows, candidate), own)
     return [found[id(candidate)] for candidate in candidates]
+
+
+KEPT = 2**27
+"""Bytes of columns that do not depend on the model, remembered for the next state."""
+
+_HELD = "bytes held"
+
+
+def _remember(cache: dict[Any, Any], key: Any, columns: Columns) -> None:
+    """As long as there is room for them."""
+    held = cache.get(_HELD, 0) + sum(8 * c.size for c in columns if c is not None)
+    if held <= KEPT:
+        cache |= {_HELD: held, key: columns}
 
 
 def together(candidates: Sequence[Candidate], most: int) -> Iterator[list[Candidate]]:
