@@ -337,14 +337,17 @@ static void by_columns(supply *all, modeler_real *W, size_t rows, modeler_real *
             p.rows = buffer + phase;
             turned[version](&p, p.values, length, now);
             if (foreign > 0) {
-                memcpy(to, p.rows, (whole < LINE ? now * p.width : LINE - phase) * sizeof(modeler_real));
+                const size_t ours = whole < LINE ? now * p.width : LINE - phase;
+                memcpy(to, p.rows, ours * sizeof(modeler_real));
             }
             if (lines > foreign) {
-                streams[version](buffer + foreign * LINE, to - phase + foreign * LINE, lines - foreign);
+                streams[version](buffer + foreign * LINE, to - phase + foreign * LINE,
+                                 lines - foreign);
             }
             memcpy(rest, buffer + lines * LINE, LINE * sizeof(modeler_real));
             if (all->left == 0 && lines >= foreign) {
-                memcpy(to - phase + lines * LINE, rest, (whole - lines * LINE) * sizeof(modeler_real));
+                memcpy(to - phase + lines * LINE, rest,
+                       (whole - lines * LINE) * sizeof(modeler_real));
             }
         }
         done += now * p.width;
@@ -405,7 +408,8 @@ void modeler_tile_closed(const modeler_tiled *robot, size_t samples, const model
 #if MODELER_WIDTH >= FEW
 
 typedef modeler_real MODELER_VERSION(four)
-    __attribute__((vector_size(FEW * sizeof(modeler_real)), aligned(sizeof(modeler_real)), may_alias));
+    __attribute__((vector_size(FEW * sizeof(modeler_real)), aligned(sizeof(modeler_real)),
+                   may_alias));
 typedef WHOLE MODELER_VERSION(places) __attribute__((vector_size(FEW * sizeof(modeler_real))));
 
 /* A square of FEW entries and FEW samples is turned in the registers. */
@@ -499,7 +503,8 @@ typedef modeler_real MODELER_VERSION(wide) __attribute__((
 typedef modeler_real MODELER_VERSION(straight)
     __attribute__((vector_size(sizeof(modeler_real) * MODELER_WIDTH), may_alias));
 
-MODELER_TARGET static void MODELER_VERSION(stream)(const modeler_real *from, modeler_real *to, size_t lines)
+MODELER_TARGET static void MODELER_VERSION(stream)(const modeler_real *from, modeler_real *to,
+                                                   size_t lines)
 {
     for (size_t i = 0; i < lines * LINE; i += MODELER_WIDTH) {
         MODELER_STREAM((MODELER_VERSION(straight) *)(void *)(to + i),
@@ -509,7 +514,8 @@ MODELER_TARGET static void MODELER_VERSION(stream)(const modeler_real *from, mod
 
 #else
 
-static void MODELER_VERSION(stream)(const modeler_real *from, modeler_real *to, size_t lines)
+static void MODELER_VERSION(stream)(const modeler_real *from, modeler_real *to,
+                                                   size_t lines)
 {
     memcpy(to, from, lines * LINE * sizeof(modeler_real));
 }

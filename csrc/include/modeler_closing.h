@@ -1,10 +1,10 @@
-/* Closing the loops of MODELER_WIDTH samples together, for the version that modeler_versions.h is at.
+/* Closing the loops of MODELER_WIDTH samples together, for the version modeler_versions.h is at.
  *
- * Newton from the posture of the last sample before them, along its tangent and what that has turned
- * by; bounds and tests are those of modeler_closure.c, with sums of squares in the place of largest
- * values, which are stricter: each sample's posture must be like that of the sample before it, so
- * the assembly mode does not change. 0 wherever one of them is in doubt: then the samples are closed
- * one after another.
+ * Newton from the posture of the last sample before them, along its tangent and what that has
+ * turned by; bounds and tests are those of modeler_closure.c, with sums of squares in the place of
+ * largest values, which are stricter: each sample's posture must be like that of the sample before
+ * it, so the assembly mode does not change. 0 wherever one of them is in doubt: then samples are
+ * closed one after another.
  *
  * The functions closure, residual, factor, solve, turned and spread of the version come first, as
  * modeler_closure.h has them, and the lengths that are written here in capitals.
@@ -189,7 +189,7 @@ MODELER_TARGET static int MODELER_VERSION(alike)(const modeler_anchor *from,
     return MODELER_ALL_LESS(sum, SQUARE(TURNED));
 }
 
-/* 1 if the loops of all are closed as those of the sample before each; v, a: finite, or 0 is told. */
+/* 1 if the loops of all are closed as those of the sample before; v, a: finite, or 0 is told. */
 MODELER_TARGET static int MODELER_VERSION(together)(const modeler_closure *loops,
                                                     const modeler_anchor *from,
                                                     const modeler_lanes *q, const modeler_lanes *v,

@@ -60,7 +60,8 @@
 #define MODELER_ZEROS(x, length) (void)0
 #else
 #define MODELER_ALL_ZEROS(x, length) (void)0
-#if defined(__GNUC__) && defined(__SSE2__) && !defined(__cplusplus) /* wider stores would cross lines of the cache */
+/* Wider stores would cross lines of the cache. */
+#if defined(__GNUC__) && defined(__SSE2__) && !defined(__cplusplus)
 #define MODELER_ZEROS(x, length) \
     for (int i_ = 0; i_ + MODELER_FEW_ <= (length); i_ += MODELER_FEW_) { \
         *(modeler_few_ *)(void *)((x) + i_) = (modeler_few_){0}; \

@@ -1,4 +1,4 @@
-/* Arithmetic of vectors of floats whose lanes are samples, for the version that modeler_versions.h is at.
+/* Arithmetic of vectors of floats whose lanes are samples; the version is modeler_versions.h's.
  *
  * Vectors of gcc and clang have + - * / and comparisons; here is the rest. Where MODELER_WIDTH is 1
  * a vector is one float, and all is plain C. Every version has its own: types and functions have
@@ -91,7 +91,8 @@
 #define MODELER_ALL_LESS_8(x, bound) \
     (__builtin_ia32_movmskps256((modeler_lanes)((x) < (bound))) == 255)
 #define MODELER_ALL_LESS_16(x, bound) /* 21: not less, quiet; 4: the rounding that is set */ \
-    (__builtin_ia32_cmpps512_mask(x, modeler_lanes_spread(bound), 21, (unsigned short)65535, 4) == 0)
+    (__builtin_ia32_cmpps512_mask(x, modeler_lanes_spread(bound), 21, (unsigned short)65535, 4) \
+     == 0)
 
 #ifdef __GNUC__
 #define MODELER_INLINE static inline __attribute__((always_inline, unused)) MODELER_TARGET

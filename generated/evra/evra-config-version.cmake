@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 2) any of this C interface,
-# find_package(evra 2.35425.40895.61787) only what has the signature 8a619fbff15bf7b4.
-set(PACKAGE_VERSION 2.35425.40895.61787)
+# find_package(evra 2.38222.57623.15123) only what has the signature 954ee1173b131349.
+set(PACKAGE_VERSION 2.38222.57623.15123)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -91,6 +91,7 @@ static const double evra_geo_phi6 = EVRA_GEO_phi6;
 
 /* Regressor of the base parameters.
  * 366 additions, 602 multiplications. */
+MODELER_CLONES
 void evra_tree_base_regressor(const double q[26], const double qd[26], const double qdd[26],
                               double MODELER_OUT(phi, 26 * 90))
 {
@@ -1072,6 +1073,7 @@ void evra_tree_base_regressor(const double q[26], const double qd[26], const dou
 
 /* Regressor of the base parameters, loops closed.
  * 1745 additions, 2845 multiplications. */
+MODELER_CLONES
 void evra_tree_rows(const double q[26], const double t[30], const double G[144],
                     const double lu[107], const double v[8], const double a[8],
                     double MODELER_OUT(phi, 8 * 90))

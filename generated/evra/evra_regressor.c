@@ -83,6 +83,7 @@ static const double evra_geo_beta6 = EVRA_GEO_beta6;
 
 /* Regressor of the standard parameters.
  * 396 additions, 656 multiplications. */
+MODELER_CLONES
 void evra_tree_regressor(const double q[26], const double qd[26], const double qdd[26],
                          double MODELER_OUT(phi, 26 * 210))
 {

@@ -51,6 +51,7 @@ static const double five_bar_geo_L4 = FIVE_BAR_GEO_L4;
 
 /* Regressor of the base parameters.
  * 17 additions, 28 multiplications. */
+MODELER_CLONES
 void five_bar_tree_base_regressor(const double q[4], const double qd[4], const double qdd[4],
                                   double MODELER_OUT(phi, 4 * 11))
 {
@@ -117,6 +118,7 @@ void five_bar_tree_base_regressor(const double q[4], const double qd[4], const d
 
 /* Regressor of the base parameters, loops closed.
  * 56 additions, 100 multiplications. */
+MODELER_CLONES
 void five_bar_tree_rows(const double q[4], const double t[8], const double G[4],
                         const double lu[4], const double v[2], const double a[2],
                         double MODELER_OUT(phi, 2 * 11))

@@ -106,7 +106,7 @@ static void base_rows(struct five_bar_posture *p, double *rows, const double *qd
 
 const char *five_bar_signature(void)
 {
-    return "5c9e099938514890";
+    return "d791d612ebca9b2d";
 }
 
 int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int next,

@@ -49,6 +49,7 @@ static const double five_bar_geo_L3 = FIVE_BAR_GEO_L3;
 
 /* Regressor of the standard parameters.
  * 22 additions, 36 multiplications. */
+MODELER_CLONES
 void five_bar_tree_regressor(const double q[4], const double qd[4], const double qdd[4],
                              double MODELER_OUT(phi, 4 * 40))
 {

@@ -8,6 +8,9 @@
 
 typedef double modeler_real;
 
+/* Numbers in a line of the cache: as many samples has a tile. */
+#define MODELER_LANES 8
+
 /* A literal. */
 #define MODELER_REAL(x) x
 

@@ -1,6 +1,6 @@
 # find_package(orthoglide_2003) takes any, find_package(orthoglide_2003 2) any of this C interface,
-# find_package(orthoglide_2003 2.52006.15126.36370) only what has the signature cb263b168e1216d9.
-set(PACKAGE_VERSION 2.52006.15126.36370)
+# find_package(orthoglide_2003 2.51772.33071.18164) only what has the signature ca3c812f46f4e189.
+set(PACKAGE_VERSION 2.51772.33071.18164)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -55,6 +55,7 @@ static const double orthoglide_2003_geo_D43 = ORTHOGLIDE_2003_GEO_D43;
 
 /* Regressor of the base parameters.
  * 68 additions, 114 multiplications. */
+MODELER_CLONES
 void orthoglide_2003_tree_base_regressor(const double q[12], const double qd[12],
                                          const double qdd[12], double MODELER_OUT(phi, 12 * 43))
 {
@@ -291,6 +292,7 @@ void orthoglide_2003_tree_base_regressor(const double q[12], const double qd[12]
 
 /* Regressor of the base parameters, loops closed.
  * 219 additions, 403 multiplications. */
+MODELER_CLONES
 void orthoglide_2003_tree_rows(const double q[12], const double t[12], const double G[27],
                                const double lu[25], const double v[3], const double a[3],
                                double MODELER_OUT(phi, 3 * 43))

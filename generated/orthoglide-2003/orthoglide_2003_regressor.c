@@ -61,6 +61,7 @@ static const double orthoglide_2003_geo_D43 = ORTHOGLIDE_2003_GEO_D43;
 
 /* Regressor of the standard parameters.
  * 99 additions, 172 multiplications. */
+MODELER_CLONES
 void orthoglide_2003_tree_regressor(const double q[12], const double qd[12], const double qdd[12],
                                     double MODELER_OUT(phi, 12 * 163))
 {

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "cc36a9ec705f11ad"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0xcc36a9ecu
-#define ORTHOGLIDE_2012_SIGNATURE_2 0x705f11adu
+#define ORTHOGLIDE_2012_SIGNATURE "59231d981de8d61c"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0x59231d98u
+#define ORTHOGLIDE_2012_SIGNATURE_2 0x1de8d61cu
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in orthoglide_2012_generator.h. */

@@ -43,6 +43,7 @@ static const double orthoglide_2012_geo_d4 = ORTHOGLIDE_2012_GEO_d4;
 
 /* Regressor of the base parameters.
  * 70 additions, 120 multiplications. */
+MODELER_CLONES
 void orthoglide_2012_tree_base_regressor(const double q[12], const double qd[12],
                                          const double qdd[12], double MODELER_OUT(phi, 12 * 53))
 {
@@ -306,6 +307,7 @@ void orthoglide_2012_tree_base_regressor(const double q[12], const double qd[12]
 
 /* Regressor of the base parameters, loops closed.
  * 210 additions, 433 multiplications. */
+MODELER_CLONES
 void orthoglide_2012_tree_rows(const double q[12], const double t[12], const double G[27],
                                const double lu[25], const double v[3], const double a[3],
                                double MODELER_OUT(phi, 3 * 53))

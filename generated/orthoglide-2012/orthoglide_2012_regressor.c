@@ -46,6 +46,7 @@ static const double orthoglide_2012_geo_d4 = ORTHOGLIDE_2012_GEO_d4;
 
 /* Regressor of the standard parameters.
  * 99 additions, 172 multiplications. */
+MODELER_CLONES
 void orthoglide_2012_tree_regressor(const double q[12], const double qd[12], const double qdd[12],
                                     double MODELER_OUT(phi, 12 * 196))
 {

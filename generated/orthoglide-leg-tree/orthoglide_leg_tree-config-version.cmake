@@ -1,6 +1,6 @@
 # find_package(orthoglide_leg_tree) takes any, find_package(orthoglide_leg_tree 2) any of this C interface,
-# find_package(orthoglide_leg_tree 2.31683.2057.13382) only what has the signature 7bc3080934463271.
-set(PACKAGE_VERSION 2.31683.2057.13382)
+# find_package(orthoglide_leg_tree 2.33896.38113.4280) only what has the signature 846894e110b8b515.
+set(PACKAGE_VERSION 2.33896.38113.4280)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -44,6 +44,7 @@ static const double orthoglide_leg_tree_geo_D4 = ORTHOGLIDE_LEG_TREE_GEO_D4;
 
 /* Regressor of the base parameters.
  * 140 additions, 202 multiplications. */
+MODELER_CLONES
 void orthoglide_leg_tree_base_regressor(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
                                         const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
                                         const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],
@@ -316,6 +317,7 @@ void orthoglide_leg_tree_base_regressor(const double q[ORTHOGLIDE_LEG_TREE_JOINT
 
 /* The entries of the base regressor that are not always 0.
  * 140 additions, 202 multiplications. */
+MODELER_CLONES
 void orthoglide_leg_tree_base_regressor_nonzeros(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
                                                  const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
                                                  const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],

@@ -44,6 +44,7 @@ static const double orthoglide_leg_tree_geo_D4 = ORTHOGLIDE_LEG_TREE_GEO_D4;
 
 /* Regressor of the standard parameters.
  * 152 additions, 218 multiplications. */
+MODELER_CLONES
 void orthoglide_leg_tree_regressor(const double q[ORTHOGLIDE_LEG_TREE_JOINTS],
                                    const double qd[ORTHOGLIDE_LEG_TREE_JOINTS],
                                    const double qdd[ORTHOGLIDE_LEG_TREE_JOINTS],

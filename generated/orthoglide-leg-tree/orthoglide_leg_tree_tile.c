@@ -43,7 +43,7 @@ static const int column[] = {
 };
 
 #define TILED(version) \
-    {6, 32, 0, 88, row, column, tile_##version}
+    {6, 32, 0, 88, row, column, tile_##version, NULL, 0, NULL}
 
 static const modeler_tiled tiled[] = {MODELER_EACH_VERSION(TILED)};
 
@@ -54,7 +54,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "7bc3080934463271";
+    return "846894e110b8b515";
 }
 
 #else /* for one instruction set */

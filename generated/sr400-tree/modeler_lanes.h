@@ -65,6 +65,7 @@
 
 /* Whether every lane of x is less than a bound. */
 #define MODELER_ALL_LESS(x, bound) MODELER_JOIN(MODELER_ALL_LESS_, MODELER_WIDTH)(x, bound)
+#define MODELER_ALL_LESS_1(x, bound) ((x) < (bound))
 #define MODELER_ALL_LESS_2(x, bound) ((x)[0] < (bound) && (x)[1] < (bound))
 #define MODELER_ALL_LESS_4(x, bound) \
     (__builtin_ia32_movmskpd256((modeler_lanes)((x) < (bound))) == 15)

@@ -84,7 +84,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "858526820bb95c64";
+    return "ae9e1d5cb13e4ff0";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

@@ -54,6 +54,7 @@ static const double sr400_tree_geo_D8 = SR400_TREE_GEO_D8;
 
 /* Regressor of the base parameters.
  * 340 additions, 454 multiplications. */
+MODELER_CLONES
 void sr400_tree_base_regressor(const double q[SR400_TREE_JOINTS],
                                const double qd[SR400_TREE_JOINTS],
                                const double qdd[SR400_TREE_JOINTS],
@@ -579,6 +580,7 @@ void sr400_tree_base_regressor(const double q[SR400_TREE_JOINTS],
 
 /* The entries of the base regressor that are not always 0.
  * 340 additions, 454 multiplications. */
+MODELER_CLONES
 void sr400_tree_base_regressor_nonzeros(const double q[SR400_TREE_JOINTS],
                                         const double qd[SR400_TREE_JOINTS],
                                         const double qdd[SR400_TREE_JOINTS],

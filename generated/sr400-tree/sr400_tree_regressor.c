@@ -54,6 +54,7 @@ static const double sr400_tree_geo_D8 = SR400_TREE_GEO_D8;
 
 /* Regressor of the standard parameters.
  * 380 additions, 500 multiplications. */
+MODELER_CLONES
 void sr400_tree_regressor(const double q[SR400_TREE_JOINTS], const double qd[SR400_TREE_JOINTS],
                           const double qdd[SR400_TREE_JOINTS], double MODELER_OUT(phi, 8 * 80))
 {

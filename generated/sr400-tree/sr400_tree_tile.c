@@ -59,7 +59,7 @@ static const int column[] = {
 };
 
 #define TILED(version) \
-    {8, 50, 0, 172, row, column, tile_##version}
+    {8, 50, 0, 172, row, column, tile_##version, NULL, 0, NULL}
 
 static const modeler_tiled tiled[] = {MODELER_EACH_VERSION(TILED)};
 
@@ -70,7 +70,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "858526820bb95c64";
+    return "ae9e1d5cb13e4ff0";
 }
 
 #else /* for one instruction set */

@@ -1,6 +1,6 @@
 # find_package(sr400) takes any, find_package(sr400 2) any of this C interface,
-# find_package(sr400 2.6333.23403.4699) only what has the signature 18bd5b6b125ba37c.
-set(PACKAGE_VERSION 2.6333.23403.4699)
+# find_package(sr400 2.32358.43351.52539) only what has the signature 7e66a957cd3b988c.
+set(PACKAGE_VERSION 2.32358.43351.52539)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -54,6 +54,7 @@ static const double sr400_geo_D8 = SR400_GEO_D8;
 
 /* Regressor of the base parameters.
  * 291 additions, 398 multiplications. */
+MODELER_CLONES
 void sr400_base_regressor(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
                           const double qdd[SR400_JOINTS], double MODELER_OUT(phi, 6 * 39))
 {
@@ -436,6 +437,7 @@ void sr400_base_regressor(const double q[SR400_JOINTS], const double qd[SR400_JO
 
 /* The entries of the base regressor that are not always 0.
  * 291 additions, 398 multiplications. */
+MODELER_CLONES
 void sr400_base_regressor_nonzeros(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
                                    const double qdd[SR400_JOINTS], double MODELER_OUT(values, 126))
 {

@@ -54,6 +54,7 @@ static const double sr400_geo_D8 = SR400_GEO_D8;
 
 /* Regressor of the standard parameters.
  * 329 additions, 445 multiplications. */
+MODELER_CLONES
 void sr400_regressor(const double q[SR400_JOINTS], const double qd[SR400_JOINTS],
                      const double qdd[SR400_JOINTS], double MODELER_OUT(phi, 6 * 80))
 {

@@ -56,7 +56,7 @@ static const int column[] = {
 };
 
 #define TILED(version) \
-    {6, 39, 0, 126, row, column, tile_##version}
+    {6, 39, 0, 126, row, column, tile_##version, NULL, 0, NULL}
 
 static const modeler_tiled tiled[] = {MODELER_EACH_VERSION(TILED)};
 
@@ -67,7 +67,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "18bd5b6b125ba37c";
+    return "7e66a957cd3b988c";
 }
 
 #else /* for one instruction set */

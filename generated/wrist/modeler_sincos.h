@@ -10,7 +10,11 @@
 
 #include <math.h>
 
-static inline void modeler_sincos(double x, double *sine, double *cosine)
+#ifndef MODELER_INTO_CLONES /* of modeler_runtime.h */
+#define MODELER_INTO_CLONES
+#endif
+
+static inline MODELER_INTO_CLONES void modeler_sincos(double x, double *sine, double *cosine)
 {
     /* pi/2 = PART_1 + PART_2 + PART_3; the first two have 33 bits, so n*PART is exact. */
     const double PART_1 = 1.57079632673412561417e+00, PART_2 = 6.07710050630396597660e-11;

@@ -7,7 +7,7 @@
  * While MODELER_BODY is read,
  *   MODELER_VERSION(name)  is the name with that of the version,
  *   MODELER_TARGET         stands before every function,
- *   MODELER_WIDTH          is how many doubles a vector has; 1: there are no vectors.
+ *   MODELER_WIDTH          is how many numbers a vector has; 1: there are no vectors.
  * Afterwards MODELER_EACH_VERSION(X) is X(version), X(version)..., the best first, and
  * MODELER_BEST_VERSION the place in that list of the first that this processor can run.
  */
@@ -18,18 +18,24 @@
 #define MODELER_X86
 #endif
 
+#ifdef MODELER_SINGLE /* of modeler_real.h */
+#define MODELER_WIDTH_OF(doubles, floats) floats
+#else
+#define MODELER_WIDTH_OF(doubles, floats) doubles
+#endif
+
 #if defined(MODELER_X86) && defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
-#define MODELER_OWN_WIDTH 8
+#define MODELER_OWN_WIDTH MODELER_WIDTH_OF(8, 16)
 #elif defined(MODELER_X86)
 #define MODELER_V4
 #if defined(__AVX2__) && defined(__FMA__)
-#define MODELER_OWN_WIDTH 4
+#define MODELER_OWN_WIDTH MODELER_WIDTH_OF(4, 8)
 #else
-#define MODELER_OWN_WIDTH 2
+#define MODELER_OWN_WIDTH MODELER_WIDTH_OF(2, 4)
 #define MODELER_V3
 #endif
 #elif defined(__GNUC__) && defined(__aarch64__) && !defined(MODELER_PLAIN)
-#define MODELER_OWN_WIDTH 2
+#define MODELER_OWN_WIDTH MODELER_WIDTH_OF(2, 4)
 #else
 #define MODELER_OWN_WIDTH 1
 #endif
@@ -66,10 +72,16 @@
 #define MODELER_STREAM(to, value) __builtin_nontemporal_store(value, to)
 #elif defined(MODELER_X86)
 #define MODELER_STREAM(to, value) \
-    MODELER_JOIN(MODELER_STREAM_, MODELER_WIDTH)((double *)(to), value)
+    MODELER_JOIN(MODELER_STREAM_, MODELER_WIDTH)((modeler_real *)(to), value)
+#ifdef MODELER_SINGLE
+#define MODELER_STREAM_4 __builtin_ia32_movntps
+#define MODELER_STREAM_8 __builtin_ia32_movntps256
+#define MODELER_STREAM_16 __builtin_ia32_movntps512
+#else
 #define MODELER_STREAM_2 __builtin_ia32_movntpd
 #define MODELER_STREAM_4 __builtin_ia32_movntpd256
 #define MODELER_STREAM_8 __builtin_ia32_movntpd512
+#endif
 #else
 #define MODELER_STREAM(to, value) (*(to) = (value))
 #endif
@@ -82,7 +94,7 @@
 #endif
 
 #ifdef MODELER_V4
-#define MODELER_WIDTH 8
+#define MODELER_WIDTH MODELER_WIDTH_OF(8, 16)
 #define MODELER_VERSION(name) name##_v4
 #define MODELER_TARGET \
     __attribute__((target("avx512f,avx512dq,avx512vl,avx512bw,avx512cd,avx2,fma")))
@@ -93,7 +105,7 @@
 #endif
 
 #ifdef MODELER_V3
-#define MODELER_WIDTH 4
+#define MODELER_WIDTH MODELER_WIDTH_OF(4, 8)
 #define MODELER_VERSION(name) name##_v3
 #define MODELER_TARGET __attribute__((target("avx2,fma")))
 #include MODELER_BODY

@@ -57,7 +57,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "ca9e32086a96b4fa";
+    return "0c2d7a476c7353db";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What wrist_signature() of the library that belongs to this header returns. */
-#define WRIST_SIGNATURE "ca9e32086a96b4fa"
-#define WRIST_SIGNATURE_1 0xca9e3208u
-#define WRIST_SIGNATURE_2 0x6a96b4fau
+#define WRIST_SIGNATURE "0c2d7a476c7353db"
+#define WRIST_SIGNATURE_1 0x0c2d7a47u
+#define WRIST_SIGNATURE_2 0x6c7353dbu
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in wrist_generator.h. */

@@ -41,6 +41,7 @@ static const double wrist_geo_bl1 = WRIST_GEO_bl1;
 
 /* Regressor of the base parameters.
  * 64 additions, 92 multiplications. */
+MODELER_CLONES
 void wrist_base_regressor(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
                           const double qdd[WRIST_JOINTS], double MODELER_OUT(phi, 3 * 17))
 {
@@ -176,6 +177,7 @@ void wrist_base_regressor(const double q[WRIST_JOINTS], const double qd[WRIST_JO
 
 /* The entries of the base regressor that are not always 0.
  * 64 additions, 92 multiplications. */
+MODELER_CLONES
 void wrist_base_regressor_nonzeros(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
                                    const double qdd[WRIST_JOINTS], double MODELER_OUT(values, 37))
 {

@@ -41,6 +41,7 @@ static const double wrist_geo_bl1 = WRIST_GEO_bl1;
 
 /* Regressor of the standard parameters.
  * 74 additions, 103 multiplications. */
+MODELER_CLONES
 void wrist_regressor(const double q[WRIST_JOINTS], const double qd[WRIST_JOINTS],
                      const double qdd[WRIST_JOINTS], double MODELER_OUT(phi, 3 * 30))
 {

@@ -37,7 +37,7 @@ static const int column[] = {
 };
 
 #define TILED(version) \
-    {3, 17, 0, 37, row, column, tile_##version}
+    {3, 17, 0, 37, row, column, tile_##version, NULL, 0, NULL}
 
 static const modeler_tiled tiled[] = {MODELER_EACH_VERSION(TILED)};
 
@@ -48,7 +48,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "ca9e32086a96b4fa";
+    return "0c2d7a476c7353db";
 }
 
 #else /* for one instruction set */

@@ -7,12 +7,14 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "evra.h"
 #include "evra_batch.h"
 #include "modeler_batch.h"
 #include "modeler_sincos.h"
+#include "evra_tile.h"
 
 #define N 8
 #define C 90
@@ -647,6 +649,33 @@ static void add_up(const double *M, const double *c, const double *g, const doub
     }
 }
 
+/* Many samples side by side, about the first state, against one after another. */
+static void compare_tiles(void)
+{
+    enum { MANY = 19 };
+    static double Q[MANY * N], QD[MANY * N], QDD[MANY * N], W[MANY * N * C], one[MANY * N * C];
+    const modeler_tiled *const robot = evra_tiled();
+    void *const work = malloc(modeler_tile_work(robot));
+    int closed[MANY], told[MANY];
+
+    for (int i = 0; i < MANY * N; i++) {
+        Q[i] = q[i % N] + 1e-4 * (double)(i / N);
+        QD[i] = qd[i % N];
+        QDD[i] = qdd[i % N];
+    }
+    if (work == NULL) {
+        failed = 1;
+        return;
+    }
+    modeler_tile_closed(robot, MANY, Q, QD, QDD, W, 0, closed, work);
+    evra_observation(MANY, Q, QD, QDD, one, told);
+    compare("tiles", W, one, MANY, N * C, 1e-11);
+    for (int i = 0; i < MANY; i++) {
+        failed |= closed[i] != told[i];
+    }
+    free(work);
+}
+
 /* Sines and cosines against those of <math.h>. */
 static void compare_sines(void)
 {
@@ -665,6 +694,11 @@ int main(void)
             EVRA_SIGNATURE)) {
         return 1;
     }
+    if (!belongs("unit of tiles", evra_tile_signature(),
+            EVRA_SIGNATURE)) {
+        return 1;
+    }
+    compare_tiles();
     compare_sines();
     empty();
     {
