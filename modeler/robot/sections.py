@@ -386,7 +386,7 @@ def _lines(
     columns = here.entries(example)
     if {*needed} - {*columns} or {*columns} - {*known} or len({*columns}) < len(columns):
         rest = listed([name for name in known if name not in needed])
-        raise here.mismatch(f"{' and '.join(needed)} and any of {rest}, each once")
+        raise here.mismatch(f"{', '.join(needed)} and any of {rest}, each once")
     for k, entry in enumerate(place.at("rows", table["rows"]).entries(example), start=1):
         line = place.at(f"row {k}", entry)
         yield line, dict(zip(columns, line.entries(example, len(columns)), strict=True))

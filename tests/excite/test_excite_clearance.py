@@ -186,7 +186,7 @@ def test_loops_are_kept_clear_too():
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ('columns = ["row"]\nrows = []', "row and radius and any of x0"),
+        ('columns = ["row"]\nrows = []', "row, radius and any of x0"),
         ('columns = ["row", "radius"]\nrows = [["9", 0.1]]', "the name of a row"),
         ('columns = ["row", "radius"]\nrows = [["1", 0]]', "a length above 0"),
         ('columns = ["row", "radius"]\nrows = [["1", 0.1, 2]]', "2"),
