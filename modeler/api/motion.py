@@ -440,8 +440,8 @@ def check_motion(
 ) -> excitation.Nearest | None:
     """Where a motion brings two links, or a link and a plane, closest to each other.
 
-    >>> check_motion(robot, "mon.parquet") is None  # its two links share a joint
-    True
+    >>> check_motion(robot, "mon.parquet").pair  # its two links share a joint
+    ('base', '2')
 
     Args:
         robot: its [capsules] are what links fill; without, as `modeler excite` takes them.
