@@ -20,14 +20,14 @@ static inline MODELER_INTO_CLONES void modeler_sincos(float x, float *sine, floa
      * and so are the differences from x. */
     const float PART_1 = 1.5703125f, PART_2 = 4.825592041015625e-4f;
     const float PART_3 = 1.26759068e-6f, TWO_OVER_PI = 6.36619772e-1f;
-    static const float QUARTER[4] = {1.0f, 0.0f, -1.0f, 0.0f};
+    static const float SINES[5] = {0.0f, 1.0f, 0.0f, -1.0f, 0.0f};
 
     if (!(fabsf(x) < 1e5f)) { /* nor a number, then */
         *sine = NAN;
         *cosine = NAN;
         return;
     }
-    const int n = (int)(x*TWO_OVER_PI + (x < 0.0f ? -0.5f : 0.5f));
+    const int n = (int)(x*TWO_OVER_PI + copysignf(0.5f, x));
     const float turns = (float)n;
     const float r = ((x - turns*PART_1) - turns*PART_2) - turns*PART_3, z = r*r;
 
@@ -37,8 +37,8 @@ static inline MODELER_INTO_CLONES void modeler_sincos(float x, float *sine, floa
     const float c = (1.0f - 0.5f*z) + z*z*(4.166664568298827e-2f + c_high);
 
     /* Turn by n quarters; exact, because the factors are 0, 1, -1. */
-    const unsigned k = (unsigned)n;
-    const float a = QUARTER[k & 3u], b = QUARTER[(k + 3u) & 3u];
+    const unsigned k = (unsigned)n & 3u; /* of quarters */
+    const float a = SINES[k + 1u], b = SINES[k];
     *sine = a*s + b*c;
     *cosine = a*c - b*s;
 }
