@@ -31,6 +31,13 @@
 /* Where entry k goes; `values` is that of the first lane. */
 #define MODELER_PUT(k) (*(modeler_lanes *)(void *)(values + (k)*MODELER_LANES))
 
+/* A vector of these numbers, as C and as C++ write it. */
+#ifdef __cplusplus
+#define MODELER_LANES_OF(...) modeler_lanes{__VA_ARGS__}
+#else
+#define MODELER_LANES_OF(...) ((modeler_lanes){__VA_ARGS__})
+#endif
+
 /* Entry i of MODELER_WIDTH rows of n > 1; and rows of one. Four neighbours come with one load, and
  * squares of four are turned in the registers. */
 #define MODELER_ROWS(x, n, i) MODELER_JOIN(MODELER_ROWS_, MODELER_WIDTH)(x, n, i)
@@ -69,18 +76,18 @@
         MODELER_PAIRS_##width(rows(x, n, i, 2), rows(x, n, i, 3), MODELER_SECOND(n, i)), \
         MODELER_ODD(n, i))
 #define MODELER_ROWS_4(x, n, i) \
-    ((n) < 4 ? (modeler_lanes){MODELER_EACH_4(x, n, i)} \
+    ((n) < 4 ? MODELER_LANES_OF(MODELER_EACH_4(x, n, i)) \
              : (modeler_lanes)MODELER_FOUR_ROWS(4, MODELER_QUAD, x, n, i))
 #define MODELER_ROWS_8(x, n, i) \
-    ((n) < 4 ? (modeler_lanes){MODELER_EACH_8(x, n, i)} \
+    ((n) < 4 ? MODELER_LANES_OF(MODELER_EACH_8(x, n, i)) \
              : (modeler_lanes)MODELER_FOUR_ROWS(8, MODELER_OCT, x, n, i))
 #define MODELER_ROWS_16(x, n, i) \
-    ((n) < 4 ? (modeler_lanes){MODELER_EACH_16(x, n, i)} \
+    ((n) < 4 ? MODELER_LANES_OF(MODELER_EACH_16(x, n, i)) \
              : (modeler_lanes)MODELER_FOUR_ROWS(16, MODELER_ALL, x, n, i))
 #else
-#define MODELER_ROWS_4(x, n, i) ((modeler_lanes){MODELER_EACH_4(x, n, i)})
-#define MODELER_ROWS_8(x, n, i) ((modeler_lanes){MODELER_EACH_8(x, n, i)})
-#define MODELER_ROWS_16(x, n, i) ((modeler_lanes){MODELER_EACH_16(x, n, i)})
+#define MODELER_ROWS_4(x, n, i) (MODELER_LANES_OF(MODELER_EACH_4(x, n, i)))
+#define MODELER_ROWS_8(x, n, i) (MODELER_LANES_OF(MODELER_EACH_8(x, n, i)))
+#define MODELER_ROWS_16(x, n, i) (MODELER_LANES_OF(MODELER_EACH_16(x, n, i)))
 #endif
 
 /* Whether every lane of x is less than a bound. */

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.errors import DataError, LoopError
 from modeler.excitation.clearance import Clearance
 from modeler.runtime import CompiledModel
@@ -28,7 +29,7 @@ class Box:
 
 
 @dataclass(frozen=True, eq=False)
-class Bounds:
+class Bounds(Brief):
     """Limits of a motion, in the order of the manifest's joints, SI units.
 
     Attributes:

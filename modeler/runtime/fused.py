@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core.brief import Brief
 from modeler.core.checks import as_mask, as_samples, no_signals, same_samples
 from modeler.core.errors import ManifestError, ShapeError
 from modeler.core.manifest import FunctionSpec, ModuleSpec
@@ -26,7 +27,7 @@ _DENSE = 4096  # those of a robot whose whole regressor is evaluated: 13 MB of 4
 
 
 @dataclass(frozen=True, eq=False)
-class NonzeroPattern:
+class NonzeroPattern(Brief):
     """Which columns can enter the rows of each joint; n joints, c columns.
 
     Attributes:

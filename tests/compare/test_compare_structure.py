@@ -185,8 +185,8 @@ def test_share_is_that_of_unseen_blocks() -> None:
     everywhere = np.sin(3.0 * x)
     reversing = everywhere * np.where(np.arange(x.size) < 2000, 1.0, -1.0)
     fold = np.arange(x.size) * 8 // x.size
-    assert flexible({"x": curve(x)}, everywhere, fold).share > 0.98
-    assert flexible({"x": curve(x)}, reversing, fold).share == 0.0
+    assert flexible([("x", curve(x))], everywhere, fold).share > 0.98
+    assert flexible([("x", curve(x))], reversing, fold).share == 0.0
 
 
 def test_a_joint_that_never_moves() -> None:
