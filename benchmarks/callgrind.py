@@ -12,7 +12,7 @@ from benchmarks.robots import ROBOTS, emitted
 from modeler.codegen import write_emitted
 from modeler.runtime import find_toolchain
 
-MUST = {"wrist": None, "puma560": 1300.0, "panda": 1900.0}
+MUST = {"wrist": None, "puma560": 1300.0, "panda": 1800.0}
 AIM = {"wrist": None, "puma560": 1150.0, "panda": 1700.0}
 _CALLS = 1000
 _MAIN = """#include "{prefix}.h"
