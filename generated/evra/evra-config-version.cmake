@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 2) any of this C interface,
-# find_package(evra 2.38222.57623.15123) only what has the signature 954ee1173b131349.
-set(PACKAGE_VERSION 2.38222.57623.15123)
+# find_package(evra 2.7084.15220.24719) only what has the signature 1bac3b74608fcd85.
+set(PACKAGE_VERSION 2.7084.15220.24719)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

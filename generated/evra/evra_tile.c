@@ -178,7 +178,7 @@ const modeler_tiled *evra_tiled(void)
 
 const char *evra_tile_signature(void)
 {
-    return "954ee1173b131349";
+    return "1bac3b74608fcd85";
 }
 
 #else /* for one instruction set */
@@ -3405,8 +3405,8 @@ static void MODELER_VERSION(closing)(const modeler_tiled *robot, const double *q
                                      const double *qdd, size_t samples, void *memory,
                                      double *values, int *status)
 {
-    const single *const one = robot->singles;
-    closing_state *const state = memory;
+    const single *const one = (const single *)robot->singles;
+    closing_state *const state = (closing_state *)memory;
 
     for (size_t i = 0; i < samples; i += MODELER_WIDTH) {
         const size_t now = samples - i < MODELER_WIDTH ? samples - i : MODELER_WIDTH;

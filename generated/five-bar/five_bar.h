@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "d791d612ebca9b2d"
-#define FIVE_BAR_SIGNATURE_1 0xd791d612u
-#define FIVE_BAR_SIGNATURE_2 0xebca9b2du
+#define FIVE_BAR_SIGNATURE "ad783261ce14548a"
+#define FIVE_BAR_SIGNATURE_1 0xad783261u
+#define FIVE_BAR_SIGNATURE_2 0xce14548au
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in five_bar_generator.h. */

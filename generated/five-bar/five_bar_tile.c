@@ -92,7 +92,7 @@ const modeler_tiled *five_bar_tiled(void)
 
 const char *five_bar_tile_signature(void)
 {
-    return "d791d612ebca9b2d";
+    return "ad783261ce14548a";
 }
 
 #else /* for one instruction set */
@@ -379,8 +379,8 @@ static void MODELER_VERSION(closing)(const modeler_tiled *robot, const double *q
                                      const double *qdd, size_t samples, void *memory,
                                      double *values, int *status)
 {
-    const single *const one = robot->singles;
-    closing_state *const state = memory;
+    const single *const one = (const single *)robot->singles;
+    closing_state *const state = (closing_state *)memory;
 
     for (size_t i = 0; i < samples; i += MODELER_WIDTH) {
         const size_t now = samples - i < MODELER_WIDTH ? samples - i : MODELER_WIDTH;

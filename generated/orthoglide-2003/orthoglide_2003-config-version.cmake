@@ -1,6 +1,6 @@
 # find_package(orthoglide_2003) takes any, find_package(orthoglide_2003 2) any of this C interface,
-# find_package(orthoglide_2003 2.51772.33071.18164) only what has the signature ca3c812f46f4e189.
-set(PACKAGE_VERSION 2.51772.33071.18164)
+# find_package(orthoglide_2003 2.17097.60052.22632) only what has the signature 42c9ea945868b9e2.
+set(PACKAGE_VERSION 2.17097.60052.22632)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -106,7 +106,7 @@ const modeler_tiled *orthoglide_2003_tiled(void)
 
 const char *orthoglide_2003_tile_signature(void)
 {
-    return "ca3c812f46f4e189";
+    return "42c9ea945868b9e2";
 }
 
 #else /* for one instruction set */
@@ -845,8 +845,8 @@ static void MODELER_VERSION(closing)(const modeler_tiled *robot, const double *q
                                      const double *qdd, size_t samples, void *memory,
                                      double *values, int *status)
 {
-    const single *const one = robot->singles;
-    closing_state *const state = memory;
+    const single *const one = (const single *)robot->singles;
+    closing_state *const state = (closing_state *)memory;
 
     for (size_t i = 0; i < samples; i += MODELER_WIDTH) {
         const size_t now = samples - i < MODELER_WIDTH ? samples - i : MODELER_WIDTH;

@@ -1,6 +1,6 @@
 # find_package(orthoglide_2012) takes any, find_package(orthoglide_2012 2) any of this C interface,
-# find_package(orthoglide_2012 2.22819.7576.7656) only what has the signature 59231d981de8d61c.
-set(PACKAGE_VERSION 2.22819.7576.7656)
+# find_package(orthoglide_2012 2.14271.2027.60313) only what has the signature 37bf07ebeb99a4ee.
+set(PACKAGE_VERSION 2.14271.2027.60313)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

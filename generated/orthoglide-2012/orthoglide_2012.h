@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "59231d981de8d61c"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0x59231d98u
-#define ORTHOGLIDE_2012_SIGNATURE_2 0x1de8d61cu
+#define ORTHOGLIDE_2012_SIGNATURE "37bf07ebeb99a4ee"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0x37bf07ebu
+#define ORTHOGLIDE_2012_SIGNATURE_2 0xeb99a4eeu
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in orthoglide_2012_generator.h. */

@@ -93,7 +93,7 @@ const modeler_tiled *orthoglide_2012_tiled(void)
 
 const char *orthoglide_2012_tile_signature(void)
 {
-    return "59231d981de8d61c";
+    return "37bf07ebeb99a4ee";
 }
 
 #else /* for one instruction set */
@@ -869,8 +869,8 @@ static void MODELER_VERSION(closing)(const modeler_tiled *robot, const double *q
                                      const double *qdd, size_t samples, void *memory,
                                      double *values, int *status)
 {
-    const single *const one = robot->singles;
-    closing_state *const state = memory;
+    const single *const one = (const single *)robot->singles;
+    closing_state *const state = (closing_state *)memory;
 
     for (size_t i = 0; i < samples; i += MODELER_WIDTH) {
         const size_t now = samples - i < MODELER_WIDTH ? samples - i : MODELER_WIDTH;

@@ -71,7 +71,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "846894e110b8b515";
+    return "9bfec95d33c95e7f";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_leg_tree_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE "846894e110b8b515"
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x846894e1u
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x10b8b515u
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE "9bfec95d33c95e7f"
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x9bfec95du
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x33c95e7fu
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in orthoglide_leg_tree_generator.h. */

@@ -54,7 +54,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "846894e110b8b515";
+    return "9bfec95d33c95e7f";
 }
 
 #else /* for one instruction set */

@@ -1,6 +1,6 @@
 # find_package(sr400_tree) takes any, find_package(sr400_tree 2) any of this C interface,
-# find_package(sr400_tree 2.44702.7516.45374) only what has the signature ae9e1d5cb13e4ff0.
-set(PACKAGE_VERSION 2.44702.7516.45374)
+# find_package(sr400_tree 2.45725.18669.60435) only what has the signature b29d48edec13b890.
+set(PACKAGE_VERSION 2.45725.18669.60435)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

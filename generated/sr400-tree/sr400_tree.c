@@ -84,7 +84,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "ae9e1d5cb13e4ff0";
+    return "b29d48edec13b890";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

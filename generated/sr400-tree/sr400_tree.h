@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What sr400_tree_signature() of the library that belongs to this header returns. */
-#define SR400_TREE_SIGNATURE "ae9e1d5cb13e4ff0"
-#define SR400_TREE_SIGNATURE_1 0xae9e1d5cu
-#define SR400_TREE_SIGNATURE_2 0xb13e4ff0u
+#define SR400_TREE_SIGNATURE "b29d48edec13b890"
+#define SR400_TREE_SIGNATURE_1 0xb29d48edu
+#define SR400_TREE_SIGNATURE_2 0xec13b890u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in sr400_tree_generator.h. */

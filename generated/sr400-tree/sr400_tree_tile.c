@@ -70,7 +70,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "ae9e1d5cb13e4ff0";
+    return "b29d48edec13b890";
 }
 
 #else /* for one instruction set */

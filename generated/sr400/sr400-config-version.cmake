@@ -1,6 +1,6 @@
 # find_package(sr400) takes any, find_package(sr400 2) any of this C interface,
-# find_package(sr400 2.32358.43351.52539) only what has the signature 7e66a957cd3b988c.
-set(PACKAGE_VERSION 2.32358.43351.52539)
+# find_package(sr400 2.44428.10438.32507) only what has the signature ad8c28c67efb79af.
+set(PACKAGE_VERSION 2.44428.10438.32507)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -81,7 +81,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "7e66a957cd3b988c";
+    return "ad8c28c67efb79af";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What sr400_signature() of the library that belongs to this header returns. */
-#define SR400_SIGNATURE "7e66a957cd3b988c"
-#define SR400_SIGNATURE_1 0x7e66a957u
-#define SR400_SIGNATURE_2 0xcd3b988cu
+#define SR400_SIGNATURE "ad8c28c67efb79af"
+#define SR400_SIGNATURE_1 0xad8c28c6u
+#define SR400_SIGNATURE_2 0x7efb79afu
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in sr400_generator.h. */

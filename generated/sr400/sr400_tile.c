@@ -67,7 +67,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "7e66a957cd3b988c";
+    return "ad8c28c67efb79af";
 }
 
 #else /* for one instruction set */

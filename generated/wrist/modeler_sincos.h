@@ -19,7 +19,7 @@ static inline MODELER_INTO_CLONES void modeler_sincos(double x, double *sine, do
     /* pi/2 = PART_1 + PART_2 + PART_3; the first two have 33 bits, so n*PART is exact. */
     const double PART_1 = 1.57079632673412561417e+00, PART_2 = 6.07710050630396597660e-11;
     const double PART_3 = 2.02226624879595063154e-21, TWO_OVER_PI = 6.36619772367581382433e-01;
-    static const double QUARTER[4] = {1.0, 0.0, -1.0, 0.0};
+    static const double SINES[5] = {0.0, 1.0, 0.0, -1.0, 0.0};
 
     if (!(fabs(x) < 1e5)) { /* too many turns for that reduction, or not a number */
 #ifdef MODELER_BOUNDED_ANGLES
@@ -31,7 +31,7 @@ static inline MODELER_INTO_CLONES void modeler_sincos(double x, double *sine, do
 #endif
         return;
     }
-    const int n = (int)(x*TWO_OVER_PI + (x < 0.0 ? -0.5 : 0.5));
+    const int n = (int)(x*TWO_OVER_PI + copysign(0.5, x));
     const double r = ((x - n*PART_1) - n*PART_2) - n*PART_3, z = r*r;
 
     const double s_high = z*(-2.50507602534068634195e-08 + z*1.58969099521155010221e-10);
@@ -47,8 +47,8 @@ static inline MODELER_INTO_CLONES void modeler_sincos(double x, double *sine, do
     const double c = w + (((1.0 - w) - half) + z*c_low);
 
     /* Turn by n quarters; exact, because the factors are 0, 1, -1. */
-    const unsigned k = (unsigned)n;
-    const double a = QUARTER[k & 3u], b = QUARTER[(k + 3u) & 3u];
+    const unsigned k = (unsigned)n & 3u; /* of quarters */
+    const double a = SINES[k + 1u], b = SINES[k];
     *sine = a*s + b*c;
     *cosine = a*c - b*s;
 }

@@ -1,6 +1,6 @@
 # find_package(wrist) takes any, find_package(wrist 2) any of this C interface,
-# find_package(wrist 2.3117.31303.27763) only what has the signature 0c2d7a476c7353db.
-set(PACKAGE_VERSION 2.3117.31303.27763)
+# find_package(wrist 2.30149.10141.15481) only what has the signature 75c5279d3c792113.
+set(PACKAGE_VERSION 2.30149.10141.15481)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -57,7 +57,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "0c2d7a476c7353db";
+    return "75c5279d3c792113";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

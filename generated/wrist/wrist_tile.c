@@ -48,7 +48,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "0c2d7a476c7353db";
+    return "75c5279d3c792113";
 }
 
 #else /* for one instruction set */

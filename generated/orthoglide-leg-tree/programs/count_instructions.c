@@ -367,7 +367,7 @@ static unsigned long count_forward_kinematics(void)
 int main(void)
 {
     say("/* Instructions of one call at most, counted in qemu:\n");
-    say(" * orthoglide_leg_tree 846894e110b8b515. */\n");
+    say(" * orthoglide_leg_tree 9bfec95d33c95e7f. */\n");
     say("#define ORTHOGLIDE_LEG_TREE_REGRESSOR_INSTRUCTIONS ");
     say_number(count_regressor());
     say("\n");
