@@ -186,6 +186,10 @@ EXCITE = ("excite", "demo-arm", "--duration", "3", "--starts", "1")
         (("--choose", "1"), "needs --from"),
         (("--choose", "1", "--from", "a.csv"), "--out: got it with --choose, which names motions"),
         (("--between", "stribeck@2,spring@2"), "has no values"),
+        (("--between", "stribeck@2,spring@2", "--from", "a.csv"), "--between: got it with --from"),
+        (("--check", "a.csv"), "--out: got it with --check, which looks at a motion"),
+        (("--report", "p.html"), "--report: no two links are looked at"),
+        (("--clearance", "nan"), "expected 0 or more"),
     ],
 )
 def test_one_line_for_what_cannot_be(capsys, tmp_path, monkeypatch, words, told):
