@@ -10,7 +10,6 @@ from mkdocs.structure.files import File, Files
 from docsite.commands import command_pages, commands
 from docsite.gallery import exhibits, gallery_index
 from docsite.interface import interface_pages
-from docsite.markdown import moved
 from docsite.notebook import executed, notebook_page
 from modeler.core.builtin import builtin_names
 
@@ -26,16 +25,22 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
         "commands/index.md": [f"commands/{name}.md" for name in commands()],
         "python/index.md": list(interface_pages())[1:],
     }
-    for section in config.nav or []:
-        for pages in section.values():
-            if isinstance(pages, list) and isinstance(pages[0], str):
-                pages += made.get(pages[0], [])
+    _list_made(config.nav or [], made)
     return config
 
 
+def _list_made(nav: list[Any], made: dict[str, list[str]]) -> None:
+    """A section, at any depth, that begins with the index of made pages lists them."""
+    for section in nav:
+        for pages in section.values() if isinstance(section, dict) else ():
+            if isinstance(pages, list):
+                pages += made.get(pages[0], []) if isinstance(pages[0], str) else []
+                _list_made(pages, made)
+
+
 def on_files(files: Files, config: MkDocsConfig) -> Files:
-    """Adds the home page, the reference, the gallery and the notebooks."""
-    made: dict[str, str | bytes] = {**home_pages(), **command_pages(), **interface_pages()}
+    """Adds the reference, the gallery and the notebooks."""
+    made: dict[str, str | bytes] = {**beside_pages(), **command_pages(), **interface_pages()}
     made |= gallery_pages() | notebook_pages()
     made |= {name: (ROOT / "docsite" / name).read_bytes() for name in KEPT}
     for path, content in made.items():
@@ -43,20 +48,25 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     return files
 
 
-def on_page_markdown(markdown: str, **_: Any) -> str:
-    """Links to notebooks lead to the pages that show them."""
-    return re.sub(r"\]\((?:\.\./)*([\w-]+)\.ipynb\)", r"](notebooks/\1.md)", markdown)
+def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
+    """Links to notebooks, and to what stands beside `docs/`, lead to the pages that show them."""
+    up = "../" * page.file.src_uri.count("/")
+    for name, place in BESIDE.items():
+        markdown = markdown.replace(f"]({up}../{name}", f"]({up}{place}")
+    return re.sub(r"\]\(((?:\.\./)*[\w/-]+)\.ipynb\)", r"](\1.md)", markdown)
 
 
-def home_pages() -> dict[str, str]:
-    """The README and the pages beside it."""
-    names = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md"}
-    names["CHANGELOG.md"] = "changelog.md"
+BESIDE = {"CONTRIBUTING.md": "project/contributing.md", "CHANGELOG.md": "project/changelog.md"}
+"""Pages of the site that stand beside `docs/` in the repository."""
+
+
+def beside_pages() -> dict[str, str]:
+    """The pages of `BESIDE`, their links as they are from their place on the site."""
     pages = {}
-    for name, place in names.items():
-        text = moved((ROOT / name).read_text(encoding="utf-8"), "docs")
-        for other, there in names.items():
-            text = text.replace(f"]({other})", f"]({there})")
+    for name, place in BESIDE.items():
+        text = re.sub(r"\]\(docs/", "](../", (ROOT / name).read_text(encoding="utf-8"))
+        for other, there in BESIDE.items():
+            text = text.replace(f"]({other})", f"]({Path(there).name})")
         pages[place] = text
     return pages
 
@@ -73,8 +83,8 @@ def gallery_pages() -> dict[str, str | bytes]:
 
 def notebooks() -> dict[str, Path]:
     """{page: file} of the notebooks of docs/."""
-    found = sorted((ROOT / "docs").glob("*.ipynb"))
-    return {f"notebooks/{path.stem}.md": path for path in found}
+    found = sorted((ROOT / "docs").rglob("*.ipynb"))
+    return {path.relative_to(ROOT / "docs").with_suffix(".md").as_posix(): path for path in found}
 
 
 def notebook_pages() -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""Markdown written by programs: cells, tables, blocks, and links that keep leading somewhere."""
+"""Markdown written by programs: cells, tables, blocks."""
 
 import re
 from collections.abc import Iterable, Sequence
@@ -23,8 +23,3 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def block(text: str, language: str = "") -> str:
     """A fenced block."""
     return f"```{language}\n{text.rstrip()}\n```\n"
-
-
-def moved(text: str, folder: str) -> str:
-    """Links to pages under `folder`, as they are for a page that stands in it."""
-    return re.sub(rf"\]\({re.escape(folder)}/", "](", text)

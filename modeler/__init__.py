@@ -14,7 +14,7 @@ The rooms before the emitted C derive (sympy, casadi, jinja2); those after it on
 A robot names effects of the catalogue; `formulas` stands beside codegen and writes for people;
 `simulation` has physics of its own; `logs` reads what people have, `numerics` has the linear
 algebra of all; `fleet`, `excitation` and `papers` build on them; `report` shows results, `api` and
-`cli` put the steps in a row. docs/architecture.md shows the house.
+`cli` put the steps in a row. docs/explanation/architecture.md shows the house.
 This module imports nothing before a name of the API is asked for, so that the numeric stages never
 load the symbolic ones.
 """

@@ -11,7 +11,7 @@ from benchmarks.all import LINES
 from benchmarks.line import Key, Line, Missing
 from benchmarks.markdown import markdown
 
-DOCS = Path(__file__).resolve().parents[1] / "docs" / "benchmarks.md"
+DOCS = Path(__file__).resolve().parents[1] / "docs" / "explanation" / "benchmarks.md"
 KEYS = [key for line in LINES for key in line.keys]
 
 
@@ -19,7 +19,7 @@ def test_every_key_is_there_once_and_documented() -> None:
     names = [key.name for key in KEYS]
     assert len(set(names)) == len(names) > 80
     told = set(re.findall(r"`([a-z0-9_.-]+)`", DOCS.read_text(encoding="utf-8")))
-    assert not (set(names) - told), "docs/benchmarks.md is made by --markdown"
+    assert not (set(names) - told), "docs/explanation/benchmarks.md is made by --markdown"
 
 
 @pytest.mark.parametrize(

@@ -28,27 +28,11 @@ from modeler.simulation.hidden import HIDDEN
 from tests.turns import IN_TURN
 
 ROOT = Path(__file__).resolve().parents[1]
-RUN = ("README.md", "docs/tutorial.md", "docs/robot-file.md", "docs/show.md", "docs/processing.md",
-       "docs/logs.md", "docs/motion-noise.md",
-       "docs/emitted-c.md", "docs/fitted-c.md", "docs/parallel-robots.md",
-       "docs/orthoglide.md", "docs/evra.md", "docs/sr400.md", "docs/parallel-examples.md",
-       "docs/diagnosis.md", "docs/converting.md", "docs/exporting.md",
-       "docs/better-urdf.md", "docs/servo-arms.md",
-       "docs/closed-forms.md",
-       "docs/drive-gains.md",
-       "docs/motor-side.md",
-       "docs/energy-model.md",
-       "docs/physical-parameters.md",
-       "docs/reproduce.md",
-       "docs/excitation.md",
-       "docs/python.md",
-       "docs/controller.md",
-       "docs/microcontrollers.md",
-       "docs/gpu.md",
-       )  # fmt: skip
 PAGES = sorted(
-    p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")]
+    p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
 )
+RUN = [page for page in PAGES if "\n```console" in (ROOT / page).read_text(encoding="utf-8")]
+"""Every page that shows a command or a program; one that cannot run says `sh`, or is indented."""
 
 TOLERANCE = 0.002  # of a shown number: a fit to the same log differs by less on any processor
 # Decimal numbers, and counts of three digits and more (rows that survive a mask, say).
@@ -217,8 +201,8 @@ def run(command: str) -> tuple[int, str]:
 
 
 PICTURES = {
-    "docs/motion-noise.md": "pictures/noise_of_the_motion.svg",
-    "docs/reproduce.md": "pictures/figure_2.svg",
+    "docs/explanation/motion-noise.md": "pictures/noise_of_the_motion.svg",
+    "docs/how-to/reproduce.md": "pictures/figure_2.svg",
 }
 """The picture of a page, written by its own commands."""
 
@@ -230,11 +214,11 @@ def _labels(picture: Path) -> list[str]:
 
 # Pages that take ten seconds and more: of their subjects, the README and the tutorial run some.
 LONG = (
-    "docs/servo-arms.md",
-    "docs/drive-gains.md",
-    "docs/diagnosis.md",
-    "docs/excitation.md",
-    "docs/motor-side.md",
+    "docs/how-to/servo-arms.md",
+    "docs/how-to/drive-gains.md",
+    "docs/how-to/diagnosis.md",
+    "docs/how-to/excitation.md",
+    "docs/how-to/motor-side.md",
 )
 
 
@@ -308,7 +292,7 @@ def text_of(page: str) -> str:
 
 
 def test_every_key_of_a_robot_file_is_described():
-    text = text_of("docs/robot-file.md")
+    text = text_of("docs/reference/robot-file.md")
     for key in _KEYS:
         assert f"`{key}`" in text or f"`[{key}]`" in text, key
     for word in (*COLUMNS, "physical.<joint>"):
@@ -320,7 +304,7 @@ def test_every_key_of_a_robot_file_is_described():
 def test_the_table_of_effects_on_loops_is_true():
     rows = dict(
         re.findall(r"^\| (in|not [^|]*|in [^|]*) \| ([a-z_, ]+) \|$",
-                   text_of("docs/parallel-robots.md"), re.MULTILINE)
+                   text_of("docs/how-to/parallel-robots.md"), re.MULTILINE)
     )  # fmt: skip
     told = {key: names.split(", ") for key, names in rows.items()}
     joints = [e for e in CATALOGUE if e.acts in (Acts.JOINT, Acts.MOTOR)]
@@ -346,13 +330,15 @@ def test_every_environment_variable_is_described():
     """All that the program reads of the environment, and nothing else."""
     sources = [path.read_text(encoding="utf-8") for path in (ROOT / "modeler").rglob("*.py")]
     read = {name for text in sources for name in re.findall(r'environ\W[^"\n]*"([A-Z]\w+)"', text)}
-    section = text_of("docs/emitted-c.md").split("### In modeler itself\n")[1].split("\n#")[0]
+    section = (
+        text_of("docs/reference/emitted-c.md").split("### In modeler itself\n")[1].split("\n#")[0]
+    )
     assert read == set(re.findall(r"^\| `(\w+)` \|", section, re.MULTILINE))
 
 
 def test_every_choice_of_the_processing_is_described():
     for field in dataclasses.fields(Processing):
-        assert f"`{field.name}`" in text_of("docs/processing.md"), field.name
+        assert f"`{field.name}`" in text_of("docs/explanation/processing.md"), field.name
 
 
 def test_commands_stand_in_the_readme_by_family():
@@ -368,11 +354,11 @@ def test_commands_stand_in_the_readme_by_family():
     assert told == families
     for title, names in families.items():
         row = f"| {title} | {', '.join(f'`{name}`' for name in names)} |"
-        assert row in text_of("docs/commands.md"), row
+        assert row in text_of("docs/reference/commands.md"), row
 
 
 def test_old_names_stand_on_the_page_of_commands():
-    text = text_of("docs/commands.md")
+    text = text_of("docs/reference/commands.md")
     for command in COMMANDS.values():
         for old in command.old:
             assert f"{old} " in text or f"{old}`" in text, f"{command.name} {old}"
@@ -380,7 +366,7 @@ def test_old_names_stand_on_the_page_of_commands():
 
 
 def test_every_file_and_function_of_the_c_is_described():
-    text = text_of("docs/emitted-c.md")
+    text = text_of("docs/reference/emitted-c.md")
     manifest = json.loads((ROOT / "generated/wrist/manifest.json").read_text(encoding="utf-8"))
     roles = [f["name"].removeprefix("wrist_") for f in manifest["functions"]]
     for role in (*roles, "observation", "signature"):

@@ -66,7 +66,9 @@ def test_what_messages_tell_to_install_there_is(settings: dict) -> None:
     """Every extra that is named in the program or in the documentation, and every reader."""
     extras = set(settings["project"]["optional-dependencies"])
     sources = [p.read_text(encoding="utf-8") for p in (ROOT / "modeler").rglob("*.py")]
-    pages = [p.read_text(encoding="utf-8") for p in (*ROOT.glob("*.md"), *ROOT.glob("docs/*.*"))]
+    pages = [
+        p.read_text(encoding="utf-8") for p in (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.[mi]*"))
+    ]
     named = {name for text in [*sources, *pages] for name in _EXTRA.findall(text)}
     named |= {name for text in sources for name in re.findall(r"installing\(['\"](\w+)", text)}
     assert {"gpu", "dask", "notebook"} <= named <= extras

@@ -188,7 +188,7 @@ def fit(
         emitted: its C.
         observation: of its logs.
         method: one of `estimators()`, or "two-step"; for "tls" see `fit_gains`.
-        energy: True for the energy model, whose rows are windows (docs/energy-model.md).
+        energy: True for the energy model, whose rows are windows (docs/how-to/energy-model.md).
         window: their length, s; None: the spacing of the torque model's rows.
         payloads: loads, each with the names of the logs that carry it.
         essential_below: percent; parameters whose sigma, in percent of the value, cannot be kept
@@ -283,7 +283,7 @@ class Load:
 def fit_gains(
     derivation: Derivation, logs: Sequence[AnyLog], load: Load, processing: Processing | None = None
 ) -> Model:
-    """The model whose robot file has the drive gains that the logs tell (see docs/drive-gains.md).
+    """The model whose robot file has the drive gains that the logs tell (see docs/how-to/drive-gains.md).
 
     Args:
         derivation: of the robot; its file states no gains, or starts for them.

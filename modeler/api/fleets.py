@@ -47,7 +47,7 @@ def fleet(
 
         fleet(load("arm.toml"), {"r1": {"monday": "a.csv", "tuesday": "b.csv"}})
 
-    All machines share their inertial parameters; see docs/fleet.md.
+    All machines share their inertial parameters; see docs/how-to/fleet.md.
 
     Args:
         robot: of all machines; with the effects that are to be followed.

@@ -91,7 +91,7 @@ class PhysicalValues(Presented):
 
 @dataclass(frozen=True, eq=False)
 class Physical(Presented):
-    """What is known of the physical parameters of a robot (docs/physical-parameters.md).
+    """What is known of the physical parameters of a robot (docs/how-to/physical-parameters.md).
 
     Attributes:
         system: identified quantities as polynomials of the parameters.

@@ -17,4 +17,4 @@ from modeler.runtime import CompiledModel as CompiledModel, GpuModel as GpuModel
 from modeler.validation import Comparison as Comparison, FreeRunSettings as FreeRunSettings
 
 Asked = FreeRunSettings
-"""As scripts and docs/free-run.md call it."""
+"""As scripts and docs/how-to/free-run.md call it."""

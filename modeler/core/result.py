@@ -82,7 +82,7 @@ class Presented(Brief):
         """One of its tables.
 
         Args:
-            name: which; the main one if left out. `docs/python.md` lists them.
+            name: which; the main one if left out. `docs/reference/python.md` lists them.
 
         Raises:
             DataError: it has no such table; says which it has.
@@ -101,7 +101,7 @@ class Presented(Brief):
         """One of its figures, a matplotlib Figure; a notebook draws it, `savefig` writes it.
 
         Args:
-            name: which; the main one if left out. `docs/python.md` lists them.
+            name: which; the main one if left out. `docs/reference/python.md` lists them.
 
         Raises:
             DataError: it has no such figure; says which it has.

@@ -203,7 +203,7 @@ def _friction(paper: Paper, line: PrintedLine, robots: Robots) -> Compared:
     text = ", ".join(f"{float(value):g}" for value in derived)
     return Compared(
         numbered(map(Amount, printed.values())), numbered(map(Amount, derived)),
-        f"G' C sgn(G qd); at the motion of docs/wrist.md {text} N m",
+        f"G' C sgn(G qd); at the motion of docs/robots/wrist.md {text} N m",
     )  # fmt: skip
 
 

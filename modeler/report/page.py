@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 PLOTLY = "plotly/plotly-basic.min.js"
-"""Where plotly.js lies in `templates/`; see docs/pages.md for version and checksum."""
+"""Where plotly.js lies in `templates/`; see docs/reference/pages.md for version and checksum."""
 
 
 class Drawings:

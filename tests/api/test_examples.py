@@ -21,8 +21,8 @@ MODULES = sorted(
 )
 WITHOUT = {
     "on_gpu": "needs a graphics processor",
-    "tell_apart": "takes long; docs/excitation.md has one",
-    "fit_gains": "needs logs of currents with a load; docs/drive-gains.md has one",
+    "tell_apart": "takes long; docs/how-to/excitation.md has one",
+    "fit_gains": "needs logs of currents with a load; docs/how-to/drive-gains.md has one",
 }
 
 

@@ -1,4 +1,4 @@
-"""The story of docs/python.md on measured logs, which are not part of the project."""
+"""The story of docs/reference/python.md on measured logs, which are not part of the project."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The examples of docs/python.md, type-checked from outside: as who installed the package would."""
+"""The examples of docs/reference/python.md, type-checked from outside."""
 
 import importlib.util
 import os
@@ -52,7 +52,7 @@ md.opn_model("x")
 def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder of somebody else: the page's programs, further uses, and mistakes."""
     folder = tmp_path_factory.mktemp("outside")
-    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "reference" / "python.md").read_text(encoding="utf-8")
     blocks = [part.split("```")[0] for part in page.split("```python\n")[1:]]
     assert len(blocks) >= 4
     for k, block in enumerate(blocks):

@@ -1,4 +1,4 @@
-"""Every exit status that the help and docs/commands.md name, provoked."""
+"""Every exit status that the help and docs/reference/commands.md name, provoked."""
 
 import os
 import re
@@ -29,7 +29,7 @@ def test_help_and_docs_name_the_same(capsys) -> None:
         main(["--help"])
     told = capsys.readouterr().out.partition("exit status:")[2]
     assert {int(n) for n in re.findall(r"^  (\d+)  ", told, re.MULTILINE)} == DOCUMENTED
-    text = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
     assert {int(n) for n in re.findall(r"^\| (\d+) \|", text, re.MULTILINE)} == DOCUMENTED
 
 

@@ -175,7 +175,7 @@ def test_a_robot_with_a_joint_that_nothing_drives_has_no_example_loop():
 
 
 def draw_learning(time: np.ndarray, off: np.ndarray, error: np.ndarray) -> None:
-    """The picture of docs/controller.md."""
+    """The picture of docs/how-to/controller.md."""
     learnt = Curve("torques of the learnt parameters", time, 100 * off, Style(BLUE))
     joints = [
         Curve(f"joint {k + 1}", time, error[:, k], Style(color))
@@ -186,7 +186,7 @@ def draw_learning(time: np.ndarray, off: np.ndarray, error: np.ndarray) -> None:
         ((Panel("", "time [s]", "off by [%]", (learnt,)),
           Panel("", "time [s]", "tracking error [mrad]", tuple(joints))),), 320,
     )  # fmt: skip
-    place = Path(__file__).parents[2] / "docs" / "adaptive.svg"
+    place = Path(__file__).parents[2] / "docs" / "how-to" / "adaptive.svg"
     place.write_bytes(images(picture)["svg"])
 
 

@@ -10,6 +10,7 @@ import pytest
 import modeler.api
 from docsite.commands import command_pages, commands
 from docsite.gallery import exhibit, gallery_index
+from docsite.hooks import BESIDE, notebooks
 from docsite.house import house_svg
 from docsite.interface import exported, interface_pages
 from docsite.markdown import cell, code, table
@@ -19,6 +20,9 @@ from modeler.cli import main
 from modeler.core.builtin import builtin_names
 from tests.repository import ROOT
 
+DOCS = ROOT / "docs"
+WRITTEN = sorted(path.relative_to(DOCS).as_posix() for path in DOCS.rglob("*.md"))
+
 
 def listed() -> list[str]:
     """The pages of `nav` in mkdocs.yml."""
@@ -26,21 +30,19 @@ def listed() -> list[str]:
     return re.findall(r"- (?:\w+: )?([\w/-]+\.md)$", text[text.index("\nnav:") :], re.MULTILINE)
 
 
-@pytest.mark.parametrize("page", sorted(path.name for path in (ROOT / "docs").glob("*.md")))
+@pytest.mark.parametrize("page", WRITTEN)
 def test_every_page_has_its_place(page: str) -> None:
     assert listed().count(page) == 1, f"mkdocs.yml: nav has no line for docs/{page}; add it there"
 
 
 def test_every_place_has_its_page() -> None:
-    made = {"index.md", "contributing.md", "changelog.md", "gallery/index.md"}
-    made |= {"commands/index.md", "python/index.md"}
-    made |= {f"notebooks/{path.stem}.md" for path in (ROOT / "docs").glob("*.ipynb")}
-    written = {path.name for path in (ROOT / "docs").glob("*.md")}
-    assert set(listed()) == made | written
+    made = {*BESIDE.values(), *notebooks()}
+    made |= {f"{section}/index.md" for section in ("gallery", "commands", "python")}
+    assert set(listed()) == made | set(WRITTEN)
 
 
 def test_the_picture_of_the_house_is_that_of_the_code(regenerate: bool) -> None:
-    picture = ROOT / "docs" / "house.svg"
+    picture = ROOT / "docs" / "explanation" / "house.svg"
     drawn = house_svg(ROOT / "modeler")
     if regenerate:
         picture.write_text(drawn, encoding="utf-8")
@@ -48,20 +50,13 @@ def test_the_picture_of_the_house_is_that_of_the_code(regenerate: bool) -> None:
 
 
 def test_files_that_the_house_page_names_are_there() -> None:
-    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "explanation" / "architecture.md").read_text(encoding="utf-8")
     for paragraph in text.split("\n\n"):
         room = ""
         for name in re.findall(r"`((?:[a-z_]+/)?[a-z_]+\.py)`", paragraph):
             room = name.rpartition("/")[0] or room
             path = ROOT / name if room in ("docsite", "tests") else ROOT / "modeler" / room
             assert (path / name.rpartition("/")[2]).exists() or path.is_file(), name
-
-
-def test_the_readme_leads_to_every_page_that_is_no_report() -> None:
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    for path in (ROOT / "docs").glob("*.md"):
-        linked = f"](docs/{path.name}" in text or path.name == "hidden-effects.md"
-        assert linked, f"README.md: no link to docs/{path.name}; add it under Documentation"
 
 
 def test_every_command_has_its_page(capsys) -> None:

@@ -228,7 +228,7 @@ def test_the_sources_compile_without_a_warning(unit, tmp_path, compiler) -> None
 
 
 def test_the_headers_are_those_that_were_published() -> None:
-    docs = (ROOT / "docs" / "exporting.md").read_text(encoding="utf-8")
+    docs = (ROOT / "docs" / "how-to" / "exporting.md").read_text(encoding="utf-8")
     for path in (resource_dir("templates") / "fmi3").iterdir():
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         assert f"| `{path.name}` | `{digest}` |" in docs

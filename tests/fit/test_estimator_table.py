@@ -45,7 +45,9 @@ def test_what_an_estimator_does_not_work_on_is_refused(of: str, sentence: str):
 
 
 def test_the_page_says_what_the_table_says():
-    page = (Path(__file__).resolve().parents[2] / "docs" / "estimators.md").read_text("utf-8")
+    page = (
+        Path(__file__).resolve().parents[2] / "docs" / "explanation" / "estimators.md"
+    ).read_text("utf-8")
     for about in ABOUT.values():
         law = about.law.replace("|", "&#124;")
         told = (f"`{about.id}`", about.title, law, about.source, about.avoid, about.motion)

@@ -1,4 +1,4 @@
-"""The slotted lever of docs/parallel-examples.md against its mechanics on paper.
+"""The slotted lever of docs/robots/parallel-examples.md against its mechanics on paper.
 
 By hand: where the lever points and the ram stands, from them every body's velocity per crank
 speed, from these the energies, parameter by parameter, and Lagrange's equation of the one freedom.
@@ -13,7 +13,7 @@ from modeler.codegen.workflow import derive
 from modeler.robot.read import robot_from_text
 from tests.loops.derived import compiled_plainly
 
-PAGE = Path(__file__).resolve().parents[2] / "docs/parallel-examples.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs/robots/parallel-examples.md"
 G, H, R, L, C, HR = 9.81, 0.30, 0.10, 0.60, 0.20, 0.65
 
 

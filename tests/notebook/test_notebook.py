@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-pytestmark = pytest.mark.slow  # docs/python.md is run with the other pages
+pytestmark = pytest.mark.slow  # docs/reference/python.md is run with the other pages
 
 ROOT = Path(__file__).resolve().parents[2]
-NOTEBOOK = ROOT / "docs" / "identification.ipynb"
+NOTEBOOK = ROOT / "docs" / "tutorials" / "identification.ipynb"
 
 
 def test_the_notebook_is_kept_without_outputs() -> None:

@@ -1,4 +1,4 @@
-"""docs/python.md names every function of the API, and every table and figure of every result."""
+"""docs/reference/python.md names every function, and every table and figure of results."""
 
 import re
 from pathlib import Path
@@ -7,7 +7,9 @@ import modeler.api as api
 from modeler.core.result import presented
 from tests.notebook.session import session
 
-PAGE = (Path(__file__).resolve().parents[2] / "docs" / "python.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "reference" / "python.md").read_text(
+    encoding="utf-8"
+)
 
 
 def rows(title: str) -> list[list[str]]:

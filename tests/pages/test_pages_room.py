@@ -20,7 +20,7 @@ def test_plotly_js_is_the_one_that_is_named() -> None:
     assert {path.name for path in folder.iterdir()} == VENDORED.keys()
     for name, checksum in VENDORED.items():
         assert hashlib.sha256((folder / name).read_bytes()).hexdigest() == checksum, name
-    docs = (ROOT / "docs" / "pages.md").read_text(encoding="utf-8")
+    docs = (ROOT / "docs" / "reference" / "pages.md").read_text(encoding="utf-8")
     assert all(checksum in docs for checksum in VENDORED.values()) and "| 4.1.1 |" in docs
     head = (folder / "plotly-basic.min.js").read_text(encoding="utf-8")[:200]
     assert "basic - minified) v4.1.1" in head and "MIT license" in head

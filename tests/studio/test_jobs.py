@@ -1,6 +1,6 @@
 """All nine jobs in a row, as a person does them: an arm, a robot with loops, measured logs.
 
-With --regenerate the windows of the arm become the pictures of docs/studio.md and of the README.
+With --regenerate the windows of the arm become the pictures of the studio page and of the README.
 """
 
 import io

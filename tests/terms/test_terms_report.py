@@ -1,4 +1,4 @@
-"""docs/wrist.md is what the report says today."""
+"""docs/robots/wrist.md is what the report says today."""
 
 import difflib
 from pathlib import Path
@@ -8,7 +8,7 @@ from modeler.derivation.base_parameters import base_parameters
 from modeler.formulas.print_report import terms_report
 from tests.terms.cases import model_of
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "wrist.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "robots" / "wrist.md"
 
 
 def test_page_of_the_wrist_is_current(regenerate):
@@ -19,6 +19,8 @@ def test_page_of_the_wrist_is_current(regenerate):
         return
     kept = PAGE.read_text(encoding="utf-8")
     difference = "".join(
-        difflib.unified_diff(kept.splitlines(True), page.splitlines(True), "docs/wrist.md", "now")
+        difflib.unified_diff(
+            kept.splitlines(True), page.splitlines(True), "docs/robots/wrist.md", "now"
+        )
     )
     assert not difference, f"\n{difference}\nIf this change is meant: pytest --regenerate"
