@@ -12,7 +12,7 @@
     print(compare(model, ["pulses.parquet"]).summary())
 
 Every result has a short `repr`, a `summary()`, its tables (`table(name)`, `to_frame(name)`), most a
-figure (`plot(name)`), and HTML for a notebook; docs/reference/python.md lists them. The functions of a name
+figure (`plot(name)`), and HTML for a notebook; docs/reference/python.md lists them. Functions
 that a stage has too are that stage's, with the usual choices; use the stages for others.
 """
 

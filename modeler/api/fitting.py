@@ -283,7 +283,7 @@ class Load:
 def fit_gains(
     derivation: Derivation, logs: Sequence[AnyLog], load: Load, processing: Processing | None = None
 ) -> Model:
-    """The model whose robot file has the drive gains that the logs tell (see docs/how-to/drive-gains.md).
+    """The model whose robot file has the drive gains that logs tell (docs/how-to/drive-gains.md).
 
     Args:
         derivation: of the robot; its file states no gains, or starts for them.

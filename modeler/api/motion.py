@@ -218,7 +218,7 @@ def excite(
     progress: Progress = _no_progress,
     **wish: Any,
 ) -> excitation.Exciting:
-    """A motion within limits along which the parameters are well told apart (docs/how-to/excitation.md).
+    """A motion within limits that tells the parameters apart (docs/how-to/excitation.md).
 
     >>> excite(robot, duration=4.0, harmonics=2, starts=1).sampled(100.0)["q1"].shape
     (401,)

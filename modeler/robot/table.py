@@ -37,7 +37,7 @@ from modeler.robot.robot import Joint, JointKind, Robot
 Rows = tuple[tuple[Row, RowPlace], ...]
 
 MOST_ROWS = 150
-"""Rows of a table. Deriving and the C grow with their square: docs/explanation/theory.md has the seconds."""
+"""Rows of a table. Deriving and the C grow with their square (docs/explanation/theory.md)."""
 LONGEST_LINK = 20.0
 """m, of a robot; longer ones are told, for they may be mm."""
 _IN_MM = (

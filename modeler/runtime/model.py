@@ -84,7 +84,7 @@ class CompiledModel(Batches, Presented):
     def base_regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
         """Phi of the base parameters, (n, joints, c): tau = phi beta.
 
-        Large batches are evaluated as those of `observation` and `nonzeros`, see docs/reference/emitted-c.md.
+        Large batches are evaluated as those of `observation` and `nonzeros`.
         """
         return self._evaluate("base_regressor", {"q": q, "qd": qd, "qdd": qdd}, s=s)
 
