@@ -1,4 +1,4 @@
-"""What a version promises (docs/reference/versions.md): names stay, old words work as long as said."""
+"""What a version promises (docs/reference/versions.md): names stay, old words work a version more."""
 
 import inspect
 import json

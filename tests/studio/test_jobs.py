@@ -18,7 +18,7 @@ DOCS = Path(__file__).resolve().parents[2] / "docs" / "studio"
 KEPT = {"robot": 900, "data": 1000, "fit": 900, "fails": 1400, "missing": 1250, "fall": 1150}
 """Pictures, and the heights of their windows."""
 STORY, GAP = {"missing": 832, "fall": 574}, 24
-"""`story.png`, of the README: the effect that is named over the error that falls, the upper rows of both."""
+"""`story.png`, of the README: the upper rows of the named effect and of the error that falls."""
 
 Kept = Callable[[str], None]
 
