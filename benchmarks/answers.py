@@ -28,7 +28,7 @@ CASES = (
     _Case("6x400s", "ur10e", "load_friction@3", 400.0, 6.0, 3.0, 600.0),
 )
 
-WHAT = "of two logs (demo-arm and panda 40 s each, ur10e 400 s), the whole process"
+WHAT = "of two logs (demo-arm and panda 40 s each, ur10e 400 s)"
 
 
 def _measure(quick: bool) -> Mapping[str, float]:

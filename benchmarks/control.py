@@ -104,8 +104,7 @@ def _keys() -> list[Key]:
     keys = []
     for name in ROBOTS:
         for function, goals in _MUST.items():
-            what = f"`{name}_{function}`"
-            keys.append(Key(f"control_ns.{function}.{name}", "ns", f"One call of {what}."))
+            keys.append(Key(f"control_ns.{function}.{name}", "ns", "One call."))
             if function in _PEERS:
                 keys.append(ratio(f"control_vs_pinocchio.{function}.{name}",
                                   f"Pinocchio's {_PEERS[function]} over it.", *goals))  # fmt: skip

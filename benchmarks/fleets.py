@@ -87,7 +87,7 @@ def _keys() -> Iterator[Key]:
         who = f"by local Dask workers (dask{count})"
         yield Key(f"fleet_seconds.dask{count}", "s", f"The same {who}: wall seconds over logs.")
         yield Key(f"fleet_first_seconds.dask{count}", "s", f"The same {who} that load the package.")
-        yield Key(f"fleet_moved_kb.dask{count}", "kB", f"Sent to and from them for {what}.")
+        yield Key(f"fleet_moved_kb.dask{count}", "kB", "Sent to and from them, a log.")
 
 
 LINES = (Line(tuple(_keys()), _measure, 120),)

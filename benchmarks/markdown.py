@@ -53,10 +53,10 @@ def _alone(key: Key) -> _Family:
 
 
 def _tables(families: Iterable[_Family]) -> Iterator[list[_Family]]:
-    """Neighbours whose variants are those of the first, or some of them, share a table."""
+    """Neighbours of the same variants share a table."""
     table: list[_Family] = []
     for family in families:
-        if table and not family.keys.keys() <= table[0].keys.keys():
+        if table and family.keys.keys() != table[0].keys.keys():
             yield table
             table = []
         table.append(family)
@@ -66,12 +66,11 @@ def _tables(families: Iterable[_Family]) -> Iterator[list[_Family]]:
 
 def _table(report: Mapping[str, Any], families: list[_Family]) -> str:
     variants = list(families[0].keys)
-    columns = ["key", "unit", *(variant or "value" for variant in variants), "what"]
+    columns = ["key", *(variant or "value" for variant in variants), "what"]
     rows = [
         [
             f"`{family.name}`",
-            next(iter(family.keys.values())).unit.removesuffix("1"),
-            *(_cell(report, family.keys.get(variant)) for variant in variants),
+            *(_cell(report, family.keys[variant]) for variant in variants),
             family.meaning.replace("|", "\\|"),
         ]
         for family in families
@@ -80,9 +79,7 @@ def _table(report: Mapping[str, Any], families: list[_Family]) -> str:
     return "\n".join([head, "|---" * len(columns) + "|", *below])
 
 
-def _cell(report: Mapping[str, Any], key: Key | None) -> str:
-    if key is None:
-        return ""
+def _cell(report: Mapping[str, Any], key: Key) -> str:
     value = report["values"].get(key.name)
     if value is None:
         return f"missing: {report['missing'].get(key.name, 'not measured')}"

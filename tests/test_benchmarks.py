@@ -30,13 +30,13 @@ def figures_told(text: str) -> dict[str, str]:
     columns: list[str] = []
     for line in text.splitlines():
         cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
-        if cells[:2] == ["key", "unit"]:
+        if cells[:1] == ["key"]:
             columns = cells
         elif cells and len(cells) == len(columns) and cells[0].startswith("`"):
             family = cells[0].strip("`")
-            for column, cell in zip(columns[2:-1], cells[2:-1], strict=True):
+            for column, cell in zip(columns[1:-1], cells[1:-1], strict=True):
                 key = family if column == "value" else f"{family}.{column}"
-                told |= {key: cell} if cell else {}
+                told |= {key: cell}
     return told
 
 
