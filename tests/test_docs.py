@@ -217,6 +217,8 @@ LONG = (
     "docs/how-to/servo-arms.md",
     "docs/how-to/drive-gains.md",
     "docs/how-to/diagnosis.md",
+    "docs/explanation/diagnosis.md",
+    "docs/how-to/free-run.md",
     "docs/how-to/excitation.md",
     "docs/how-to/motor-side.md",
 )
