@@ -9,7 +9,7 @@ import pytest
 
 import modeler.api
 from docsite.commands import command_pages, commands
-from docsite.gallery import exhibit, gallery_index
+from docsite.gallery import coefficients, exhibit, gallery_index
 from docsite.hooks import BESIDE, notebooks
 from docsite.house import house_svg
 from docsite.interface import exported, interface_pages
@@ -108,6 +108,13 @@ def test_an_exhibit_says_what_the_robot_has() -> None:
     assert "| `3` | `2` | `1` | `D3` | `0` | `q3` |" in found.page
     index = gallery_index([found])
     assert "[scara](scara.md)" in index and f"| 4 | {found.base} | {found.lines} |" in index
+
+
+def test_coefficients_that_a_paper_numbers() -> None:
+    assert coefficients(derive(load("scara"))) == []
+    rows = "\n".join(coefficients(derive(load("wrist")))).splitlines()
+    assert sum(row.startswith("| P") for row in rows) == 101
+    assert "| PX5 | S223 | `1` | `PJ2` | `-2*XY3` | `2*cJ23 - 2*cm*ct2*ct3` |" in rows
 
 
 def test_robots_with_names_that_markdown_reads() -> None:
