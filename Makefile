@@ -53,7 +53,7 @@ clean:
 .venv/.installed: pyproject.toml constraints.txt
 	@$(find_compiler)
 	@$(make_venv)
-	$(BIN)/python -m pip install -q -c constraints.txt hatchling editables
+	$(BIN)/python -m pip install -q -c constraints.txt hatchling editables hatch-fancy-pypi-readme
 	$(BIN)/python -m pip install -q -c constraints.txt --no-build-isolation -e .
 	@touch $@
 
