@@ -107,7 +107,7 @@ def _keys() -> list[Key]:
             keys.append(Key(f"control_ns.{function}.{name}", "ns", "One call."))
             if function in _PEERS:
                 keys.append(ratio(f"control_vs_pinocchio.{function}.{name}",
-                                  f"Pinocchio's {_PEERS[function]} over it.", *goals))  # fmt: skip
+                                  f"{_PEERS[function]} over it.", *goals))  # fmt: skip
     return keys
 
 

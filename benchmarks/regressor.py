@@ -101,7 +101,7 @@ def _keys() -> list[Key]:
                               ("batch", "by tiles of 8")):  # fmt: skip
                 goals = must.get(way, {}).get(name, (None, None)) if kind == "gcc" else (None, None)
                 keys.append(
-                    ratio(f"{way}_vs_pinocchio_{kind}.{name}", f"{peer} over ours, {text}.", *goals)
+                    ratio(f"{way}_vs_pinocchio_{kind}.{name}", f"It over ours, {text}.", *goals)
                 )
     return keys
 
