@@ -1,10 +1,13 @@
 """Gallery of the built-in robots: picture, table, base parameters, size of the C."""
 
+import re
 import tomllib
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from pathlib import Path
 
+from docsite.effects import Portrait
 from docsite.markdown import block, cell, code, table
 from modeler import formulas
 from modeler.codegen import Derivation, derive, generate
@@ -12,6 +15,10 @@ from modeler.core.builtin import builtin_names, builtin_text
 from modeler.derivation import as_markdown
 from modeler.report import picture_bytes, show
 from modeler.robot import read_robot
+
+
+WRITTEN = Path(__file__).resolve().parents[1] / "docs" / "robots"
+"""Pages on single robots."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +51,7 @@ def exhibit(name: str) -> Exhibit:
     sizes, functions = _emitted(derivation)
     text = builtin_text(name)
     parts = [
-        f"# {name}", "", f"**{cell(robot.title)}**", "", _notes(text), "",
+        f"# {name}", "", f"**{cell(robot.title)}**", "", _notes(text), "", *_written_about(name),
         f"![{name}]({name}.png){{ width=420 }}", "", _counts(derivation), "",
         "## Table", "", _mdh(text), "",
         "## Base parameters", "", as_markdown(derivation.base), "", *coefficients(derivation),
@@ -87,6 +94,45 @@ def gallery_index(exhibits: Sequence[Exhibit]) -> str:
         "names; their files are beginnings of files of your own. Pictures are those of `modeler "
         f"show --picture`, sizes those of `modeler generate`.\n\n{table(head, rows)}"
     )
+
+
+def gallery_front(robots: Sequence[Exhibit], effects: Sequence[Portrait]) -> str:
+    """The page before the galleries: robots, effects and studies, as pictures to click."""
+    arms = [(found.name, f"robots/{found.name}.png", f"robots/{found.name}.md") for found in robots]
+    seen = [
+        (item.effect.id, f"effects/{item.effect.id}-small.png", f"effects/{item.effect.id}.md")
+        for item in effects if item.thumbnail is not None
+    ]  # fmt: skip
+    return "\n".join([
+        "# Gallery", "",
+        "## [Robots](robots/index.md)", "",
+        f"The {len(robots)} built-in robots: table, base parameters, size of the C.", "",
+        _thumbnails(arms), "",
+        "## [Effects](effects/index.md)", "",
+        f"The {len(effects)} physical effects that a model may lack: equation, what each leaves in "
+        "the residual, what it is mistaken for, the motion that shows it.", "",
+        _thumbnails(seen), "",
+        "## [Studies](../studies/measured-sets.md)", "",
+        "Measured logs of real machines that others have published: what one command says of each.",
+        "",
+    ])  # fmt: skip
+
+
+def _thumbnails(shown: Sequence[tuple[str, str, str]]) -> str:
+    """Pictures beside each other, (name, picture, page) each."""
+    links = [f"[![{name}]({picture})]({page} '{name}')" for name, picture, page in shown]
+    return "\n".join(['<div class="thumbnails" markdown="1">', "", *links, "", "</div>"])
+
+
+def _written_about(name: str) -> list[str]:
+    """A line that leads to the pages of docs/robots/ that run a command on the robot."""
+    pages = []
+    for path in sorted(WRITTEN.glob("*.md")):
+        text = path.read_text(encoding="utf-8")
+        if re.search(rf"^\$ modeler .* {re.escape(name)}(?: |$)", text, re.MULTILINE):
+            title = text.partition("\n")[0].removeprefix("# ")
+            pages.append(f"[{cell(title)}](../../robots/{path.name})")
+    return [f"Step by step: {', '.join(pages)}.", ""] if pages else []
 
 
 def exhibits() -> list[Exhibit]:

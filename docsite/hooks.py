@@ -8,10 +8,12 @@ from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 
 from docsite.commands import command_pages, commands
-from docsite.gallery import exhibits, gallery_index
+from docsite.effects import effects_index, portraits
+from docsite.gallery import exhibits, gallery_front, gallery_index
 from docsite.interface import interface_pages
 from docsite.notebook import last_run, notebook_page
 from modeler.core.builtin import builtin_names
+from modeler.effects import CATALOGUE
 
 ROOT = Path(__file__).resolve().parents[1]
 KEPT = ("site.css", "iframe-worker/iframe-worker.js", "iframe-worker/LICENSE")
@@ -21,7 +23,8 @@ KEPT = ("site.css", "iframe-worker/iframe-worker.js", "iframe-worker/LICENSE")
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
     """Lists the made pages under the sections that begin with their index."""
     made = {
-        "gallery/index.md": [f"gallery/{name}.md" for name in builtin_names()],
+        "gallery/robots/index.md": [f"gallery/robots/{name}.md" for name in builtin_names()],
+        "gallery/effects/index.md": [f"gallery/effects/{e.id}.md" for e in CATALOGUE],
         "commands/index.md": [f"commands/{name}.md" for name in commands()],
         "python/index.md": list(interface_pages())[1:],
     }
@@ -39,7 +42,7 @@ def _list_made(nav: list[Any], made: dict[str, list[str]]) -> None:
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
-    """Adds the reference, the gallery and the notebooks."""
+    """Adds the reference, the galleries and the notebooks."""
     made: dict[str, str | bytes] = {**beside_pages(), **command_pages(), **interface_pages()}
     made |= gallery_pages() | notebook_pages()
     made |= {name: (ROOT / "docsite" / name).read_bytes() for name in KEPT}
@@ -72,12 +75,21 @@ def beside_pages() -> dict[str, str]:
 
 
 def gallery_pages() -> dict[str, str | bytes]:
-    """A page and a picture of every built-in robot, and their index."""
-    shown = exhibits()
-    pages: dict[str, str | bytes] = {"gallery/index.md": gallery_index(shown)}
-    for found in shown:
-        pages[f"gallery/{found.name}.md"] = found.page
-        pages[f"gallery/{found.name}.png"] = found.picture
+    """A page and a picture of every built-in robot and of every effect, and their indices."""
+    robots, effects = exhibits(), portraits()
+    pages: dict[str, str | bytes] = {
+        "gallery/index.md": gallery_front(robots, effects),
+        "gallery/robots/index.md": gallery_index(robots),
+        "gallery/effects/index.md": effects_index(effects),
+    }
+    for found in robots:
+        pages[f"gallery/robots/{found.name}.md"] = found.page
+        pages[f"gallery/robots/{found.name}.png"] = found.picture
+    for shown in effects:
+        pages[f"gallery/effects/{shown.effect.id}.md"] = shown.page
+        if shown.picture is not None and shown.thumbnail is not None:
+            pages[f"gallery/effects/{shown.effect.id}.png"] = shown.picture
+            pages[f"gallery/effects/{shown.effect.id}-small.png"] = shown.thumbnail
     return pages
 
 

@@ -1,4 +1,4 @@
-"""What a version promises (docs/reference/versions.md): names stay, old words work a version more."""
+"""What a version promises (docs/reference/versions.md): names stay, old words work for a while."""
 
 import inspect
 import json

@@ -8,7 +8,7 @@ from modeler.cli.command_table import COMMANDS
 from modeler.cli.options import ALL, options_of, sorted_words
 
 STAY_BEFORE = "0.3.0"
-"""Version that no longer knows these words: they work in the one that replaces them and the next."""
+"""Version that knows these words no more; they work in the one that replaces them and the next."""
 
 OLD_COMMANDS = {"free-run": "compare --free-run"}
 """Commands that are an option of another now."""
