@@ -53,8 +53,9 @@ def test_metadata(settings: dict) -> None:
     assert project["name"] == "modeler-robotics"
     assert project["requires-python"] == ">=3.11"
     assert project["license"] == "MIT"
+    readme = settings["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]
     for file in [
-        project["readme"],
+        *(f["path"] for f in readme["fragments"] if "path" in f),
         *project["license-files"],
         settings["tool"]["hatch"]["version"]["path"],
     ]:
