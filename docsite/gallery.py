@@ -15,7 +15,6 @@ from modeler.derivation import as_markdown
 from modeler.report import picture_bytes, show
 from modeler.robot import read_robot
 
-
 WRITTEN = Path(__file__).resolve().parents[1] / "docs" / "robots"
 """Pages on single robots."""
 
@@ -111,7 +110,7 @@ def gallery_front(robots: Sequence[Exhibit], effects: Sequence[Portrait]) -> str
 
 def _thumbnails(shown: Sequence[tuple[str, str, str]]) -> str:
     """Pictures beside each other, (name, picture, page) each."""
-    links = [f"[![{name}]({picture})]({page} '{name}')" for name, picture, page in shown]
+    links = [f"[![]({picture})<br>{cell(name)}]({page})" for name, picture, page in shown]
     return "\n".join(['<div class="thumbnails" markdown="1">', "", *links, "", "</div>"])
 
 
