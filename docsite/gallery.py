@@ -115,11 +115,12 @@ def _thumbnails(shown: Sequence[tuple[str, str, str]]) -> str:
 
 
 def _written_about(name: str) -> list[str]:
-    """A line that leads to the pages of docs/robots/ that run a command on the robot."""
+    """A line that leads to the pages of docs/robots/ that bear its name or run a command on it."""
     pages = []
     for path in sorted(WRITTEN.glob("*.md")):
         text = path.read_text(encoding="utf-8")
-        if re.search(rf"^\$ modeler .* {re.escape(name)}(?: |$)", text, re.MULTILINE):
+        run = re.search(rf"^\$ modeler .* {re.escape(name)}(?: |$)", text, re.MULTILINE)
+        if run or name.startswith(path.stem):
             title = text.partition("\n")[0].removeprefix("# ")
             pages.append(f"[{cell(title)}](../../robots/{path.name})")
     return [f"Step by step: {', '.join(pages)}.", ""] if pages else []
