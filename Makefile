@@ -39,7 +39,7 @@ lint: .venv/.installed-test
 	$(BIN)/python -m mypy
 
 docs: .venv/.installed-docs
-	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 	@echo 'built: build/site/index.html'
 
 regenerate: .venv/.installed-test
@@ -53,7 +53,7 @@ clean:
 .venv/.installed: pyproject.toml constraints.txt
 	@$(find_compiler)
 	@$(make_venv)
-	$(BIN)/python -m pip install -q -c constraints.txt hatchling editables
+	$(BIN)/python -m pip install -q -c constraints.txt hatchling editables hatch-fancy-pypi-readme
 	$(BIN)/python -m pip install -q -c constraints.txt --no-build-isolation -e .
 	@touch $@
 

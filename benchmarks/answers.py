@@ -28,6 +28,12 @@ CASES = (
     _Case("6x400s", "ur10e", "load_friction@3", 400.0, 6.0, 3.0, 600.0),
 )
 
+LOGS = {
+    "fit": "of a log (demo-arm and panda 40 s, ur10e 400 s)",
+    "compare": "with another",
+    "diagnose": "of both",
+}
+
 
 def _measure(quick: bool) -> Mapping[str, float]:
     found = {}
@@ -57,11 +63,10 @@ def _told(case: _Case, folder: Path, seconds: float) -> dict[str, Cost]:
 def _keys() -> tuple[Key, ...]:
     keys = []
     for case in CASES:
-        what = f"on two logs of {case.seconds:g} s, {case.robot}, the whole process"
         for command in ("fit", "compare", "diagnose"):
             own = command == "diagnose"
             keys += [
-                Key(f"{command}_seconds.{case.name}", "s", f"`modeler {command}` {what}.",
+                Key(f"{command}_seconds.{case.name}", "s", f"`modeler {command}` {LOGS[command]}.",
                     case.must if own else None, case.aim if own else None),
                 Key(f"{command}_peak_mb.{case.name}", "MB", "The same: largest resident memory.",
                     case.most if own else None),

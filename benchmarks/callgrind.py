@@ -76,7 +76,7 @@ LINES = (
     Line(
         tuple(
             Key(f"instructions.{name}", "1",
-                f"Instructions of one sample's nonzero entries, {name}, for Haswell (callgrind).",
+                "Of a sample's nonzero entries, for Haswell (callgrind).",
                 MUST[name], AIM[name])
             for name in ROBOTS
         ),

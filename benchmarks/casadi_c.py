@@ -87,8 +87,8 @@ LINES = (
             key
             for name in ROBOTS
             for key in (
-                Key(f"casadi_ns.{name}", "ns", "One sample of CasADi's C of the same regressor."),
-                ratio(f"scalar_vs_casadi.{name}", "CasADi's C over ours, dense, same flags."),
+                Key(f"casadi_ns.{name}", "ns", "CasADi's C of the same regressor, a sample."),
+                ratio(f"scalar_vs_casadi.{name}", "It over ours, dense, same flags."),
             )
         ),
         _measure,

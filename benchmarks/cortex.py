@@ -55,8 +55,7 @@ LINES = (
     Line(
         tuple(
             Key(f"cortex_m7_bytes.{precision}.{name}", "B",
-                f"Base regressor (nonzero entries) of {name} on a Cortex-M7, -Os, {precision} "
-                "precision, sines included.",
+                "Base regressor (nonzero entries), -Os, sines included.",
                 ROBOTS[name][0] if precision == "single" else None,
                 ROBOTS[name][1] if precision == "single" else None)
             for name in ROBOTS

@@ -84,10 +84,10 @@ def _keys() -> Iterator[Key]:
     yield Key("fleet_log_kb", "kB", f"The Parquet file of {what}.")
     yield Key("fleet_seconds.here", "s", f"Reading and reducing {what}, by one process.")
     for count in CLUSTERS:
-        who = f"by {count} local Dask workers"
+        who = f"by local Dask workers (dask{count})"
         yield Key(f"fleet_seconds.dask{count}", "s", f"The same {who}: wall seconds over logs.")
         yield Key(f"fleet_first_seconds.dask{count}", "s", f"The same {who} that load the package.")
-        yield Key(f"fleet_moved_kb.dask{count}", "kB", f"Sent to and from them for {what}.")
+        yield Key(f"fleet_moved_kb.dask{count}", "kB", "Sent to and from them, a log.")
 
 
 LINES = (Line(tuple(_keys()), _measure, 120),)

@@ -99,8 +99,8 @@ LINES = (
     Line(
         tuple(
             ratio(f"emitted_folder_vs_project_flags.{name}",
-                  f"Speed of the emitted folder's own {name} build, as a share of the project's "
-                  f"flags ({ROBOT}, scalar).", 0.95, 1.0)
+                  f"Speed of the folder's own build, as a share of the project's flags ({ROBOT}, "
+                  "scalar).", 0.95, 1.0)
             for name in WAYS
         ),
         _measure,

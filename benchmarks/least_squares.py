@@ -52,11 +52,11 @@ LINES = (
                 for name in ROBOTS
                 for key in (
                     Key(f"fused_r_seconds.{name}", "s",
-                        f"Triangles of 3e5 samples from their motion and torques, {name}."),
+                        "Triangles of 3e5 samples from motion and torques."),
                     ratio(f"fused_r_vs_lstsq.{name}",
-                          f"numpy.linalg.lstsq on a ready W over the fused triangles, {name}."),
+                          "numpy.linalg.lstsq on a ready W over them."),
                     ratio(f"fused_r_vs_gram.{name}",
-                          f"W.T @ W on a ready W over the fused triangles, {name}."),
+                          "W.T @ W on a ready W over them."),
                 )
             ),
         ),

@@ -100,7 +100,7 @@ def _keys() -> tuple[Key, ...]:
     keys = []
     for name in ROBOTS:
         last, home = MUST.get(name, (None, None))
-        what = f"One sample of the base regressor of {name}, loops closed from"
+        what = "A sample, closed from"
         keys += [
             Key(f"loops_us.{name}", "us", f"{what} the sample before.", last, last and last / 2),
             Key(f"loops_home_us.{name}", "us", f"{what} home.", home, home and home / 2),
@@ -110,7 +110,7 @@ def _keys() -> tuple[Key, ...]:
                 Key(f"loops_tile_us.{name}", "us", f"{what} samples before, 8 at once."),
                 ratio(
                     f"loops_scalar_over_tile.{name}",
-                    f"One after another from the sample before, over 8 at once, {name}.",
+                    "One after another over 8 at once.",
                     *((3.0, 5.0) if name in MUST else ()),
                 ),
             ]

@@ -81,9 +81,9 @@ LINES = (
             for name in ROBOTS
             for key in (
                 Key(f"dense_w_vs_stream_fill.{name}", "x",
-                    f"W of 1e6 samples into `out=`, over a streaming fill of its bytes, {name}.",
+                    "W of 1e6 samples into `out=`, over a streaming fill of its bytes.",
                     1.2, 1.0),
-                Key(f"dense_w_seconds.{name}", "s", f"W of 1e6 samples into `out=`, {name}."),
+                Key(f"dense_w_seconds.{name}", "s", "W of 1e6 samples into `out=`."),
             )
         ),
         _measure,

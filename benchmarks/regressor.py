@@ -87,21 +87,21 @@ def _keys() -> list[Key]:
     keys = []
     for name in ROBOTS:
         keys += [
-            Key(f"regressor_ns.{way}.{name}", "ns", f"One sample of the base regressor, {text}.")
+            Key(f"regressor_ns.{way}.{name}", "ns", f"A sample of the base regressor, {text}.")
             for way, text in (
-                ("scalar", "all entries, one call a sample"),
-                ("nonzeros", "nonzero entries, one call a sample"),
+                ("scalar", "all entries"),
+                ("nonzeros", "nonzero entries"),
                 ("batch", "nonzero entries, 8 samples a call"),
             )
         ]
         for kind in pinocchio.COMPILERS:
-            peer = f"Pinocchio's C++ regressor ({kind})"
-            keys.append(Key(f"pinocchio_ns.{kind}.{name}", "ns", f"One sample of {peer}."))
+            peer = f"Pinocchio's regressor ({kind})"
+            keys.append(Key(f"pinocchio_ns.{kind}.{name}", "ns", f"{peer}, a sample."))
             for way, text in (("scalar", "dense"), ("nonzeros", "nonzero entries"),
-                              ("batch", "nonzero entries by tiles of 8")):  # fmt: skip
+                              ("batch", "by tiles of 8")):  # fmt: skip
                 goals = must.get(way, {}).get(name, (None, None)) if kind == "gcc" else (None, None)
                 keys.append(
-                    ratio(f"{way}_vs_pinocchio_{kind}.{name}", f"{peer} over ours, {text}.", *goals)
+                    ratio(f"{way}_vs_pinocchio_{kind}.{name}", f"It over ours, {text}.", *goals)
                 )
     return keys
 

@@ -43,11 +43,11 @@ def _derive(quick: bool) -> Mapping[str, float]:
 def _derive_keys() -> list[Key]:
     keys = [Key("libraries_seconds", "s", f"`python -c '{_LIBRARIES}'`: what derivations load.")]
     for name, (must, aim) in DERIVED.items():
-        what = f"`modeler derive {name}`, the whole process"
+        what = f"`modeler derive {name}`"
         keys += [
             Key(f"derive_seconds.{name}", "s", f"{what}.", must, aim),
-            Key(f"derive_cpu_seconds.{name}", "s", f"{what}: processor time of all threads."),
-            Key(f"derive_vs_python.{name}", "x", f"{what}, over `python -c pass`."),
+            Key(f"derive_cpu_seconds.{name}", "s", "The same: processor time of all threads."),
+            Key(f"derive_vs_python.{name}", "x", "The same over `python -c pass`."),
         ]
     return keys
 
@@ -55,10 +55,10 @@ def _derive_keys() -> list[Key]:
 LINES = (
     Line(
         (
-            Key("python_seconds", "s", "`python -c pass`, the whole process."),
-            Key("help_seconds", "s", "`modeler --help`, the whole process.", 0.25, 0.1),
+            Key("python_seconds", "s", "`python -c pass`."),
+            Key("help_seconds", "s", "`modeler --help`.", 0.25, 0.1),
             Key("help_vs_python", "x", "The same over `python -c pass`."),
-            Key("version_seconds", "s", "`modeler --version`, the whole process.", 0.25, 0.1),
+            Key("version_seconds", "s", "`modeler --version`.", 0.25, 0.1),
         ),
         _help,
         3,

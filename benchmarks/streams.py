@@ -78,17 +78,17 @@ def _measure(quick: bool) -> Mapping[str, float]:
 def _keys() -> tuple[Key, ...]:
     keys = [Key("fit_seconds_per_1e6", "s", "As fit_seconds.1e6.", 2.0, 1.2)]
     for name, (_, must, aim, most, least) in LENGTHS.items():
-        what = f"`modeler fit {ROBOT}` of {name} samples of 6 joints (Parquet), the whole process"
+        what = f"`modeler fit {ROBOT}` of {name} samples of 6 joints (Parquet)"
         keys += [
             Key(f"fit_seconds.{name}", "s", f"{what}.", must, aim),
-            Key(f"fit_cpu_seconds.{name}", "s", f"{what}: processor time of all threads."),
-            Key(f"fit_peak_mb.{name}", "MB", f"{what}: largest resident memory.", most, least),
+            Key(f"fit_cpu_seconds.{name}", "s", "The same: processor time of all threads."),
+            Key(f"fit_peak_mb.{name}", "MB", "The same: largest resident memory.", most, least),
         ]
-    what = "`modeler diagnose` of the model and the log of 1e7 samples, the whole process"
+    what = "`modeler diagnose` of the model and the log of 1e7 samples"
     return (
         *keys,
         Key("diagnose_seconds.1e7", "s", f"{what}."),
-        Key("diagnose_peak_mb.1e7", "MB", f"{what}: largest resident memory.", 1000.0),
+        Key("diagnose_peak_mb.1e7", "MB", "The same: largest resident memory.", 1000.0),
     )
 
 

@@ -74,9 +74,9 @@ LINES = (
             key
             for name in ROBOTS
             for key in (
-                Key(f"single_tile_ns.{name}", "ns", "One sample of a tile in single precision."),
+                Key(f"single_tile_ns.{name}", "ns", "A sample of a tile in single precision."),
                 ratio(f"single_tiles_vs_double.{name}",
-                      "Tile in double over the same in single precision.",
+                      "Tile in double over it.",
                       *((1.7, 2.0) if name != "wrist" else ())),
             )
         ),
@@ -86,7 +86,7 @@ LINES = (
     Line(
         tuple(
             Key(f"columns_over_rows.{name}", "x",
-                "Seconds of W by columns over those by rows, one thread, median of pairs.")
+                "W by columns over W by rows, one thread, median of pairs.")
             for name in ROBOTS
         ),
         _columns,

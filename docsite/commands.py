@@ -5,6 +5,7 @@ import argparse
 from docsite.markdown import block, cell, code, table
 from modeler.cli.command_table import FAMILIES
 from modeler.cli.commands import commands_of, parser
+from modeler.core.estimators import ABOUT
 
 
 def command_pages() -> dict[str, str]:
@@ -52,7 +53,17 @@ def _page(name: str, found: argparse.ArgumentParser) -> str:
     for inner, child in _subparsers(found).items():
         parts += [f"## modeler {name} {inner}", "", cell(child.description or ""), ""]
         parts += [block(_example(child), "sh"), *_arguments(child)]
+    if name == "estimators":
+        parts += ["## All of them", "", estimators()]
     return "\n".join([*parts, "## As the command prints it", "", block(_help(found), "text")])
+
+
+def estimators() -> str:
+    """What the command tells, as a table."""
+    head = ("method", "is", "law", "source", "do not use it", "assumes")
+    told = [(a.title, a.law, a.source, a.avoid, a.motion) for a in ABOUT.values()]
+    named = zip(ABOUT, told, strict=True)
+    return table(head, [(code(id), *map(cell, words)) for id, words in named])
 
 
 def _help(found: argparse.ArgumentParser) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from docsite.effects import Portrait
 from docsite.markdown import block, cell, code, table
+from modeler import formulas
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.builtin import builtin_names, builtin_text
 from modeler.derivation import as_markdown
@@ -52,7 +53,7 @@ def exhibit(name: str) -> Exhibit:
         f"# {name}", "", f"**{cell(robot.title)}**", "", _notes(text), "", *_written_about(name),
         f"![{name}]({name}.png){{ width=420 }}", "", _counts(derivation), "",
         "## Table", "", _mdh(text), "",
-        "## Base parameters", "", as_markdown(derivation.base), "",
+        "## Base parameters", "", as_markdown(derivation.base), "", *coefficients(derivation),
         "## C", "", _sum(sizes), "", table(("file", "lines", "bytes"), _rows(sizes)), "",
         table(("function", "additions", "multiplications"), functions), "",
         "## File", "", block(text, "toml"),
@@ -66,6 +67,14 @@ def exhibit(name: str) -> Exhibit:
         derivation.base.rank,
         sum(lines for lines, _ in sizes.values()),
     )
+
+
+def coefficients(derivation: Derivation) -> list[str]:
+    """The section of a robot whose paper numbers the coefficients of its closed form."""
+    if not derivation.robot.terms:
+        return []
+    found = formulas.coefficient_table(derivation.model, derivation.base)
+    return ["## Coefficients", "", formulas.render.coefficients_markdown(found), ""]
 
 
 def gallery_index(exhibits: Sequence[Exhibit]) -> str:

@@ -11,7 +11,7 @@ from docsite.commands import command_pages, commands
 from docsite.effects import effects_index, portraits
 from docsite.gallery import exhibits, gallery_front, gallery_index
 from docsite.interface import interface_pages
-from docsite.notebook import executed, notebook_page
+from docsite.notebook import last_run, notebook_page
 from modeler.core.builtin import builtin_names
 from modeler.effects import CATALOGUE
 
@@ -103,4 +103,4 @@ def notebooks() -> dict[str, Path]:
 
 def notebook_pages() -> dict[str, str]:
     """Every notebook as a page."""
-    return {page: notebook_page(executed(path)) for page, path in notebooks().items()}
+    return {page: notebook_page(last_run(path)) for page, path in notebooks().items()}

@@ -1,10 +1,12 @@
 """A notebook as a page: its words, its programs, and their results."""
 
+import hashlib
 import importlib.util
 import json
 import os
 import subprocess
 import tempfile
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -15,14 +17,46 @@ RUNS_WITH = ("nbclient", "ipykernel", "pandas")
 """Packages without which a notebook is shown, but not run."""
 
 
+KEPT = ROOT / "build" / "notebooks"
+"""Where results of runs are kept, by notebook and program."""
+
+
 def executed(path: Path) -> str:
     """The notebook with the results of a fresh run; as it is kept where it cannot be run."""
     if any(importlib.util.find_spec(package) is None for package in RUNS_WITH):
         return path.read_text(encoding="utf-8")
+    result = _run(path)
+    KEPT.mkdir(parents=True, exist_ok=True)
+    _place(path).write_text(result, encoding="utf-8")
+    return result
+
+
+def last_run(path: Path) -> str:
+    """The results of the last run of this notebook by this program; of a fresh one if none is."""
+    place = _place(path)
+    return place.read_text(encoding="utf-8") if place.is_file() else executed(path)
+
+
+def _place(path: Path) -> Path:
+    own = hashlib.sha256(path.read_bytes() + program_text()).hexdigest()[:16]
+    return KEPT / f"{path.stem}-{own}.ipynb"
+
+
+@cache
+def program_text() -> bytes:
+    """All that can change what a notebook shows, but for other packages."""
+    folders = ("modeler", "templates", "csrc")
+    paths = sorted(path for name in folders for path in (ROOT / name).rglob("*.*"))
+    kept = (path for path in paths if path.is_file() and "__pycache__" not in path.parts)
+    return b"".join(path.read_bytes() for path in kept)
+
+
+def _run(path: Path) -> str:
     import nbformat
     from nbclient import NotebookClient
 
     notebook = nbformat.read(path, as_version=4)
+    nbformat.validate(notebook)
     os.environ["PYTHONPATH"] = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
     with tempfile.TemporaryDirectory() as folder:
         client = NotebookClient(notebook, resources={"metadata": {"path": folder}}, timeout=240)

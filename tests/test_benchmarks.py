@@ -4,6 +4,7 @@ import json
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from benchmarks import __main__ as front, equal
@@ -18,8 +19,41 @@ KEYS = [key for line in LINES for key in line.keys]
 def test_every_key_is_there_once_and_documented() -> None:
     names = [key.name for key in KEYS]
     assert len(set(names)) == len(names) > 80
-    told = set(re.findall(r"`([a-z0-9_.-]+)`", DOCS.read_text(encoding="utf-8")))
-    assert not (set(names) - told), "docs/explanation/benchmarks.md is made by --markdown"
+    told = figures_told(DOCS.read_text(encoding="utf-8"))
+    assert not (set(names) - told.keys()), "docs/explanation/benchmarks.md is made by --markdown"
+    assert all(re.match(r"-?\d", figure) for figure in told.values())
+
+
+def figures_told(text: str) -> dict[str, str]:
+    """{key: its cell} of the tables that `--markdown` prints: families in rows, variants above."""
+    told: dict[str, str] = {}
+    columns: list[str] = []
+    for line in text.splitlines():
+        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+        if cells[:1] == ["key"]:
+            columns = cells
+        elif cells and len(cells) == len(columns) and cells[0].startswith("`"):
+            family = cells[0].strip("`")
+            for column, cell in zip(columns[1:-1], cells[1:-1], strict=True):
+                key = family if column == "value" else f"{family}.{column}"
+                told |= {key: cell}
+    return told
+
+
+def test_every_figure_of_a_report_is_in_its_tables() -> None:
+    random = np.random.default_rng()
+    values = {key.name: float(random.uniform(1e-3, 1e4)) for key in KEYS}
+    values[KEYS[-1].name] = None  # type: ignore[assignment]
+    about = dict.fromkeys(("date", "processor", "vectors", "cores", "memory_gb", "gcc", "python"))
+    report = {"machine": about, "values": values, "missing": {KEYS[-1].name: "no such tool"}}
+    told = figures_told(markdown(report))
+    assert told.keys() == values.keys()
+    assert told[KEYS[-1].name] == "missing: no such tool"
+    for key in KEYS[:-1]:
+        figure, _, goals = told[key.name].partition(" ")
+        assert float(figure) == pytest.approx(values[key.name], rel=6e-3)
+        asked = ["-" if goal is None else f"{goal:g}" for goal in (key.must, key.aim)]
+        assert goals == ("" if asked == ["-", "-"] else f"({'/'.join(asked)})")
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from importlib import metadata
 from pathlib import Path
 
 import pytest
+import yaml
 from packaging.markers import Marker
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
@@ -52,8 +53,9 @@ def test_metadata(settings: dict) -> None:
     assert project["name"] == "modeler-robotics"
     assert project["requires-python"] == ">=3.11"
     assert project["license"] == "MIT"
+    readme = settings["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]
     for file in [
-        project["readme"],
+        *(f["path"] for f in readme["fragments"] if "path" in f),
         *project["license-files"],
         settings["tool"]["hatch"]["version"]["path"],
     ]:
@@ -99,6 +101,18 @@ def test_the_changelog_begins_with_this_version() -> None:
     text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     first, *_ = re.findall(r"^## (\S+) - (\d{4}-\d{2}-\d{2}|unreleased)$", text, re.M)
     assert first[0] == modeler.__version__
+
+
+def test_the_citation_is_of_this_version() -> None:
+    """The entries that Citation File Format 1.2.0 requires, and the numbers of the changelog."""
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert cited["cff-version"] == "1.2.0" and cited["type"] == "software"
+    assert {"message", "title", "authors"} <= cited.keys() and cited["authors"]
+    assert all("name" in one or "family-names" in one for one in cited["authors"])
+    assert cited["version"] == modeler.__version__ and cited["license"] == "MIT"
+    changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    (date,) = re.findall(rf"^## {re.escape(modeler.__version__)} - (\S+)$", changes, re.M)
+    assert str(cited.get("date-released", "unreleased")) == date
 
 
 def test_every_dependency_is_pinned_to_a_version_it_allows(

@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 2) any of this C interface,
-# find_package(evra 2.7084.15220.24719) only what has the signature 1bac3b74608fcd85.
-set(PACKAGE_VERSION 2.7084.15220.24719)
+# find_package(evra 2.62587.42518.17873) only what has the signature f47ba61645d1a253.
+set(PACKAGE_VERSION 2.62587.42518.17873)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "1bac3b74608fcd85"
-#define EVRA_SIGNATURE_1 0x1bac3b74u
-#define EVRA_SIGNATURE_2 0x608fcd85u
+#define EVRA_SIGNATURE "f47ba61645d1a253"
+#define EVRA_SIGNATURE_1 0xf47ba616u
+#define EVRA_SIGNATURE_2 0x45d1a253u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in evra_generator.h. */

@@ -156,7 +156,7 @@ static void base_rows(struct evra_posture *p, double *rows, const double *qd,
 
 const char *evra_signature(void)
 {
-    return "1bac3b74608fcd85";
+    return "f47ba61645d1a253";
 }
 
 int evra_tree_next(const double *q, const double *qd, const double *qdd, int next,

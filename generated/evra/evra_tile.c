@@ -178,7 +178,7 @@ const modeler_tiled *evra_tiled(void)
 
 const char *evra_tile_signature(void)
 {
-    return "1bac3b74608fcd85";
+    return "f47ba61645d1a253";
 }
 
 #else /* for one instruction set */

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "ad783261ce14548a"
-#define FIVE_BAR_SIGNATURE_1 0xad783261u
-#define FIVE_BAR_SIGNATURE_2 0xce14548au
+#define FIVE_BAR_SIGNATURE "ee1dde961c6e4a43"
+#define FIVE_BAR_SIGNATURE_1 0xee1dde96u
+#define FIVE_BAR_SIGNATURE_2 0x1c6e4a43u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in five_bar_generator.h. */

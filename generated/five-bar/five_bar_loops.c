@@ -106,7 +106,7 @@ static void base_rows(struct five_bar_posture *p, double *rows, const double *qd
 
 const char *five_bar_signature(void)
 {
-    return "ad783261ce14548a";
+    return "ee1dde961c6e4a43";
 }
 
 int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int next,

@@ -92,7 +92,7 @@ const modeler_tiled *five_bar_tiled(void)
 
 const char *five_bar_tile_signature(void)
 {
-    return "ad783261ce14548a";
+    return "ee1dde961c6e4a43";
 }
 
 #else /* for one instruction set */

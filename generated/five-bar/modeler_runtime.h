@@ -10,8 +10,8 @@
 #error "modeler: NaN must stay NaN: compile without -ffast-math and -ffinite-math-only (/fp:fast)"
 #endif
 
-/* `restrict`, which C++ spells otherwise or has not. */
-#if !defined(__cplusplus)
+/* `restrict`, which C++ and the C of Visual Studio spell otherwise, or have not. */
+#if !defined(__cplusplus) && !defined(_MSC_VER)
 #define MODELER_RESTRICT restrict
 #elif defined(__GNUC__) || defined(_MSC_VER)
 #define MODELER_RESTRICT __restrict

@@ -1,6 +1,6 @@
 # find_package(orthoglide_2003) takes any, find_package(orthoglide_2003 2) any of this C interface,
-# find_package(orthoglide_2003 2.17097.60052.22632) only what has the signature 42c9ea945868b9e2.
-set(PACKAGE_VERSION 2.17097.60052.22632)
+# find_package(orthoglide_2003 2.8041.57133.18430) only what has the signature 1f69df2d47fe4219.
+set(PACKAGE_VERSION 2.8041.57133.18430)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "42c9ea945868b9e2"
-#define ORTHOGLIDE_2003_SIGNATURE_1 0x42c9ea94u
-#define ORTHOGLIDE_2003_SIGNATURE_2 0x5868b9e2u
+#define ORTHOGLIDE_2003_SIGNATURE "1f69df2d47fe4219"
+#define ORTHOGLIDE_2003_SIGNATURE_1 0x1f69df2du
+#define ORTHOGLIDE_2003_SIGNATURE_2 0x47fe4219u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in orthoglide_2003_generator.h. */

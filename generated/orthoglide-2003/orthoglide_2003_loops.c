@@ -128,7 +128,7 @@ static void base_rows(struct orthoglide_2003_posture *p, double *rows, const dou
 
 const char *orthoglide_2003_signature(void)
 {
-    return "42c9ea945868b9e2";
+    return "1f69df2d47fe4219";
 }
 
 int orthoglide_2003_tree_next(const double *q, const double *qd, const double *qdd, int next,

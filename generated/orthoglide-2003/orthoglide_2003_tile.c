@@ -106,7 +106,7 @@ const modeler_tiled *orthoglide_2003_tiled(void)
 
 const char *orthoglide_2003_tile_signature(void)
 {
-    return "42c9ea945868b9e2";
+    return "1f69df2d47fe4219";
 }
 
 #else /* for one instruction set */

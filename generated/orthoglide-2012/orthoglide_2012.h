@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "37bf07ebeb99a4ee"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0x37bf07ebu
-#define ORTHOGLIDE_2012_SIGNATURE_2 0xeb99a4eeu
+#define ORTHOGLIDE_2012_SIGNATURE "f0f8e13996b3554d"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0xf0f8e139u
+#define ORTHOGLIDE_2012_SIGNATURE_2 0x96b3554du
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in orthoglide_2012_generator.h. */

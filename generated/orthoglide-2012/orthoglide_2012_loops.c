@@ -128,7 +128,7 @@ static void base_rows(struct orthoglide_2012_posture *p, double *rows, const dou
 
 const char *orthoglide_2012_signature(void)
 {
-    return "37bf07ebeb99a4ee";
+    return "f0f8e13996b3554d";
 }
 
 int orthoglide_2012_tree_next(const double *q, const double *qd, const double *qdd, int next,

@@ -93,7 +93,7 @@ const modeler_tiled *orthoglide_2012_tiled(void)
 
 const char *orthoglide_2012_tile_signature(void)
 {
-    return "37bf07ebeb99a4ee";
+    return "f0f8e13996b3554d";
 }
 
 #else /* for one instruction set */

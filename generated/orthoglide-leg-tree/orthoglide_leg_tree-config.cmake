@@ -1,6 +1,6 @@
 # find_package(orthoglide_leg_tree) gives the targets orthoglide_leg_tree::orthoglide_leg_tree and orthoglide_leg_tree::batch: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. orthoglide_leg_tree_SIGNATURE is that of the whole folder.
-set(orthoglide_leg_tree_SIGNATURE 9bfec95d33c95e7f)
+set(orthoglide_leg_tree_SIGNATURE 3decae1a5d54f2a6)
 
 if(orthoglide_leg_tree_FIND_COMPONENTS)
   set(_modeler_kinds ${orthoglide_leg_tree_FIND_COMPONENTS})
@@ -13,7 +13,7 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_leg_tree-${_modeler_kind}-9bfec95d33c95e7f.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_leg_tree-${_modeler_kind}-3decae1a5d54f2a6.cmake")
   if(TARGET orthoglide_leg_tree::orthoglide_leg_tree OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
@@ -27,7 +27,7 @@ foreach(_modeler_kind IN LISTS _modeler_kinds)
         set(_modeler_name liborthoglide_leg_tree_model)
       endif()
       if(_modeler_kind STREQUAL "shared")
-        string(APPEND _modeler_name .so.9bfec95d33c95e7f)
+        string(APPEND _modeler_name .so.3decae1a5d54f2a6)
       else()
         string(APPEND _modeler_name .a)
       endif()
@@ -47,5 +47,5 @@ endforeach()
 if(NOT TARGET orthoglide_leg_tree::orthoglide_leg_tree)
   set(orthoglide_leg_tree_FOUND FALSE)
   set(orthoglide_leg_tree_NOT_FOUND_MESSAGE
-    "no library of signature 9bfec95d33c95e7f here that is ${_modeler_kinds}; install it again")
+    "no library of signature 3decae1a5d54f2a6 here that is ${_modeler_kinds}; install it again")
 endif()

@@ -71,7 +71,7 @@ const int orthoglide_leg_tree_nonzero_column[ORTHOGLIDE_LEG_TREE_NONZEROS] = {
 
 const char *orthoglide_leg_tree_signature(void)
 {
-    return "9bfec95d33c95e7f";
+    return "3decae1a5d54f2a6";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

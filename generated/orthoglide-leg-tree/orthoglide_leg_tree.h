@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_leg_tree_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE "9bfec95d33c95e7f"
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x9bfec95du
-#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x33c95e7fu
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE "3decae1a5d54f2a6"
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_1 0x3decae1au
+#define ORTHOGLIDE_LEG_TREE_SIGNATURE_2 0x5d54f2a6u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in orthoglide_leg_tree_generator.h. */

@@ -54,7 +54,7 @@ const modeler_tiled *orthoglide_leg_tree_tiled(void)
 
 const char *orthoglide_leg_tree_tile_signature(void)
 {
-    return "9bfec95d33c95e7f";
+    return "3decae1a5d54f2a6";
 }
 
 #else /* for one instruction set */

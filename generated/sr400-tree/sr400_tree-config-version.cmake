@@ -1,6 +1,6 @@
 # find_package(sr400_tree) takes any, find_package(sr400_tree 2) any of this C interface,
-# find_package(sr400_tree 2.45725.18669.60435) only what has the signature b29d48edec13b890.
-set(PACKAGE_VERSION 2.45725.18669.60435)
+# find_package(sr400_tree 2.8121.26646.34732) only what has the signature 1fb9681687ac8601.
+set(PACKAGE_VERSION 2.8121.26646.34732)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

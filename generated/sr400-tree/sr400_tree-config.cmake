@@ -1,6 +1,6 @@
 # find_package(sr400_tree) gives the targets sr400_tree::sr400_tree and sr400_tree::batch: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. sr400_tree_SIGNATURE is that of the whole folder.
-set(sr400_tree_SIGNATURE b29d48edec13b890)
+set(sr400_tree_SIGNATURE 1fb9681687ac8601)
 
 if(sr400_tree_FIND_COMPONENTS)
   set(_modeler_kinds ${sr400_tree_FIND_COMPONENTS})
@@ -13,7 +13,7 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/sr400_tree-${_modeler_kind}-b29d48edec13b890.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/sr400_tree-${_modeler_kind}-1fb9681687ac8601.cmake")
   if(TARGET sr400_tree::sr400_tree OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
@@ -27,7 +27,7 @@ foreach(_modeler_kind IN LISTS _modeler_kinds)
         set(_modeler_name libsr400_tree_model)
       endif()
       if(_modeler_kind STREQUAL "shared")
-        string(APPEND _modeler_name .so.b29d48edec13b890)
+        string(APPEND _modeler_name .so.1fb9681687ac8601)
       else()
         string(APPEND _modeler_name .a)
       endif()
@@ -47,5 +47,5 @@ endforeach()
 if(NOT TARGET sr400_tree::sr400_tree)
   set(sr400_tree_FOUND FALSE)
   set(sr400_tree_NOT_FOUND_MESSAGE
-    "no library of signature b29d48edec13b890 here that is ${_modeler_kinds}; install it again")
+    "no library of signature 1fb9681687ac8601 here that is ${_modeler_kinds}; install it again")
 endif()

@@ -84,7 +84,7 @@ const int sr400_tree_nonzero_column[SR400_TREE_NONZEROS] = {
 
 const char *sr400_tree_signature(void)
 {
-    return "b29d48edec13b890";
+    return "1fb9681687ac8601";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

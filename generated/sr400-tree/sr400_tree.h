@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What sr400_tree_signature() of the library that belongs to this header returns. */
-#define SR400_TREE_SIGNATURE "b29d48edec13b890"
-#define SR400_TREE_SIGNATURE_1 0xb29d48edu
-#define SR400_TREE_SIGNATURE_2 0xec13b890u
+#define SR400_TREE_SIGNATURE "1fb9681687ac8601"
+#define SR400_TREE_SIGNATURE_1 0x1fb96816u
+#define SR400_TREE_SIGNATURE_2 0x87ac8601u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in sr400_tree_generator.h. */

@@ -70,7 +70,7 @@ const modeler_tiled *sr400_tree_tiled(void)
 
 const char *sr400_tree_tile_signature(void)
 {
-    return "b29d48edec13b890";
+    return "1fb9681687ac8601";
 }
 
 #else /* for one instruction set */

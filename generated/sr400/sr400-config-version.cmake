@@ -1,6 +1,6 @@
 # find_package(sr400) takes any, find_package(sr400 2) any of this C interface,
-# find_package(sr400 2.44428.10438.32507) only what has the signature ad8c28c67efb79af.
-set(PACKAGE_VERSION 2.44428.10438.32507)
+# find_package(sr400 2.11881.22401.16402) only what has the signature 2e6957814012ed07.
+set(PACKAGE_VERSION 2.11881.22401.16402)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -1,6 +1,6 @@
 # find_package(sr400) gives the targets sr400::sr400 and sr400::batch: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. sr400_SIGNATURE is that of the whole folder.
-set(sr400_SIGNATURE ad8c28c67efb79af)
+set(sr400_SIGNATURE 2e6957814012ed07)
 
 if(sr400_FIND_COMPONENTS)
   set(_modeler_kinds ${sr400_FIND_COMPONENTS})
@@ -13,7 +13,7 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/sr400-${_modeler_kind}-ad8c28c67efb79af.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/sr400-${_modeler_kind}-2e6957814012ed07.cmake")
   if(TARGET sr400::sr400 OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
@@ -27,7 +27,7 @@ foreach(_modeler_kind IN LISTS _modeler_kinds)
         set(_modeler_name libsr400_model)
       endif()
       if(_modeler_kind STREQUAL "shared")
-        string(APPEND _modeler_name .so.ad8c28c67efb79af)
+        string(APPEND _modeler_name .so.2e6957814012ed07)
       else()
         string(APPEND _modeler_name .a)
       endif()
@@ -47,5 +47,5 @@ endforeach()
 if(NOT TARGET sr400::sr400)
   set(sr400_FOUND FALSE)
   set(sr400_NOT_FOUND_MESSAGE
-    "no library of signature ad8c28c67efb79af here that is ${_modeler_kinds}; install it again")
+    "no library of signature 2e6957814012ed07 here that is ${_modeler_kinds}; install it again")
 endif()

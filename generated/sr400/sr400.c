@@ -81,7 +81,7 @@ const int sr400_nonzero_column[SR400_NONZEROS] = {
 
 const char *sr400_signature(void)
 {
-    return "ad8c28c67efb79af";
+    return "2e6957814012ed07";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

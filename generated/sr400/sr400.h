@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What sr400_signature() of the library that belongs to this header returns. */
-#define SR400_SIGNATURE "ad8c28c67efb79af"
-#define SR400_SIGNATURE_1 0xad8c28c6u
-#define SR400_SIGNATURE_2 0x7efb79afu
+#define SR400_SIGNATURE "2e6957814012ed07"
+#define SR400_SIGNATURE_1 0x2e695781u
+#define SR400_SIGNATURE_2 0x4012ed07u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in sr400_generator.h. */

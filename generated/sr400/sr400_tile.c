@@ -67,7 +67,7 @@ const modeler_tiled *sr400_tiled(void)
 
 const char *sr400_tile_signature(void)
 {
-    return "ad8c28c67efb79af";
+    return "2e6957814012ed07";
 }
 
 #else /* for one instruction set */

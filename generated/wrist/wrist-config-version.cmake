@@ -1,6 +1,6 @@
 # find_package(wrist) takes any, find_package(wrist 2) any of this C interface,
-# find_package(wrist 2.30149.10141.15481) only what has the signature 75c5279d3c792113.
-set(PACKAGE_VERSION 2.30149.10141.15481)
+# find_package(wrist 2.1193.52811.47821) only what has the signature 04a9ce4bbacd538f.
+set(PACKAGE_VERSION 2.1193.52811.47821)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

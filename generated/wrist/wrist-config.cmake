@@ -1,6 +1,6 @@
 # find_package(wrist) gives the targets wrist::wrist and wrist::batch: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. wrist_SIGNATURE is that of the whole folder.
-set(wrist_SIGNATURE 75c5279d3c792113)
+set(wrist_SIGNATURE 04a9ce4bbacd538f)
 
 if(wrist_FIND_COMPONENTS)
   set(_modeler_kinds ${wrist_FIND_COMPONENTS})
@@ -13,7 +13,7 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/wrist-${_modeler_kind}-75c5279d3c792113.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/wrist-${_modeler_kind}-04a9ce4bbacd538f.cmake")
   if(TARGET wrist::wrist OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
@@ -27,7 +27,7 @@ foreach(_modeler_kind IN LISTS _modeler_kinds)
         set(_modeler_name libwrist_model)
       endif()
       if(_modeler_kind STREQUAL "shared")
-        string(APPEND _modeler_name .so.75c5279d3c792113)
+        string(APPEND _modeler_name .so.04a9ce4bbacd538f)
       else()
         string(APPEND _modeler_name .a)
       endif()
@@ -47,5 +47,5 @@ endforeach()
 if(NOT TARGET wrist::wrist)
   set(wrist_FOUND FALSE)
   set(wrist_NOT_FOUND_MESSAGE
-    "no library of signature 75c5279d3c792113 here that is ${_modeler_kinds}; install it again")
+    "no library of signature 04a9ce4bbacd538f here that is ${_modeler_kinds}; install it again")
 endif()

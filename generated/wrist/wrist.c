@@ -57,7 +57,7 @@ const int wrist_nonzero_column[WRIST_NONZEROS] = {
 
 const char *wrist_signature(void)
 {
-    return "75c5279d3c792113";
+    return "04a9ce4bbacd538f";
 }
 
 /* Joint torques, by the Newton-Euler recursion.

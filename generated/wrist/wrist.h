@@ -20,9 +20,9 @@ extern "C" {
 #endif
 
 /* What wrist_signature() of the library that belongs to this header returns. */
-#define WRIST_SIGNATURE "75c5279d3c792113"
-#define WRIST_SIGNATURE_1 0x75c5279du
-#define WRIST_SIGNATURE_2 0x3c792113u
+#define WRIST_SIGNATURE "04a9ce4bbacd538f"
+#define WRIST_SIGNATURE_1 0x04a9ce4bu
+#define WRIST_SIGNATURE_2 0xbacd538fu
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in wrist_generator.h. */

@@ -48,7 +48,7 @@ const modeler_tiled *wrist_tiled(void)
 
 const char *wrist_tile_signature(void)
 {
-    return "75c5279d3c792113";
+    return "04a9ce4bbacd538f";
 }
 
 #else /* for one instruction set */

@@ -9,6 +9,7 @@ from typing import Any
 
 from modeler import observation
 from modeler.core.errors import DataError, ModelerError, file_and_window
+from modeler.core.manifest import Emitted
 from modeler.estimation import identify, log_findings, with_verdict
 from modeler.logs import (
     EITHER,
@@ -32,7 +33,7 @@ Mapped = Mapping[str, Any] | Sequence[str] | LogMap
 _BETTER = 0.5  # of the error, that a guess must reach to be believed
 
 
-def log_map(compiled: CompiledModel, mapping: Mapped = ()) -> LogMap:
+def log_map(compiled: CompiledModel | Emitted, mapping: Mapped = ()) -> LogMap:
     """Which columns of logs are ours: [log] of the robot file, and `mapping` over it.
 
     >>> log_map(compiled, ["q1=position_a:deg"]).entries(compiled.spec.joints)["q1"].columns
@@ -258,7 +259,9 @@ def file_and_span(place: str | Path) -> tuple[str | Path, tuple[float | None, fl
 
 
 def look_at(
-    place: str | Path | InMemory, compiled: CompiledModel | None = None, mapping: Mapped = ()
+    place: str | Path | InMemory,
+    compiled: CompiledModel | Emitted | None = None,
+    mapping: Mapped = (),
 ) -> LogInspection:
     """Channels, clock, gaps and doubts of a log.
 

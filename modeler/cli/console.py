@@ -111,7 +111,7 @@ def clock(title: str) -> Iterator[None]:
         begun = time.perf_counter()
         while not ended.wait(_TICK):
             _raw(f"\r{title} {time.perf_counter() - begun:.1f} s")
-        _raw("\r\x1b[2K")
+        _raw(f"\r{' ' * (len(title) + 12)}\r")  # a console that knows no codes can do that
 
     ticking = threading.Thread(target=tick, daemon=True)
     ticking.start()

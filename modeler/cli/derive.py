@@ -3,6 +3,7 @@
 import argparse
 import dataclasses
 import re
+import shlex
 import textwrap
 from collections.abc import Callable
 from pathlib import Path
@@ -12,7 +13,7 @@ import numpy as np
 
 from modeler import formulas
 from modeler.cli.browser import forget_page
-from modeler.cli.console import Json, note, print_error, say, say_lines, working
+from modeler.cli.console import Json, note, print_error, say, say_lines, show_next, working
 from modeler.cli.lists import robot_of, robot_with_effects
 from modeler.cli.old_words import OPEN_CUT
 from modeler.cli.options import FEW_JOINTS, Form
@@ -395,21 +396,22 @@ def run_generate(args: argparse.Namespace) -> Json:
             f"{args.out}: {name} is of an earlier generate and belongs to this code no more; it "
             "was edited since, so it stays: remove it, or keep it elsewhere"
         )
-    result = {"robot": spec.robot, "folder": args.out, "files": sorted(emitted.files)}
+    result: Json = {"robot": spec.robot, "folder": args.out, "files": sorted(emitted.files)}
     if spec.control is not None and spec.control.functions:
         say(f"for controllers, in {spec.prefix}_control.h:")
         say_lines(map(_function_line, spec.control.functions), "  ")
-    if fitted is None:
-        return result
-    say(f"with the fitted values, signature {fitted.signature}:")
-    say_lines(map(_function_line, fitted.functions), "  ")
-    if fitted.widths:
-        say(f"  widths of the Coulomb friction: {', '.join(fitted.widths)}")
-    return result | {
-        "fitted_signature": fitted.signature,
-        "usable": fitted.usable,
-        "doubts": list(fitted.doubts),
-    }
+    if fitted is not None:
+        say(f"with the fitted values, signature {fitted.signature}:")
+        say_lines(map(_function_line, fitted.functions), "  ")
+        if fitted.widths:
+            say(f"  widths of the Coulomb friction: {', '.join(fitted.widths)}")
+        result |= {
+            "fitted_signature": fitted.signature,
+            "usable": fitted.usable,
+            "doubts": list(fitted.doubts),
+        }
+    show_next([f"make -C {shlex.quote(args.out)} check"])
+    return result
 
 
 def _model(args: argparse.Namespace) -> "IdentifiedModel | None":

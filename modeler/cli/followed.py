@@ -7,6 +7,7 @@ when that does, killed or not, on every system. The command is then interrupted 
 that nothing half-written is left; what does not heed that is killed, with all that it started.
 """
 
+import _thread
 import os
 import signal
 import sys
@@ -30,6 +31,8 @@ def _signal_all(number: int) -> None:
     """To this process and all that it started."""
     if hasattr(os, "killpg") and os.getpgrp() == os.getpid():
         os.killpg(0, number)
+    elif number == signal.SIGINT:
+        _thread.interrupt_main()  # on Windows `kill` of oneself knows no interrupts
     else:
         os.kill(os.getpid(), number)
 

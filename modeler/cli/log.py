@@ -20,7 +20,7 @@ from modeler.api.log_maps import (
 from modeler.api.long_logs import are_long, judged_long, too_long
 from modeler.cli.console import Json, say, say_lines, working, written_pictures
 from modeler.cli.lists import check_own_file, read_robot_with_notes
-from modeler.core.errors import DataError, ModelerError
+from modeler.core.errors import BuildError, DataError, ModelerError, on_one_line
 from modeler.core.files import write_atomically
 from modeler.core.json import nulled
 from modeler.core.table import aligned, percent
@@ -38,7 +38,7 @@ _POOR = 0.2  # relative error of a fit that is told
 
 def run_log(args: argparse.Namespace) -> Json:
     """Prints what the log holds, its doubts, and a [log] to start from."""
-    compiled = None
+    compiled = described = uncompiled = None
     if args.write:
         if args.robot is None:
             raise DataError("--write: got no robot file to write into; expected --robot FILE.toml")
@@ -46,10 +46,18 @@ def run_log(args: argparse.Namespace) -> Json:
     if args.robot is not None:
         robot = read_robot_with_notes(args.robot)
         with working(f"deriving {robot.name}"):
-            compiled = workflow.compile_model(workflow.generate(workflow.derive(robot)))
-    mapping = map_from_words(args.map) if compiled is None else log_map(compiled, args.map)
-    seen = look_at(args.log, compiled, args.map)
+            described = workflow.generate(workflow.derive(robot))
+            try:
+                compiled = workflow.compile_model(described)
+            except BuildError as error:
+                if args.write:  # a guess is tried before it is written
+                    raise
+                uncompiled = error
+    mapping = map_from_words(args.map) if described is None else log_map(described, args.map)
+    seen = look_at(args.log, described, args.map)
     doubts = [*seen.doubts]
+    if uncompiled is not None:
+        doubts.append(f"not tried by a fit of {robot.name}: {on_one_line(str(uncompiled))}")
     noise = noise_of_positions(seen.positions)
     bands, marks = bands_of(noise), marks_of(seen)
     if compiled is not None:

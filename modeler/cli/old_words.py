@@ -7,6 +7,9 @@ from dataclasses import dataclass, field
 from modeler.cli.command_table import COMMANDS
 from modeler.cli.options import ALL, options_of, sorted_words
 
+STAY_BEFORE = "0.3.0"
+"""Version that knows these words no more; they work in the one that replaces them and the next."""
+
 OLD_COMMANDS = {"free-run": "compare --free-run"}
 """Commands that are an option of another now."""
 

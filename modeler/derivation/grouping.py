@@ -288,8 +288,9 @@ def base_from_relations(
         if len(row) == 1:
             unidentifiable.append(columns[place].name)
         for b, coefficient in row.items():
-            if b != place:
-                terms[b].append(Term(K.expression(-coefficient), columns[place].name))
+            value = K.expression(-coefficient)
+            if b != place and value:  # 0 where roots of numbers, letters in K, cancel
+                terms[b].append(Term(value, columns[place].name))
     return named_parameters(columns, terms, halves), tuple(unidentifiable)
 
 

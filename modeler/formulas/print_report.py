@@ -214,9 +214,8 @@ def _friction(coupling: Coupling) -> str:
         [
             "### Friction of coupled motors",
             "",
-            "Printed: G_ii C_i sgn(qd_i), C being diagonal. Virtual work gives "
-            "(G^T C sgn(G qd))_i, with the signs of the motor speeds G qd; what friction takes "
-            "must be sum C_i |(G qd)_i|.",
+            "Printed: G_ii C_i sgn(qd_i), C being diagonal. Virtual work: (G^T C sgn(G qd))_i, with "
+            "the motor speeds G qd; friction must take sum C_i |(G qd)_i|.",
             "",
             f"With G = [{matrix}], C = ({row(coupling.coulomb)}) N m, qd = ({row(coupling.speed)}) "
             f"rad/s the motors take {float(check.dissipated):g} W:",
@@ -334,8 +333,8 @@ def _relations(model: SymbolicModel, table: CoefficientTable) -> str:
         f"constant factors they are {len(classes(relations))} different functions of the "
         "parameters.",
         *_fewest(model),
-        f"* Rank over Q, exact, with all lengths unknown: **{relations.rank}**. Independent, first "
-        f"come first kept: {', '.join(relations.independent)}.",
+        f"* Rank over Q, exact, with all lengths unknown: **{relations.rank}**; the first that are "
+        "independent stand in the map below.",
         f"* Rank with the geometry known: {len(table.known_geometry)}; base parameters: "
         f"{table.base.rank}.",
         f"* {len(found.letters)} physical parameters, of which {appearing} appear. The "

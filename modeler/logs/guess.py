@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -54,6 +55,7 @@ class Guess:
         labels: of the columns, in their order; ("",) without.
         units: of the columns, guessed or stated; "" for SI.
         why: why those units.
+        others: columns with another unit in their names than the template has, by label.
     """
 
     own: str
@@ -61,11 +63,12 @@ class Guess:
     labels: tuple[str, ...]
     units: tuple[str, ...] = ()
     why: str = ""
+    others: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
     @property
     def columns(self) -> tuple[str, ...]:
         """Names in the file."""
-        return tuple(self.template.replace("{}", label) for label in self.labels)
+        return tuple(self.others.get(x) or self.template.replace("{}", x) for x in self.labels)
 
     def without_range(self) -> "Guess":
         """The same, without units that rest on a range."""
@@ -86,15 +89,19 @@ def guesses(
         joints: of the robot, if it is known.
         names: joint -> its name in logs, where that is known.
     """
-    groups: dict[str, list[str]] = {}
+    groups: dict[str, list[tuple[str, str, str]]] = {}
     worded = _by_words([name for name in columns if not template_of(name, names.values())[1]])
     for name in columns:
         template, label = worded.get(name) or template_of(name, names.values())
-        groups.setdefault(template, []).append(label)
+        groups.setdefault(_family(template) if label else template, []).append(
+            (template, label, name)
+        )
     found: dict[str, Guess] = {}
     by_duty = bool(joints) and any(joint.drive for joint in joints)
-    for template, labels in groups.items():
-        own_columns = [template.replace("{}", label) for label in labels]
+    for group in groups.values():
+        template, *_ = Counter(each for each, _, _ in group).most_common(1)[0]
+        labels, own_columns = [label for _, label, _ in group], [name for *_, name in group]
+        others = {label: name for each, label, name in group if each != template}
         unit = find_unit(stated.get(own_columns[0]) or _named(own_columns[0]) or "?")
         own = _role(template) or ("" if unit is None else _KINDS.get(unit.powers, ""))
         if by_duty and own == "tau" and re.search(r"load(?![a-z])", template.lower()):
@@ -103,7 +110,7 @@ def guesses(
             own = "tau" if template.lower().split()[:1] == ["t"] else ""
         better = own in found and len(labels) > len(found[own].labels)
         if own and (own not in found or better):
-            found[own] = Guess(own, template, tuple(labels), ("",) * len(labels))
+            found[own] = Guess(own, template, tuple(labels), ("",) * len(labels), others=others)
     if "time" not in found:
         taken = {name for one in found.values() for name in one.columns}
         free = (name for name in columns if name not in taken)
@@ -176,12 +183,20 @@ def template_of(name: str, joints: Iterable[str] = ()) -> tuple[str, str]:
     return f"{name[: match.start(group)]}{{}}{name[match.end(group) :]}", match[group]
 
 
+def _family(template: str) -> str:
+    """The template with the kind in place of the unit: `axis{} [deg]` and `axis{} [mm]` are one."""
+    end = _UNIT.search(template)
+    unit = None if end is None else find_unit(end[1])
+    kind = "" if unit is None else _KINDS.get(unit.powers, "")
+    return f"{template[: end.start()]} [{kind}]" if end and kind else template
+
+
 def _by_words(names: Sequence[str]) -> dict[str, tuple[str, str]]:
     """Name -> template and label, of names of several joints: `elbow angle`, `shoulder angle`.
 
     The label is what stands before the word for the quantity, or after it.
     """
-    groups: dict[str, dict[str, str]] = {}
+    groups: dict[str, list[tuple[str, str, str]]] = {}
     for name in names:
         end = _UNIT.search(name)
         head = name if end is None else name[: end.start()]
@@ -415,7 +430,7 @@ def _lines_of(one: Guess, own: Sequence[str], named: bool, names: Mapping[str, s
     by = dict(zip(one.labels, zip(one.columns, one.units, strict=True), strict=True))
     for joint, label in zip(own, labels, strict=False):
         column, own_unit = by.get(label, ("", ""))
-        if own_unit:
+        if own_unit and (label in one.others or not one.others):
             lines.append(f"{_key(one.own + joint)} = {_column(column, own_unit)}{told}")
     return lines
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import ExpressionError, parse
-from modeler.core.toml_cells import Place, near, shown
+from modeler.core.toml_cells import Place, listed, near, shown
 from modeler.robot.body_tree import BodyTree, Pose, TreeJoint
 from modeler.robot.cells import LARGEST_LENGTH
 from modeler.robot.robot import JointKind
@@ -104,7 +104,9 @@ def _locked(tree: BodyTree, name: str, value: str | float) -> BodyTree:
     joints = {joint.name: joint for joint in tree.joints}
     joint = joints.get(name)
     if joint is None:
-        raise place.error(f"no joint of that name{near(name, joints)}; expected one of {tree.name}")
+        raise place.error(
+            f"no joint of that name{near(name, joints)}; expected one of {listed(joints)}"
+        )
     if joint.leader:
         raise place.error(f"it follows joint {shown(joint.leader)}; lock that one, both stop then")
     position = _position(place.holding(value), joint)

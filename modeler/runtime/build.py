@@ -9,6 +9,7 @@ import secrets
 import shlex
 import shutil
 import subprocess
+import sys
 import tempfile
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -17,12 +18,20 @@ from functools import lru_cache
 from pathlib import Path
 
 from modeler.core.errors import BuildError
+from modeler.runtime import microsoft
 from modeler.runtime.threads import mapped
+
+_WINDOWS = sys.platform == "win32"
+
+_NAMES = ("cc", "gcc", "clang", *["cl"] * _WINDOWS)
 
 _INSTALL = (
     "install one: Debian, Ubuntu `apt install gcc`, Fedora `dnf install gcc`, "
-    "macOS `xcode-select --install`; or set CC"
+    "macOS `xcode-select --install`, Windows gcc of MinGW-w64 or Visual Studio; or set CC"
 )
+
+SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
+"""How the name of a library ends."""
 
 # Each line: alternatives, of which the first that the compiler knows is taken, or none.
 # gcc's vectoriser of straight-line code costs half the speed of a regressor (172 against 89 ns);
@@ -34,7 +43,7 @@ _WANTED = (
     ("-ffp-contract=fast",),
     ("-march=native", "-mcpu=native"),
 )
-_ALWAYS = ("-std=c99", "-fPIC")
+_ALWAYS = ("-std=c99", *["-fPIC"] * (not _WINDOWS))
 _OPTIMISED = "-O3"
 
 
@@ -46,15 +55,19 @@ class Toolchain:
         command: e.g. ("gcc",) or ("ccache", "gcc").
         flags: all of them known to it.
         identity: everything about compiler and processor that can change the library.
+        microsoft: its arguments are spelled as those of cl.
     """
 
     command: tuple[str, ...]
     flags: tuple[str, ...]
     identity: str
+    microsoft: bool = False
 
 
 def find_toolchain() -> Toolchain:
     """The compiler named by the environment variable CC, else the first of cc, gcc, clang.
+
+    On Windows cl, Microsoft's, comes after them.
 
     The environment variable CFLAGS takes the place of the flags that are chosen otherwise: -O3,
     code for this very processor, fused multiply-add. Where CC has a flag, what is chosen of its
@@ -65,22 +78,22 @@ def find_toolchain() -> Toolchain:
     """
     wanted = os.environ.get("CC", "").strip()
     if wanted:
-        command = _words("CC", wanted)
+        command = (wanted,) if shutil.which(wanted) else _words("CC", wanted)
         if shutil.which(command[0]) is None:
             raise BuildError(
                 f'C compiler: got CC="{wanted}", which is not found; correct it, or {_INSTALL}'
             )
     else:
-        found = [(name,) for name in ("cc", "gcc", "clang") if shutil.which(name) is not None]
+        found = [(name,) for name in _NAMES if shutil.which(name) is not None]
         if not found:
-            raise BuildError(f"C compiler: none of cc, gcc, clang is found; {_INSTALL}")
+            raise BuildError(f"C compiler: none of {', '.join(_NAMES)} is found; {_INSTALL}")
         command = found[0]
     return _examined(command, _words("CFLAGS", os.environ.get("CFLAGS", "")))
 
 
 def _words(variable: str, text: str) -> tuple[str, ...]:
     try:
-        return tuple(shlex.split(text))
+        return tuple(shlex.split(text.replace("\\", "/") if _WINDOWS else text))
     except ValueError as error:
         raise BuildError(
             f'C compiler: got {variable}="{text}" ({error}); expected words as in a shell; '
@@ -93,13 +106,27 @@ def _examined(command: tuple[str, ...], own: tuple[str, ...]) -> Toolchain:
     used = (*_ALWAYS, *(own or _chosen(command)))
     # The predefined macros name the compiler's version and, with -march=native, this processor.
     macros = _run(command, [*used, "-dM", "-E", "-x", "c", os.devnull])
-    if own and macros.returncode != 0 and _knows(command, []):
+    if macros.returncode != 0 and not _knows(command, []):
+        alone = _run(command, [])
+        if microsoft.BANNER in (banner := alone.stderr + alone.stdout):
+            flags = (*microsoft.ALWAYS, *(own or ("/O2", *_of_microsoft(command))))
+            return Toolchain(command, flags, banner, microsoft=True)
+    elif own and macros.returncode != 0:
         said = macros.stderr.strip().partition("\n")[0]
         raise BuildError(
             f'C compiler: {shlex.join(command)} refuses CFLAGS="{shlex.join(own)}" ({said}); '
             "correct it, or leave it empty"
         )
     return Toolchain(command, used, macros.stdout)
+
+
+def _of_microsoft(command: tuple[str, ...]) -> list[str]:
+    """The wanted flags that this cl knows."""
+    with tempfile.TemporaryDirectory() as scratch:
+        empty = Path(scratch) / "empty.c"
+        empty.touch()
+        tried = {f: _run(command, microsoft.checking(f, empty)) for f in microsoft.WANTED}
+    return [flag for flag, ended in tried.items() if ended.returncode == 0]
 
 
 def _chosen(command: tuple[str, ...]) -> list[str]:
@@ -111,6 +138,8 @@ def _chosen(command: tuple[str, ...]) -> list[str]:
     if _knows(command, favourites):  # one start of the compiler instead of one per flag
         return optimised + favourites
     flags = optimised
+    if not _knows(command, []):  # of another kind
+        return flags
     for alternatives in wanted:
         flags += [flag for flag in alternatives if _knows(command, [flag])][:1]
     return flags
@@ -148,13 +177,16 @@ def compile_library(tools: Toolchain, folder: Path, sources: Sequence[str], outp
     """
 
     def compile_one(source: str) -> str:
-        result = str(folder / f"{source}.o")
-        _checked(tools, ["-I", str(folder), "-c", "-o", result, str(folder / source)])
+        result = str(folder / f"{source}.obj")
+        if tools.microsoft:
+            _checked(tools, microsoft.compiling(folder, folder / source, result))
+        else:
+            _checked(tools, ["-I", str(folder), "-c", "-o", result, str(folder / source)])
         return result
 
     # Threads only wait here: each for a compiler that is a process of its own.
     objects = list(mapped(compile_one, sources))
-    _checked(tools, ["-shared", "-o", str(output), *objects, "-lm"])
+    _checked(tools, _linking(tools, folder / "exports.def", objects, output))
     if not output.is_file():
         raise BuildError(
             f"C compiler: {shlex.join(tools.command)} ended without a mistake, and made nothing; "
@@ -162,10 +194,20 @@ def compile_library(tools: Toolchain, folder: Path, sources: Sequence[str], outp
         )
 
 
+def _linking(tools: Toolchain, listed: Path, objects: Sequence[str], output: Path) -> Sequence[str]:
+    if not (tools.microsoft or "#define _MSC_VER " in tools.identity):
+        return ["-shared", "-o", str(output), *objects, "-lm"]
+    listed.write_text(microsoft.exports(objects), encoding="ascii")
+    if tools.microsoft:
+        return microsoft.linking(objects, output, listed)
+    return ["-shared", "-o", str(output), *objects, f"-Wl,/DEF:{listed}"]
+
+
 def _checked(tools: Toolchain, arguments: Sequence[str]) -> None:
     result = _run([*tools.command, *tools.flags], arguments)
     if result.returncode != 0:
-        words = result.stderr.strip() or f"exit status {result.returncode}, without a word"
+        words = result.stderr.strip() or result.stdout.strip()  # cl writes there
+        words = words or f"exit status {result.returncode}, without a word"
         raise BuildError(
             f"C compiler: {shlex.join(tools.command)} refused the emitted code:\n{words}\n"
             "(check it, or name another one in CC)"
@@ -184,11 +226,13 @@ def portable_library(sources: Mapping[str, str]) -> bytes:
     Raises:
         BuildError: no compiler, or it refused.
     """
-    tools = dataclasses.replace(find_toolchain(), flags=_PORTABLE)
+    tools = find_toolchain()
+    flags = microsoft.PORTABLE if tools.microsoft else _PORTABLE
+    tools = dataclasses.replace(tools, flags=flags)
     with tempfile.TemporaryDirectory() as scratch:
         for name, text in sources.items():
             (Path(scratch) / name).write_text(text, encoding="utf-8", newline="\n")
-        made = Path(scratch) / "library"
+        made = Path(scratch) / f"library{SUFFIX}"
         compile_library(tools, Path(scratch), [n for n in sources if n.endswith(".c")], made)
         return made.read_bytes()
 
@@ -213,18 +257,23 @@ _SCRATCH = (".build-", ".gone-")
 
 
 def cache_folder() -> Path:
-    """$MODELER_CACHE, else $XDG_CACHE_HOME/modeler, else ~/.cache/modeler."""
+    """$MODELER_CACHE, else $XDG_CACHE_HOME/modeler, else where the system keeps caches.
+
+    That is ~/.cache/modeler, ~/Library/Caches/modeler on macOS, %LOCALAPPDATA%/modeler on Windows.
+    """
     own = os.environ.get("MODELER_CACHE", "")
     if own:
         return Path(own)
     shared = os.environ.get("XDG_CACHE_HOME", "")
-    return (Path(shared) if shared else Path.home() / ".cache") / "modeler"
+    shared = shared or (_WINDOWS and os.environ.get("LOCALAPPDATA", "")) or ""
+    usual = "Library/Caches" if sys.platform == "darwin" else ".cache"
+    return (Path(shared) if shared else Path.home() / usual) / "modeler"
 
 
 def libraries(folder: Path) -> list[Path]:
     """The libraries of an entry; none where another process has removed it."""
     try:
-        return sorted(path for path in folder.iterdir() if path.suffix == ".so")
+        return sorted(path for path in folder.iterdir() if path.suffix == SUFFIX)
     except FileNotFoundError:
         return []
 
@@ -246,7 +295,11 @@ def placed(made: Path, final: Path) -> None:
         # Gone again after `mkdir` found it, it is told to exist by Python 3.11.
         with contextlib.suppress(FileNotFoundError, FileExistsError):
             final.parent.mkdir(exist_ok=True)
-            made.replace(final)
+            try:
+                made.replace(final)
+            except PermissionError:  # Windows: a process has it loaded, who built the same
+                if not whole(final):
+                    raise
             return
     made.replace(final)
 
@@ -347,10 +400,10 @@ def _build(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
     with tempfile.TemporaryDirectory(dir=cache, prefix=".build-") as scratch:
         for name, text in sources.items():
             (Path(scratch) / name).write_text(text, encoding="utf-8", newline="\n")
-        made = Path(scratch) / "library"
+        made = Path(scratch) / f"library{SUFFIX}"
         units = [name for name in sorted(sources) if name.endswith(".c")]
         compile_library(tools, Path(scratch), units, made)
-        final = folder / f"{hashlib.sha256(made.read_bytes()).hexdigest()}.so"
+        final = folder / f"{hashlib.sha256(made.read_bytes()).hexdigest()}{SUFFIX}"
         placed(made, final)
     for other in libraries(folder):
         if other != final and not whole(other):

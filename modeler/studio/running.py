@@ -125,6 +125,8 @@ class Running:
         with contextlib.suppress(ProcessLookupError):
             if hasattr(os, "killpg"):
                 os.killpg(self._process.pid, number)
+            elif number == signal.SIGINT and self._process.stdin is not None:
+                self._process.stdin.close()  # it interrupts itself: on Windows nobody else can
             else:
                 self._process.send_signal(number)
 

@@ -9,7 +9,8 @@ import pytest
 
 import modeler.api
 from docsite.commands import command_pages, commands
-from docsite.gallery import exhibit, gallery_index
+from docsite.doctests import fenced
+from docsite.gallery import coefficients, exhibit, gallery_index
 from docsite.hooks import BESIDE, notebooks
 from docsite.house import house_svg
 from docsite.interface import exported, interface_pages
@@ -113,6 +114,13 @@ def test_an_exhibit_says_what_the_robot_has() -> None:
     assert "[scara](scara.md)" in index and f"| 4 | {found.base} | {found.lines} |" in index
 
 
+def test_coefficients_that_a_paper_numbers() -> None:
+    assert coefficients(derive(load("scara"))) == []
+    rows = "\n".join(coefficients(derive(load("wrist")))).splitlines()
+    assert sum(row.startswith("| P") for row in rows) == 101
+    assert "| PX5 | S223 | `1` | `PJ2` | `-2*XY3` | `2*cJ23 - 2*cm*ct2*ct3` |" in rows
+
+
 def test_robots_with_names_that_markdown_reads() -> None:
     assert "kinova_gen3" in builtin_names()
     page = exhibit("emps").page
@@ -150,3 +158,11 @@ def test_a_notebook_that_cannot_be_run_is_shown_as_it_is(tmp_path, monkeypatch) 
     path.write_text('{"cells": []}')
     monkeypatch.setattr("docsite.notebook.RUNS_WITH", ("no_such_package",))
     assert executed(path) == '{"cells": []}'
+
+
+def test_examples_in_docstrings_are_code() -> None:
+    """A quotation with links in brackets breaks a strict build."""
+    text = 'First.\n\n>>> a["1"]\n[1, 2]\n\nArgs:\n    a: b'
+    found = fenced(text)
+    assert found == 'First.\n\n```python\n>>> a["1"]\n[1, 2]\n```\n\nArgs:\n    a: b'
+    assert fenced(">>> 1\n1") == "```python\n>>> 1\n1\n```" and fenced("None.") == "None."

@@ -1,13 +1,15 @@
 """The table of estimators: complete, told, and refused by name."""
 
-from pathlib import Path
 from typing import get_args
 
 import pytest
 
+from docsite.commands import command_pages
+from docsite.markdown import cell
 from modeler.core.errors import DataError, Method
 from modeler.core.estimators import ABOUT, titled
 from modeler.estimation.methods import METHODS, capable, method_of
+from tests.repository import ROOT
 
 
 def test_choices_words_and_functions_are_the_same_list():
@@ -44,11 +46,11 @@ def test_what_an_estimator_does_not_work_on_is_refused(of: str, sentence: str):
         method_of("robust", of)
 
 
-def test_the_page_says_what_the_table_says():
-    page = (
-        Path(__file__).resolve().parents[2] / "docs" / "explanation" / "estimators.md"
-    ).read_text("utf-8")
+def test_pages_say_what_the_table_says():
+    page = (ROOT / "docs" / "explanation" / "estimators.md").read_text("utf-8")
+    made = command_pages()["commands/estimators.md"]
     for about in ABOUT.values():
         law = about.law.replace("|", "&#124;")
-        told = (f"`{about.id}`", about.title, law, about.source, about.avoid, about.motion)
-        assert f"| {' | '.join(told)} |" in page, about.id
+        assert f"| `{about.id}` | {law} | {about.source} |" in page, about.id
+        told = (about.title, about.law, about.source, about.avoid, about.motion)
+        assert f"| `{about.id}` | {' | '.join(map(cell, told))} |" in made, about.id

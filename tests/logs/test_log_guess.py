@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.logs.guess import guesses
+from modeler.logs.guess import guesses, log_text
 from modeler.logs.mapping import find_unit
 
 
@@ -43,3 +43,16 @@ def test_german_units() -> None:
     for one, other in ((find_unit(text), find_unit(like)) for text, like in same.items()):
         assert one is not None and other is not None
         assert one.powers == other.powers and one.factor == pytest.approx(other.factor)
+
+
+def test_joints_with_units_of_their_own_are_one_quantity() -> None:
+    """A slide in mm beside axes in degrees; what has another kind stays another quantity."""
+    columns = {"t": np.arange(50.0)}
+    names = ("axis1 [deg]", "axis2 [deg]", "axis3 [mm]", "axis1 [A]", "axis2 [A]", "axis3 [A]")
+    columns |= {name: np.sin(k + np.arange(50.0)) for k, name in enumerate(names)}
+    found = guesses(columns, {})
+    by = {one.own: one for one in found}
+    assert by["q"].columns == names[:3] and by["q"].units == ("deg", "deg", "mm")
+    assert by["current"].columns == names[3:]
+    lines = log_text(found).splitlines()
+    assert lines[2:4] == ['"q<j>" = "axis{j} [deg]"', 'q3 = "axis3 [mm]"']

@@ -162,3 +162,39 @@ def test_loops_at_other_lengths_keep_their_rank(name):
     assert before == {
         p.name: [(t.parameter, str(t.coefficient)) for t in p.terms] for p in base.parameters
     }
+
+
+def test_what_cancels_over_the_legs_is_not_written():
+    """Three equal legs of a planar platform: their first moments add up to nothing."""
+    text = """name = "star"
+gravity = [0, 0, 0]
+legs = ["1", "2", "3"]
+shared = ["*2{i}"]
+[symbols]
+R = 0.5
+L = 0.45
+rp = 0.1
+p1 = 0
+p2 = "120 deg"
+p3 = "240 deg"
+[mdh]
+columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
+rows = [
+  ["base{i}", "0", 0, 2, "p{i}", 0, "R", 0, 0],
+  ["1{i}", "base{i}", 1, 1, 0, "-pi/2", 0, 0, "q1{i}"],
+  ["2{i}", "1{i}", 0, 0, 0, "pi/2", 0, "q2{i}", 0],
+  ["end{i}", "2{i}", 0, 2, 0, 0, "L", 0, 0],
+  ["corner{i}", "P", 0, 2, "p{i}", 0, "rp", 0, 0],
+]
+[platform]
+name = "P"
+motion = "planar"
+[loops]
+columns = ["loop", "frame", "meets", "joint"]
+rows = [["leg{i}", "end{i}", "corner{i}", "revolute"]]
+"""
+    base = base_parameters(derive_model(robot_from_text(text, "star.toml")))
+    terms = {p.name: {t.parameter: t.coefficient for t in p.terms} for p in base.parameters}
+    assert terms["MPR"]["M2"] == 3
+    assert "MXP" in terms and "MYP" in terms
+    assert all(value != 0 for found in terms.values() for value in found.values())

@@ -1,93 +1,131 @@
-"""The notebook in docs/ runs from its first cell to its last, and shows what it says."""
+"""The notebooks in docs/ run from their first cell to their last, and show what they say."""
 
 import importlib.util
 import json
-import os
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from docsite.notebook import RUNS_WITH, executed
+
 pytestmark = pytest.mark.slow  # docs/reference/python.md is run with the other pages
 
-ROOT = Path(__file__).resolve().parents[2]
-NOTEBOOK = ROOT / "docs" / "tutorials" / "identification.ipynb"
+TUTORIALS = Path(__file__).resolve().parents[2] / "docs" / "tutorials"
+NOTEBOOKS = sorted(path.stem for path in TUTORIALS.glob("*.ipynb"))
+
+TEXTS = ("text/plain", "text/html", "text/latex")
+SHOWN: dict[str, dict[str, str]] = {
+    "paper": {
+        "leg": "theta",
+        "derived.relations": r"\begin{align",
+        "alike.base.rank": "23",
+        "model": "MPR",
+    },
+    "csv-to-c": {"arm": "theta", "model": "relative sigma", "comparison": "repeatable"},
+    "what-is-missing": {
+        "model": "relative sigma",
+        "comparison": "repeatable",
+        "found": "load_friction",
+        'better.table("waterfall")': "load_friction",
+        "better.missing()": "nothing",
+    },
+    "urdf": {"model": "relative sigma", "exported": "friction"},
+    "fleet": {"found": "viscous"},
+}
+"""Of each notebook: lines that end a cell, and a word in what they show."""
 
 
-def test_the_notebook_is_kept_without_outputs() -> None:
-    kept = json.loads(NOTEBOOK.read_text(encoding="utf-8"))
+def cells(name: str) -> list[tuple[str, dict[str, str]]]:
+    """The last line of each cell that shows something, and what it shows by kind."""
+    if any(importlib.util.find_spec(package) is None for package in RUNS_WITH):
+        pytest.skip(f"NOT CHECKED: without all of {', '.join(RUNS_WITH)} no notebook is run")
+    found = []
+    for cell in json.loads(executed(TUTORIALS / f"{name}.ipynb"))["cells"]:
+        for output in cell.get("outputs", ()):
+            assert output["output_type"] != "error", output
+            assert output.get("name") != "stderr", output["text"]
+            line = "".join(cell["source"]).splitlines()[-1]
+            data = output.get("data") or {"text/plain": output["text"]}
+            found.append((line, {kind: "".join(text) for kind, text in data.items()}))
+    return found
+
+
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_the_notebooks_are_kept_without_outputs(name: str) -> None:
+    kept = json.loads((TUTORIALS / f"{name}.ipynb").read_text(encoding="utf-8"))
     assert kept["nbformat"] == 4
     for cell in kept["cells"]:
         if cell["cell_type"] == "code":
             assert cell["outputs"] == [] and cell["execution_count"] is None
-    assert NOTEBOOK.stat().st_size < 20_000
 
 
-@pytest.fixture(scope="module")
-def executed(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """The notebook with the outputs of a fresh kernel."""
-    for package in ("nbclient", "ipykernel", "pandas"):
-        if importlib.util.find_spec(package) is None:
-            pytest.skip(f"NOT CHECKED: {package} is not installed, so the notebook is not run")
-    import nbformat
-    from nbclient import NotebookClient
-
-    notebook = nbformat.read(NOTEBOOK, as_version=4)
-    nbformat.validate(notebook)
-    folder = tmp_path_factory.mktemp("notebook")
-    before = os.environ.get("PYTHONPATH")
-    os.environ["PYTHONPATH"] = os.pathsep.join([str(ROOT), *([before] if before else [])])
-    try:
-        client = NotebookClient(
-            notebook, timeout=240, kernel_name="python3",
-            resources={"metadata": {"path": str(folder)}},
-        )  # fmt: skip
-        return client.execute()
-    finally:
-        os.environ.pop("PYTHONPATH")
-        if before is not None:
-            os.environ["PYTHONPATH"] = before
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_no_cell_fails_and_each_shows_what_it_says(name: str) -> None:
+    shown = cells(name)
+    for line, words in SHOWN[name].items():
+        texts = [data.get(kind, "") for last, data in shown if last == line for kind in TEXTS]
+        assert any(words in text for text in texts), line
+    for line, data in shown:
+        if ".plot(" in line:
+            assert len(data["image/png"]) > 5000, line
+        assert len(data["text/plain"]) < 4000
+    printed = "\n".join(data["text/plain"] for _, data in shown if data.keys() == {"text/plain"})
+    TRUE[name](printed)
 
 
-def outputs(executed: Any) -> list[tuple[str, dict[str, str]]]:
-    """The last line of each cell that shows something, and what it shows by kind."""
-    found = []
-    for cell in executed.cells:
-        for output in cell.get("outputs", ()):
-            assert output["output_type"] != "error", output
-            assert output.get("name") != "stderr", output["text"]
-            if "data" in output:
-                found.append((cell["source"].splitlines()[-1], dict(output["data"])))
-    return found
+def _paper(printed: str) -> None:
+    assert "163 standard, 43 base parameters" in printed and "MPR = MP + MX31/D41" in printed
+    assert float(re.findall(r"([\d.]+) % off", printed)[0]) < 1.0
 
 
-def shown(executed: Any, line: str) -> dict[str, str]:
-    """What the cell that ends in that line shows."""
-    return next(data for last, data in outputs(executed) if last == line)
+def _csv_to_c(printed: str) -> None:
+    """The C and Python say the same torques."""
+    assert "decimal commas" in printed and "no doubts" in printed
+    c, python = re.search(r"^([\d. ]{20,})$", printed, re.M), re.search(r"array\((.*)\)", printed)
+    assert c is not None and python is not None
+    assert json.loads(python[1])[0] == pytest.approx([float(x) for x in c[1].split()], abs=1e-5)
 
 
-def test_no_cell_fails_or_complains(executed: Any) -> None:
-    assert len(outputs(executed)) > 12
+def _what_is_missing(printed: str) -> None:
+    before, after = re.findall(r"([\d.]+) % -> ([\d.]+) % of the torque", printed)[0]
+    assert float(after) < 0.3 * float(before)
 
 
-def test_figures_and_tables_are_there(executed: Any) -> None:
-    for line in ("robot.plot()", "train.plot()", "model.plot()", 'comparison.plot("time 2")',
-                 "diagnosis.plot()", 'better.plot("waterfall")'):  # fmt: skip
-        assert len(shown(executed, line)["image/png"]) > 5000, line
-    for line, words in (
-        ("robot", "theta"), ("derivation", "base parameter"), ("model", "relative sigma"),
-        ("comparison", "repeatable"), ("diagnosis", "load_friction"), ("module", "demo_arm_"),
-    ):  # fmt: skip
-        assert words in shown(executed, line)["text/html"], line
-    for line in ("derivation.relations", "derivation.closed_form()"):
-        assert r"\begin{align" in shown(executed, line)["text/latex"]
-    assert all(len(data["text/plain"]) < 1000 for _, data in outputs(executed))
+def _urdf(printed: str) -> None:
+    """Friction is that of the robot as it is: 1.8 N m."""
+    value, sigma = re.findall(r"Fs2 = ([\d.]+) \+- ([\d.]+) N m", printed)[0]
+    assert abs(float(value) - 1.8) < 5 * float(sigma)
+    assert "armature=" in printed and '<mass value="3.0"/>' in printed
 
 
-def test_the_error_falls(executed: Any) -> None:
-    """The story that the notebook tells is true."""
-    table = shown(executed, 'better.table("waterfall")')["text/html"]
-    assert "as fitted" in table and "load_friction" in table
-    rows = [row.split("<td>")[1:] for row in table.split("<tr>")[2:]]
-    first, last = (float(row[2].split("<")[0]) for row in (rows[0], rows[-1]))
-    assert last < 0.3 * first
+def _fleet(printed: str) -> None:
+    assert re.search(r"machine c, joint 2: viscous friction \(Fv2\) rises by 4\d", printed)
+    assert re.search(
+        r"machine d, joint 1: drive gain leaps down by [56]\.\d+ % at 2026-09", printed
+    )
+    assert printed.count("machine c") == printed.count("machine d") == 1
+
+
+TRUE = {
+    "paper": _paper,
+    "csv-to-c": _csv_to_c,
+    "what-is-missing": _what_is_missing,
+    "urdf": _urdf,
+    "fleet": _fleet,
+}
+"""The story that each notebook tells is true."""
+
+
+def test_the_site_shows_the_last_run_of_the_same_program(tmp_path: Path, monkeypatch: Any) -> None:
+    import docsite.notebook as notebook
+
+    monkeypatch.setattr(notebook, "KEPT", tmp_path)
+    runs: list[Path] = []
+    monkeypatch.setattr(notebook, "_run", lambda path: runs.append(path) or f"run {len(runs)}")
+    path = TUTORIALS / "paper.ipynb"
+    assert notebook.last_run(path) == notebook.last_run(path) == "run 1"
+    assert executed(path) == notebook.last_run(path) == "run 2"
+    monkeypatch.setattr(notebook, "program_text", lambda: b"another program")
+    assert notebook.last_run(path) == "run 3"

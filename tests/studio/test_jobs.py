@@ -17,6 +17,8 @@ from tests.turns import in_turn
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "studio"
 KEPT = {"robot": 900, "data": 1000, "fit": 900, "fails": 1400, "missing": 1250, "fall": 1150}
 """Pictures, and the heights of their windows."""
+STORY, GAP = {"missing": 832, "fall": 574}, 24
+"""`story.png`, of the README: the upper rows of the named effect and of the error that falls."""
 
 Kept = Callable[[str], None]
 
@@ -190,10 +192,26 @@ def in_few_colours(picture: bytes) -> bytes:
     return whole.getvalue()
 
 
+def story(folder: Path) -> bytes:
+    """The upper parts of kept pictures, one under the other."""
+    from PIL import Image
+
+    whole = Image.new("RGB", (1280, sum(STORY.values()) + GAP * (len(STORY) - 1)), "white")
+    top = 0
+    for name, height in STORY.items():
+        window = Image.open(folder / f"{name}.png").convert("RGB")
+        whole.paste(window.crop((0, 0, 1280, height)), (0, top))
+        top += height + GAP
+    written = io.BytesIO()
+    whole.save(written, "PNG")
+    return in_few_colours(written.getvalue())
+
+
 def test_an_arm_with_a_hidden_effect(tmp_path, window, regenerate: bool) -> None:
     """Its jobs are tested one by one elsewhere; here they are gone through for the pictures."""
     if not regenerate:
-        assert all((DOCS / f"{name}.png").is_file() for name in KEPT), "run `make regenerate`"
+        kept = [*KEPT, "story"]
+        assert all((DOCS / f"{name}.png").is_file() for name in kept), "run `make regenerate`"
         return
     with served(tmp_path / "arm") as studio:
         seat = window(accept_downloads=True)
@@ -211,6 +229,7 @@ def test_an_arm_with_a_hidden_effect(tmp_path, window, regenerate: bool) -> None
         person.until(lambda: person.count("log") == 2)
         # a motion is searched for, played and taken in test_robot_screen.py
         assert all_of(person, motion=False) == ["load_friction@2"]
+    (DOCS / "story.png").write_bytes(story(DOCS))
 
 
 @in_turn("screens of the studio")

@@ -4,6 +4,7 @@ import errno
 import os
 import subprocess
 import sys
+import types
 from pathlib import Path
 
 import pytest
@@ -174,3 +175,20 @@ def test_what_another_step_names_stays(tmp_path: Path) -> None:
     (tmp_path / "models/2.json").write_text("x")
     steps = (step(1, 0, "fit", model="models/2.json"),)
     assert spare(tmp_path, Project(current=1, steps=steps)).files == ()
+
+
+def test_the_lock_of_windows(tmp_path: Path, monkeypatch) -> None:
+    """As its module `msvcrt` has it: the first byte, without waiting."""
+    asked = []
+
+    def locking(descriptor: int, mode: int, count: int) -> None:
+        asked.append((os.lseek(descriptor, 0, os.SEEK_CUR), mode, count))
+        if len(asked) > 1:
+            raise OSError(13, "Permission denied")
+
+    fake = types.SimpleNamespace(LK_NBLCK=2, locking=locking)
+    monkeypatch.setitem(sys.modules, "msvcrt", fake)
+    monkeypatch.setattr("modeler.studio.places.os", types.SimpleNamespace(name="nt"))
+    with folder_lock(tmp_path) as first, folder_lock(tmp_path) as second:
+        assert (first, second) == (True, False)
+    assert asked == [(0, 2, 1)] * 2

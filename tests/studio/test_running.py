@@ -93,9 +93,20 @@ def test_files_of_the_project_are_no_modules(tmp_path: Path) -> None:
     assert not (tmp_path / "was-run").exists()
 
 
-def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path) -> None:
+@pytest.mark.parametrize("groups", [True, False], ids=["groups", "as on Windows"])
+def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path, monkeypatch, groups) -> None:
+    """Where there are no groups of processes, the command ends itself when its pipe ends."""
+    work = tmp_path / "work"
+    work.mkdir()
+    if not groups:
+        (tmp_path / "sitecustomize.py").write_text("import os\ndel os.killpg\n")
+        monkeypatch.setenv(
+            "PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}"
+        )
+        monkeypatch.delattr(os, "killpg")
+
     async def cancelled() -> Outcome:
-        running = Running((*LONG, str(tmp_path / "cancelled.csv")), tmp_path, "simulate")
+        running = Running((*LONG, str(work / "cancelled.csv")), work, "simulate")
         await begun(running)
         running.cancel()
         running.cancel()
@@ -105,7 +116,7 @@ def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path) -> None:
     outcome = asyncio.run(cancelled())
     assert outcome.status == INTERRUPTED and outcome.error == "simulate: cancelled"
     assert outcome.cancelled and time.monotonic() - begin < 20
-    assert gone(str(tmp_path), 1.0) and not list(tmp_path.iterdir())
+    assert gone(str(work), 1.0) and not list(work.iterdir())
 
 
 async def begun(running: Running) -> None:

@@ -1,0 +1,112 @@
+"""Without a C compiler: what works all the same, and what says in one line what to install."""
+
+import json
+import shlex
+
+import pytest
+
+import modeler.runtime.model as compiled_model
+from modeler.cli import main
+from modeler.cli.command_table import COMMANDS
+from modeler.core.builtin import builtin_text
+
+WORKS = {
+    "derive": ("derive five-bar --json out.json", "out.json"),
+    "show": ("show wrist --out page.html", "page.html"),
+    "generate": ("generate model.json --out folder", "folder/manifest.json"),
+    "log": ("log a.parquet --robot two-link --report page.html", "page.html"),
+    "physical": ("physical model.json --known m1=3,m2=2 --json out.json", "out.json"),
+    "convert": ("convert arm.urdf --out arm.toml", "arm.toml"),
+    "export": ("export model.json --like arm.urdf --out better.urdf", "better.urdf"),
+    "simulate": ("simulate two-link --duration 1 --out b.csv", "b.csv"),
+    "home": ("home five-bar", None),
+    "new": ("new own.toml --template parallel", "own.toml"),
+    "robots": ("robots wrist", None),
+    "effects": ("effects load_friction", None),
+    "estimators": ("estimators", None),
+    "completion": ("completion bash", None),
+}
+"""A command of each name, and what it writes."""
+
+REFUSES = {
+    "fit": "fit two-link a.parquet --out m.json",
+    "compare": "compare model.json a.parquet",
+    "diagnose": "diagnose model.json a.parquet",
+    "add": "add model.json load_friction --joint 2 a.parquet --out m.json",
+    "excite": "excite two-link --out motion.csv",
+    "fleet": "fleet two-link a.parquet",
+    "demo": "demo --out demo",
+    "reproduce": "reproduce hanssen-2000",
+}
+
+ELSEWHERE = {"studio"}
+"""It starts, and its jobs are commands."""
+
+FORMATS = ("urdf", "mjcf", "sdf", "fmu", "casadi", "ros2")
+
+
+@pytest.fixture(scope="module")
+def given(tmp_path_factory):
+    """A log, a model and a URDF, made where there is a compiler."""
+    folder = tmp_path_factory.mktemp("given")
+    for words in (
+        f"simulate two-link --duration 4 --rate 200 --out {folder}/a.parquet",
+        f"fit two-link {folder}/a.parquet --out {folder}/model.json",
+        f"export {folder}/model.json --to urdf --out {folder}/arm.urdf",
+    ):
+        assert main(words.split()) == 0
+    return folder
+
+
+@pytest.fixture
+def here(given, tmp_path, monkeypatch):
+    """A folder with these, on a machine without a compiler and with nothing compiled."""
+    (tmp_path / "nothing").mkdir()
+    folder = tmp_path / "work"
+    folder.mkdir()
+    for place in given.iterdir():
+        (folder / place.name).write_bytes(place.read_bytes())
+    monkeypatch.setenv("PATH", str(tmp_path / "nothing"))
+    monkeypatch.delenv("CC", raising=False)
+    monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setattr(compiled_model, "_MODELS", {})
+    monkeypatch.chdir(folder)
+    return folder
+
+
+def test_every_command_stands_here() -> None:
+    assert {*WORKS, *REFUSES, *ELSEWHERE} == set(COMMANDS)
+
+
+@pytest.mark.parametrize("name", WORKS)
+def test_these_work(here, name, capsys) -> None:
+    words, written = WORKS[name]
+    assert main(shlex.split(words)) == 0, capsys.readouterr().err
+    assert written is None or (here / written).stat().st_size > 100
+
+
+def test_every_way_out_works(here, capsys) -> None:
+    for kind in FORMATS:
+        assert main(["export", "model.json", "--to", kind, "--out", kind]) == 0
+    assert "sources only, for nothing could be compiled here" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", REFUSES)
+def test_these_say_what_to_install(here, name, capsys) -> None:
+    assert main(REFUSES[name].split()) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("modeler: C compiler: none of cc, gcc, clang is found; install one: ")
+    assert "MinGW-w64 or Visual Studio" in line
+
+
+def test_a_log_tells_that_no_fit_was_tried(here, capsys) -> None:
+    """All else of the log is as with a compiler; a mapping is not written untried."""
+    assert main(["log", "a.parquet", "--robot", "two-link", "--json", "log.json"]) == 0
+    doubts = json.loads((here / "log.json").read_text())["doubts"]
+    (line,) = [doubt for doubt in doubts if "C compiler" in doubt]
+    assert line.startswith("not tried by a fit of two-link: C compiler: none of cc")
+    text = builtin_text("two-link")
+    (here / "own.toml").write_text(text, encoding="utf-8")
+    assert main(["log", "a.parquet", "--robot", "own.toml", "--write"]) == 1
+    assert "C compiler: none of cc" in capsys.readouterr().err
+    assert (here / "own.toml").read_text(encoding="utf-8") == text
