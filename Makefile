@@ -39,7 +39,7 @@ lint: .venv/.installed-test
 	$(BIN)/python -m mypy
 
 docs: .venv/.installed-docs
-	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 	@echo 'built: build/site/index.html'
 
 regenerate: .venv/.installed-test

@@ -28,7 +28,11 @@ CASES = (
     _Case("6x400s", "ur10e", "load_friction@3", 400.0, 6.0, 3.0, 600.0),
 )
 
-WHAT = "of two logs (demo-arm and panda 40 s each, ur10e 400 s)"
+LOGS = {
+    "fit": "of a log (demo-arm and panda 40 s, ur10e 400 s)",
+    "compare": "with another",
+    "diagnose": "of both",
+}
 
 
 def _measure(quick: bool) -> Mapping[str, float]:
@@ -62,7 +66,7 @@ def _keys() -> tuple[Key, ...]:
         for command in ("fit", "compare", "diagnose"):
             own = command == "diagnose"
             keys += [
-                Key(f"{command}_seconds.{case.name}", "s", f"`modeler {command}` {WHAT}.",
+                Key(f"{command}_seconds.{case.name}", "s", f"`modeler {command}` {LOGS[command]}.",
                     case.must if own else None, case.aim if own else None),
                 Key(f"{command}_peak_mb.{case.name}", "MB", "The same: largest resident memory.",
                     case.most if own else None),

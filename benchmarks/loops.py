@@ -100,7 +100,7 @@ def _keys() -> tuple[Key, ...]:
     keys = []
     for name in ROBOTS:
         last, home = MUST.get(name, (None, None))
-        what = "A sample of the base regressor, closed from"
+        what = "A sample, closed from"
         keys += [
             Key(f"loops_us.{name}", "us", f"{what} the sample before.", last, last and last / 2),
             Key(f"loops_home_us.{name}", "us", f"{what} home.", home, home and home / 2),

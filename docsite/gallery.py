@@ -16,7 +16,6 @@ from modeler.derivation import as_markdown
 from modeler.report import picture_bytes, show
 from modeler.robot import read_robot
 
-
 WRITTEN = Path(__file__).resolve().parents[1] / "docs" / "robots"
 """Pages on single robots."""
 

@@ -9,6 +9,7 @@ import pytest
 
 import modeler.api
 from docsite.commands import command_pages, commands
+from docsite.doctests import fenced
 from docsite.gallery import coefficients, exhibit, gallery_index
 from docsite.hooks import BESIDE, notebooks
 from docsite.house import house_svg
@@ -154,3 +155,11 @@ def test_a_notebook_that_cannot_be_run_is_shown_as_it_is(tmp_path, monkeypatch) 
     path.write_text('{"cells": []}')
     monkeypatch.setattr("docsite.notebook.RUNS_WITH", ("no_such_package",))
     assert executed(path) == '{"cells": []}'
+
+
+def test_examples_in_docstrings_are_code() -> None:
+    """A quotation with links in brackets breaks a strict build."""
+    text = 'First.\n\n>>> a["1"]\n[1, 2]\n\nArgs:\n    a: b'
+    found = fenced(text)
+    assert found == 'First.\n\n```python\n>>> a["1"]\n[1, 2]\n```\n\nArgs:\n    a: b'
+    assert fenced(">>> 1\n1") == "```python\n>>> 1\n1\n```" and fenced("None.") == "None."
