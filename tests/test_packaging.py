@@ -7,7 +7,7 @@ import subprocess
 import sys
 import tomllib
 from importlib import metadata
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 import pytest
 import yaml
@@ -244,6 +244,25 @@ def test_the_dockerfile_is_as_hadolint_wants_it() -> None:
     result = subprocess.run([program, "--no-color", str(ROOT / "Dockerfile")],
                             capture_output=True, text=True, check=False)  # fmt: skip
     assert (result.returncode, result.stdout) == (0, ""), result.stdout
+
+
+_RESERVED = re.compile(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?|.*[<>:\"|?*\\\x00-\x1f].*|.*[. ]")
+"""Names that Windows has for devices, letters that it has for other things, ends that it drops."""
+
+
+def test_windows_and_macos_can_hold_every_file() -> None:
+    names = kept_files()
+    parts = {part for name in names for part in PureWindowsPath(name).parts}
+    assert not [part for part in parts if _RESERVED.fullmatch(part)]
+    folders = {parent.as_posix() for name in names for parent in PureWindowsPath(name).parents}
+    assert len({name.lower() for name in names}) == len(names)  # they know no large letters
+    assert len({folder.lower() for folder in folders}) == len(folders)
+    assert max(map(len, names)) < 120  # of the 260 that a path may have
+
+
+@pytest.mark.parametrize("name", ["aux.c", "COM1", "a:b", "x.", "what?.md"])
+def test_what_windows_cannot_hold_would_be_found(name: str) -> None:
+    assert _RESERVED.fullmatch(name) and not _RESERVED.fullmatch("console.py")
 
 
 def test_there_is_no_lock_file() -> None:
