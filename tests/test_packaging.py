@@ -1,11 +1,13 @@
 """Metadata, pins, version and changelog agree, and nothing names one particular machine."""
 
+import os
 import re
 import shutil
 import subprocess
+import sys
 import tomllib
 from importlib import metadata
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 import pytest
 import yaml
@@ -196,6 +198,71 @@ def test_nothing_names_a_registry_or_a_machine() -> None:
 )
 def test_what_must_not_be_named_would_be_found(line: str) -> None:
     assert any(re.search(pattern, line) for pattern in _FORBIDDEN.values())
+
+
+CONDA = {"matplotlib": "matplotlib-base", "cvxpy": "cvxpy-base"}
+"""What is called otherwise there: parts that need no window and no commercial solver."""
+
+
+def test_the_recipe_for_conda_says_what_the_project_says(settings: dict) -> None:
+    """Read and rendered by the program that builds from it; every bound of every dependency."""
+    rattler = pytest.importorskip("rattler_build", reason="NOT CHECKED: no py-rattler-build")
+    recipe = rattler.Stage0Recipe.from_file(str(ROOT / "conda" / "recipe.yaml"))
+    (made,) = recipe.render(rattler.VariantConfig())
+    assert "modeler-robotics" in repr(made) and f"'{modeler.__version__}'" in repr(made)
+    told, project = recipe.to_dict(), settings["project"]
+    names = [Requirement(line) for line in project["dependencies"]]
+    bounds = {CONDA.get(r.name, r.name): str(r.specifier) for r in names}
+    needs = told["requirements"]
+    assert _bounds(needs["run"]) == {"python": project["requires-python"], **bounds}
+    building = [Requirement(line) for line in settings["build-system"]["requires"]]
+    made_with = {r.name: str(r.specifier) for r in building}
+    assert _bounds(needs["host"]) == {"python": project["requires-python"], "pip": "", **made_with}
+    groups = project["optional-dependencies"].items()
+    extras = {r.name: str(r.specifier) for name, group in groups if name not in ("test", "docs")
+              for r in map(Requirement, group)}  # fmt: skip
+    elsewhere = {"cupy-cuda12x", "mujoco-core"}
+    assert _bounds(needs["run_constraints"]) == {
+        name: bound for name, bound in extras.items() if name not in elsewhere
+    }
+    about, build = told["about"], told["build"]
+    assert about["license"] == project["license"] and about["summary"] == project["description"]
+    assert about["license_file"] == project["license-files"]
+    (script,) = build["python"]["entry_points"]
+    assert dict([script.split(" = ")]) == project["scripts"]
+
+
+def _bounds(lines: list[str]) -> dict[str, str]:
+    return {name: bound for name, _, bound in (line.partition(" ") for line in lines)}
+
+
+def test_the_dockerfile_is_as_hadolint_wants_it() -> None:
+    folders = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    program = shutil.which("hadolint", path=folders)
+    if program is None:
+        pytest.skip("NOT CHECKED: hadolint is not installed")
+    result = subprocess.run([program, "--no-color", str(ROOT / "Dockerfile")],
+                            capture_output=True, text=True, check=False)  # fmt: skip
+    assert (result.returncode, result.stdout) == (0, ""), result.stdout
+
+
+_RESERVED = re.compile(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?|.*[<>:\"|?*\\\x00-\x1f].*|.*[. ]")
+"""Names that Windows has for devices, letters that it has for other things, ends that it drops."""
+
+
+def test_windows_and_macos_can_hold_every_file() -> None:
+    names = kept_files()
+    parts = {part for name in names for part in PureWindowsPath(name).parts}
+    assert not [part for part in parts if _RESERVED.fullmatch(part)]
+    folders = {parent.as_posix() for name in names for parent in PureWindowsPath(name).parents}
+    assert len({name.lower() for name in names}) == len(names)  # they know no large letters
+    assert len({folder.lower() for folder in folders}) == len(folders)
+    assert max(map(len, names)) < 120  # of the 260 that a path may have
+
+
+@pytest.mark.parametrize("name", ["aux.c", "COM1", "a:b", "x.", "what?.md"])
+def test_what_windows_cannot_hold_would_be_found(name: str) -> None:
+    assert _RESERVED.fullmatch(name) and not _RESERVED.fullmatch("console.py")
 
 
 def test_there_is_no_lock_file() -> None:

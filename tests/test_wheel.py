@@ -1,5 +1,6 @@
-"""The wheel, installed elsewhere and used from another folder, does what the checkout does."""
+"""Wheel and sdist, installed elsewhere and used from another folder, do what the checkout does."""
 
+import json
 import os
 import re
 import subprocess
@@ -7,6 +8,7 @@ import sys
 import sysconfig
 import tarfile
 import zipfile
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -58,20 +60,50 @@ def test_the_sdist_can_be_tested(built: tuple[Path, Path]) -> None:
     assert {"Makefile", "constraints.txt", "tests/test_wheel.py", "LICENSE"} <= names
 
 
-@pytest.fixture(scope="module")
-def installed(built: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of programs of a new environment: our wheel, and what it needs from this one."""
-    place = tmp_path_factory.mktemp("environment with a space")
+def _installed(place: Path, archive: Path) -> Path:
+    """The folder of programs of a new environment: ours, and what it needs from this one."""
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(place)], check=True)
     programs = place / "bin"
-    pip = [sys.executable, "-m", "pip", "--python", str(programs / "python")]
-    install = [*pip, "install", "-q", "--no-deps", "--no-index", str(built[1])]
-    subprocess.run(install, check=True)
     # A folder named in a .pth file is searched last, and its own .pth files (which make an
-    # editable modeler importable) are not followed: only the wheel can be found as modeler.
+    # editable modeler importable) are not followed: only what is installed is found as modeler.
     (packages,) = place.glob("lib/python*/site-packages")
     (packages / "needs.pth").write_text(sysconfig.get_path("purelib") + "\n", encoding="utf-8")
+    pip = [sys.executable, "-m", "pip", "--python", str(programs / "python"), "install", "-q"]
+    command = [*pip, "--no-deps", "--no-index", "--no-build-isolation", "--ignore-installed"]
+    subprocess.run([*command, str(archive)], check=True)
     return programs
+
+
+@pytest.fixture(scope="module")
+def installed(built: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Programs of the wheel."""
+    return _installed(tmp_path_factory.mktemp("environment with a space"), built[1])
+
+
+@pytest.fixture(scope="module")
+def from_sdist(built: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Programs of the sdist."""
+    return _installed(tmp_path_factory.mktemp("sdist"), built[0])
+
+
+Run = Callable[..., str]
+
+
+def _runner(programs: Path, folder: Path) -> Run:
+    """Runs a program of that environment in that folder; gives what it prints."""
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
+    environment |= {"MODELER_CACHE": str(folder / "cache"), "OPENBLAS_NUM_THREADS": "1"}
+
+    def run(name: str, *words: str) -> str:
+        own = programs / name
+        command = [str(own) if own.exists() else name, *words]
+        result = subprocess.run(
+            command, cwd=folder, env=environment, capture_output=True, text=True, check=False
+        )
+        assert result.returncode == 0, result.stdout + result.stderr
+        return result.stdout
+
+    return run
 
 
 _USE = """
@@ -105,21 +137,43 @@ print("used")
 """
 
 
-def test_the_wheel_works_from_another_folder(installed: Path, tmp_path: Path) -> None:
-    environment = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
-    environment["MODELER_CACHE"] = str(tmp_path / "cache")
-
-    def run(*command: str) -> str:
-        result = subprocess.run(
-            [str(installed / command[0]), *command[1:]],
-            cwd=tmp_path, env=environment, capture_output=True, text=True, check=False,
-        )  # fmt: skip
-        assert result.returncode == 0, result.stdout + result.stderr
-        return result.stdout
-
-    run("modeler", "generate", "two-link", "--out", "arm")
-    assert run("python", "-c", _USE, "arm") == "used\n"
+@pytest.mark.parametrize("archive", ["installed", "from_sdist"])
+def test_what_a_stranger_does_first(archive: str, request, tmp_path: Path) -> None:
+    """A log, a fit, a page, C that checks itself; the C in Python, against a textbook."""
+    run = _runner(request.getfixturevalue(archive), tmp_path)
     assert re.fullmatch(r"modeler \d+\.\d+\.\d+\S*\n", run("modeler", "--version"))
+    for seed in ("1", "2"):
+        words = ("--duration", "6", "--rate", "200", "--seed", seed, "--out", f"{seed}.csv")
+        run("modeler", "simulate", "two-link", *words)
+    run("modeler", "fit", "two-link", "1.csv", "--out", "arm.model.json")
+    assert "relative" in run("modeler", "compare", "arm.model.json", "2.csv", "--report", "a.html")
+    assert (tmp_path / "a.html").stat().st_size > 100_000
+    run("modeler", "generate", "two-link", "--out", "arm")
+    assert "agree with the stored states" in run("make", "-C", "arm", "check")
+    assert run("python", "-c", _USE, "arm") == "used\n"
+
+
+def test_the_demonstration_from_the_wheel(installed: Path, tmp_path: Path) -> None:
+    """Short: on the arm the hidden effect is found all the same."""
+    told = _runner(installed, tmp_path)("modeler", "demo", "--duration", "5", "--out", "demo")
+    assert "the truth: load_friction on joint 2" in told
+    arm = json.loads((tmp_path / "demo" / "demo-arm" / "improved.json").read_text("utf-8"))
+    assert "load_friction" in json.dumps(arm)
+    assert len([*tmp_path.glob("demo/*/improved.html")]) >= 1
+    assert (tmp_path / "demo" / "index.html").is_file()
+
+
+def test_the_description_needs_no_file(built: tuple[Path, Path]) -> None:
+    """An index of packages shows it without ours: no picture, no link leads to one of them."""
+    with zipfile.ZipFile(built[1]) as archive:
+        (place,) = (n for n in archive.namelist() if n.endswith(".dist-info/METADATA"))
+        head, _, text = archive.read(place).decode().partition("\n\n")
+    assert "Description-Content-Type: text/markdown" in head and text.startswith("# modeler\n")
+    assert not re.findall(r"\]\((?!https?:|#)[^)]*\)", text)
+    named = set(re.findall(r"\(`([\w/.-]+)`\)", text))
+    with tarfile.open(built[0]) as archive:
+        assert len(named) > 5
+        assert named <= {name.partition("/")[2] for name in archive.getnames()}
 
 
 _STORY = """
@@ -146,11 +200,5 @@ print("told")
 
 
 def test_the_story_of_one_object_from_the_wheel(installed: Path, tmp_path: Path) -> None:
-    environment = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
-    environment["MODELER_CACHE"] = str(tmp_path / "cache")
-    ran = subprocess.run(
-        [str(installed / "python"), "-c", _STORY],
-        cwd=tmp_path, env=environment, capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert (ran.returncode, ran.stdout) == (0, "told\n"), ran.stderr
+    assert _runner(installed, tmp_path)("python", "-c", _STORY) == "told\n"
     assert (tmp_path / "out" / "manifest.json").is_file()

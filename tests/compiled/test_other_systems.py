@@ -4,6 +4,7 @@ Nothing here ran on either. The compilers are scripts that take and refuse what 
 refuse, and pass it on to gcc; what is written for Windows is written by clang, which can.
 """
 
+import os
 import re
 import subprocess
 import sys
@@ -14,8 +15,10 @@ import numpy as np
 import pytest
 
 import modeler.runtime.build as build
-from modeler.core.errors import BuildError
+from modeler.api.log_maps import file_and_span
+from modeler.core.errors import BuildError, DataError
 from modeler.core.files import resource_dir
+from modeler.logs import map_from_words
 from modeler.runtime import microsoft
 from modeler.runtime.build import find_toolchain
 from modeler.runtime.model import load
@@ -256,3 +259,29 @@ def test_a_library_that_another_process_has_loaded_stays(tmp_path, monkeypatch, 
     else:
         with pytest.raises(PermissionError):
             build.placed(made, final)
+
+
+@pytest.mark.parametrize(
+    ("place", "file", "span"),
+    [(r"C:\logs\run.csv", r"C:\logs\run.csv", None),
+     (r"C:\logs\run.csv@0:10", r"C:\logs\run.csv", (0.0, 10.0)),
+     (r"\\host\share\me@home\run.csv@5:", r"\\host\share\me@home\run.csv", (5.0, None))],
+)  # fmt: skip
+def test_the_letter_of_a_drive_is_no_window_of_a_log(place, file, span) -> None:
+    assert file_and_span(place) == (file, span)
+
+
+def test_the_letter_of_a_drive_is_no_unit_of_a_map() -> None:
+    with pytest.raises(DataError, match=re.escape(r"--map C:\maps\arm.toml: cannot be read")):
+        map_from_words([r"C:\maps\arm.toml"])
+
+
+@pytest.mark.parametrize("letters", ["cp1252", "cp437"])
+def test_greek_letters_on_a_console_of_windows(letters) -> None:
+    """What it has no letter for is shown as its code."""
+    command = [sys.executable, "-c", ""
+               "from modeler.cli.console import say, escape_unprintable\n"
+               "escape_unprintable(); say('\u03c3 \u03b8 \u03c4\u0308 \u2264 \u00b1')"]  # fmt: skip
+    environment = {**os.environ, "PYTHONIOENCODING": letters}
+    ran = subprocess.run(command, capture_output=True, env=environment, check=True)
+    assert b"\\u03b8" in ran.stdout or "\u03b8".encode(letters) in ran.stdout
