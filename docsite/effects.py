@@ -7,17 +7,19 @@ simulated, fitted without it and diagnosed.
 import dataclasses
 import io
 import os
+import textwrap
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 from docsite.markdown import block, cell, code, table
 from modeler import api
 from modeler.core.errors import DataError
 from modeler.core.figure import Picture
 from modeler.diagnosis import Diagnosis, Finding, lines
-from modeler.effects import CATALOGUE, Acts, Effect
+from modeler.effects import CATALOGUE, Acts, Effect, Shape
 from modeler.report import diagnosis_page
 from modeler.report.figures import picture_figure
 from modeler.robot import Robot, robot_with_effects, with_effect
@@ -149,12 +151,12 @@ def effects_index(found: Sequence[Portrait]) -> str:
             (
                 f"[![{item.effect.id}]({item.effect.id}-small.png)]({item.effect.id}.md)"
                 if item.thumbnail else "",
-                f"[{cell(item.effect.id)}]({item.effect.id}.md)<br>{cell(item.effect.title)}",
-                cell(item.effect.signature),
+                f"[{cell(item.effect.id)}]({item.effect.id}.md): {cell(item.effect.title)}<br>"
+                f"{cell(item.effect.signature)}",
             )
             for item in found if item.effect.family == family
         ]  # fmt: skip
-        parts += [f"## {title}\n", table(("picture", "effect", "how it shows"), rows)]
+        parts += [f"## {title}\n", table(("picture", "effect, and how it shows"), rows)]
     return "\n".join(parts)
 
 
@@ -169,12 +171,12 @@ class _Shown:
 
 def _shown(effect: Effect, scene: Scene) -> _Shown:
     robot, derivation, emitted = _machine(scene.robot, scene.effects)
-    measured = {"duration": float(scene.duration), "rate": float(RATE)}
+    measured: dict[str, Any] = {"duration": float(scene.duration), "rate": float(RATE)}
     run = api.simulate(robot, hide=[f"{effect.id}{scene.at}"], **measured)
     fitted = api.simulate(robot, seed=1, **measured) if scene.unloaded else run
     compiled = api.compile_model(emitted)
     model = api.fit(derivation, emitted, api.observe(compiled, [fitted]))
-    ((hidden),) = run.truth.hidden
+    (hidden,) = run.truth.hidden
     values = ", ".join(f"{name} = {value:.4g}" for name, value in hidden.values.items())
     where = f", joint {hidden.joint}" if hidden.joint else ""
     return _Shown(model, f"{effect.id}{where}: {values}", api.diagnose(model, [run]))
@@ -219,8 +221,8 @@ def _png(picture: Picture, size: tuple[float, float] | None = None) -> bytes:
 def _page(effect: Effect, shown: str, apart: str, shapes: Mapping[str, float]) -> str:
     also = f" Also called {', '.join(map(code, effect.aliases))}." if effect.aliases else ""
     parts = [
-        f"# {cell(effect.id)}", "",
-        f"**{cell(effect.title[0].upper() + effect.title[1:])}.**{also}", "",
+        f"# {cell(effect.title[0].upper() + effect.title[1:])}", "",
+        f"{code(effect.id)} in a robot file and in commands.{also}", "",
         block(effect.equation, "text"),
         *_parameters(effect), "",
         f"**Range.** {cell(effect.range)}.", "", f"**Source.** {cell(effect.source)}.", "",
@@ -242,7 +244,8 @@ def _parameters(effect: Effect) -> list[str]:
     acts = f"It {cell(effect.acts.value)}."
     if effect.acts in (Acts.LINK, Acts.GRAVITY, Acts.WINDOW):  # one column for several parameters
         return [acts]
-    columns, shapes = [], {}
+    columns: list[tuple[str, ...]] = []
+    shapes: dict[str, Shape] = {}
     for form in effect.forms:
         for c in form.columns:
             units = dict.fromkeys(cell(unit) for unit in (c.unit_revolute, c.unit_prismatic))
@@ -266,11 +269,12 @@ def _scene_words(shown: _Shown, scene: Scene) -> str:
 
 
 def _told(found: Diagnosis) -> list[str]:
-    """The verdict and what is said of each effect that is named."""
+    """The verdict and what is said of each effect that is named, at 88 letters a line."""
     said = lines(found)
     named = {finding.joint for finding in found.effects}
     of_effects = tuple(f"joint {joint}: " if joint else "the whole robot: " for joint in named)
-    return [said[0], *(line for line in said[1:] if line.startswith(of_effects or ("?",)))]
+    told = [said[0], *(line for line in said[1:] if line.startswith(of_effects or ("?",)))]
+    return [textwrap.fill(line, 88, subsequent_indent="  ") for line in told]
 
 
 def _apart(effect: Effect, shown: _Shown) -> str:

@@ -119,16 +119,17 @@ def gallery_front(robots: Sequence[Exhibit], effects: Sequence[Portrait]) -> str
 
 def _thumbnails(shown: Sequence[tuple[str, str, str]]) -> str:
     """Pictures beside each other, (name, picture, page) each."""
-    links = [f"[![{name}]({picture})]({page} '{name}')" for name, picture, page in shown]
+    links = [f"[![]({picture})<br>{cell(name)}]({page})" for name, picture, page in shown]
     return "\n".join(['<div class="thumbnails" markdown="1">', "", *links, "", "</div>"])
 
 
 def _written_about(name: str) -> list[str]:
-    """A line that leads to the pages of docs/robots/ that run a command on the robot."""
+    """A line that leads to the pages of docs/robots/ that bear its name or run a command on it."""
     pages = []
     for path in sorted(WRITTEN.glob("*.md")):
         text = path.read_text(encoding="utf-8")
-        if re.search(rf"^\$ modeler .* {re.escape(name)}(?: |$)", text, re.MULTILINE):
+        run = re.search(rf"^\$ modeler .* {re.escape(name)}(?: |$)", text, re.MULTILINE)
+        if run or name.startswith(path.stem):
             title = text.partition("\n")[0].removeprefix("# ")
             pages.append(f"[{cell(title)}](../../robots/{path.name})")
     return [f"Step by step: {', '.join(pages)}.", ""] if pages else []

@@ -22,9 +22,11 @@ KEPT = ("site.css", "iframe-worker/iframe-worker.js", "iframe-worker/LICENSE")
 
 def on_config(config: MkDocsConfig) -> MkDocsConfig:
     """Lists the made pages under the sections that begin with their index."""
-    made = {
+    made: dict[str, list[Any]] = {
         "gallery/robots/index.md": [f"gallery/robots/{name}.md" for name in builtin_names()],
-        "gallery/effects/index.md": [f"gallery/effects/{e.id}.md" for e in CATALOGUE],
+        "gallery/effects/index.md": [
+            {effect.id: f"gallery/effects/{effect.id}.md"} for effect in CATALOGUE
+        ],
         "commands/index.md": [f"commands/{name}.md" for name in commands()],
         "python/index.md": list(interface_pages())[1:],
     }
@@ -32,7 +34,7 @@ def on_config(config: MkDocsConfig) -> MkDocsConfig:
     return config
 
 
-def _list_made(nav: list[Any], made: dict[str, list[str]]) -> None:
+def _list_made(nav: list[Any], made: dict[str, list[Any]]) -> None:
     """A section, at any depth, that begins with the index of made pages lists them."""
     for section in nav:
         for pages in section.values() if isinstance(section, dict) else ():

@@ -214,8 +214,8 @@ def _friction(coupling: Coupling) -> str:
         [
             "### Friction of coupled motors",
             "",
-            "Printed: G_ii C_i sgn(qd_i), C being diagonal. Virtual work: (G^T C sgn(G qd))_i, with "
-            "the motor speeds G qd; friction must take sum C_i |(G qd)_i|.",
+            "Printed: G_ii C_i sgn(qd_i), C being diagonal. Virtual work: (G^T C sgn(G qd))_i, "
+            "with the motor speeds G qd; friction must take sum C_i |(G qd)_i|.",
             "",
             f"With G = [{matrix}], C = ({row(coupling.coulomb)}) N m, qd = ({row(coupling.speed)}) "
             f"rad/s the motors take {float(check.dissipated):g} W:",

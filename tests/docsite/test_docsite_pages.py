@@ -38,7 +38,10 @@ def test_every_page_has_its_place(page: str) -> None:
 
 def test_every_place_has_its_page() -> None:
     made = {*BESIDE.values(), *notebooks()}
-    made |= {f"{section}/index.md" for section in ("gallery", "commands", "python")}
+    made |= {
+        f"{section}/index.md"
+        for section in ("gallery", "gallery/robots", "gallery/effects", "commands", "python")
+    }
     assert set(listed()) == made | set(WRITTEN)
 
 
