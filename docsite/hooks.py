@@ -2,10 +2,7 @@
 
 import re
 from pathlib import Path
-from typing import Any
-
-from mkdocs.config.defaults import MkDocsConfig
-from mkdocs.structure.files import File, Files
+from typing import TYPE_CHECKING, Any
 
 from docsite.commands import command_pages, commands
 from docsite.effects import effects_index, portraits
@@ -15,12 +12,16 @@ from docsite.notebook import last_run, notebook_page
 from modeler.core.builtin import builtin_names
 from modeler.effects import CATALOGUE
 
+if TYPE_CHECKING:  # tests read this file without it
+    from mkdocs.config.defaults import MkDocsConfig
+    from mkdocs.structure.files import Files
+
 ROOT = Path(__file__).resolve().parents[1]
 KEPT = ("site.css", "iframe-worker/iframe-worker.js", "iframe-worker/LICENSE")
 """Files as they are. iframe-worker 1.0.4 lets the search work in a folder, without a server."""
 
 
-def on_config(config: MkDocsConfig) -> MkDocsConfig:
+def on_config(config: "MkDocsConfig") -> "MkDocsConfig":
     """Lists the made pages under the sections that begin with their index."""
     made: dict[str, list[Any]] = {
         "gallery/robots/index.md": [f"gallery/robots/{name}.md" for name in builtin_names()],
@@ -43,8 +44,10 @@ def _list_made(nav: list[Any], made: dict[str, list[Any]]) -> None:
                 _list_made(pages, made)
 
 
-def on_files(files: Files, config: MkDocsConfig) -> Files:
+def on_files(files: "Files", config: "MkDocsConfig") -> "Files":
     """Adds the reference, the galleries and the notebooks."""
+    from mkdocs.structure.files import File
+
     made: dict[str, str | bytes] = {**beside_pages(), **command_pages(), **interface_pages()}
     made |= gallery_pages() | notebook_pages()
     made |= {name: (ROOT / "docsite" / name).read_bytes() for name in KEPT}

@@ -23,3 +23,22 @@ def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def block(text: str, language: str = "") -> str:
     """A fenced block."""
     return f"```{language}\n{text.rstrip()}\n```\n"
+
+
+def fenced(docstring: str) -> str:
+    """The docstring with a fence around every run of lines from `>>>` to the next blank line.
+
+    Args:
+        docstring: without the indentation of its code.
+    """
+    lines: list[str] = []
+    inside = False
+    for line in [*docstring.splitlines(), ""]:
+        if not inside and line.startswith(">>>"):
+            lines.append("```python")
+            inside = True
+        elif inside and not line.strip():
+            lines.append("```")
+            inside = False
+        lines.append(line)
+    return "\n".join(lines[:-1])

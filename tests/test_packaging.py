@@ -103,6 +103,9 @@ def test_the_changelog_begins_with_this_version() -> None:
     text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     first, *_ = re.findall(r"^## (\S+) - (\d{4}-\d{2}-\d{2}|unreleased)$", text, re.M)
     assert first[0] == modeler.__version__
+    newest = text.split("\n## ")[1]
+    assert len(newest.split()) < 1600, "CHANGELOG.md: what a user can read, not the history"
+    assert newest.count("\n### ") == len(set(re.findall(r"^### (.+)$", newest, re.M)))
 
 
 def test_the_citation_is_of_this_version() -> None:

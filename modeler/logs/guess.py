@@ -196,7 +196,7 @@ def _by_words(names: Sequence[str]) -> dict[str, tuple[str, str]]:
 
     The label is what stands before the word for the quantity, or after it.
     """
-    groups: dict[str, list[tuple[str, str, str]]] = {}
+    groups: dict[str, dict[str, str]] = {}
     for name in names:
         end = _UNIT.search(name)
         head = name if end is None else name[: end.start()]

@@ -57,7 +57,7 @@ class LogTable:
         self._joints = joints
         self._columns: dict[str, Column] = dict(self.found.columns)
         self._check()
-        self._entries = mapping.entries(joints)
+        self._entries, self._guessed = mapping.entries(joints), bool(mapping.told)
         self._taken: dict[str, str] = {}  # which an error of the next line reads
         self._taken = self._matched()
         timed = "time" in self._taken or "time" in self._columns
@@ -251,8 +251,9 @@ class LogTable:
         head, colon, unit = wanted.rpartition(":")
         if colon and head in there:
             hint = f' (if column {head} is meant, "{unit}" is no unit that is known)'
+        guess = "or let it be guessed, --map auto (mapping in Python), "
         return (
             f"no column {name if wanted == name else f'{wanted} ({name})'}{hint}; the columns are "
-            f"{', '.join(there[:_SHOWN])}; say which it is, --map {name}=COLUMN, or let it be "
-            "guessed, --map auto (mapping in Python), or add it"
+            f"{', '.join(there[:_SHOWN])}; say which it is, --map {name}=COLUMN, "
+            f"{'' if self._guessed else guess}or add it"
         )

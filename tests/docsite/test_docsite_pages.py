@@ -4,17 +4,18 @@ import argparse
 import importlib
 import json
 import re
+import subprocess
+import sys
 
 import pytest
 
 import modeler.api
 from docsite.commands import command_pages, commands
-from docsite.doctests import fenced
 from docsite.gallery import coefficients, exhibit, gallery_index
 from docsite.hooks import BESIDE, notebooks
 from docsite.house import house_svg
 from docsite.interface import exported, interface_pages
-from docsite.markdown import cell, code, table
+from docsite.markdown import cell, code, fenced, table
 from docsite.notebook import executed, notebook_page
 from modeler.api import derive, generate, load
 from modeler.cli import main
@@ -166,3 +167,10 @@ def test_examples_in_docstrings_are_code() -> None:
     found = fenced(text)
     assert found == 'First.\n\n```python\n>>> a["1"]\n[1, 2]\n```\n\nArgs:\n    a: b'
     assert fenced(">>> 1\n1") == "```python\n>>> 1\n1\n```" and fenced("None.") == "None."
+
+
+def test_these_tests_need_no_package_of_the_site() -> None:
+    """`make test` installs none of them."""
+    without = "import sys; sys.modules.update(mkdocs=None, griffe=None); import docsite.hooks"
+    ran = subprocess.run([sys.executable, "-c", without], cwd=ROOT, capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stderr

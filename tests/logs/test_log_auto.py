@@ -221,3 +221,14 @@ def test_words_of_a_mapping_are_told(case):
     with pytest.raises(DataError, match=r"--map automatic: expected .*, or auto"):
         read_logs(case.compiled, [], ["automatic"])
     assert load("emps").fit == {}
+
+
+def test_what_a_guess_did_not_find_is_not_sent_to_guess_again(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    rows = "".join(f"{k / 100:.2f};1;2;3;4\n" for k in range(60))
+    (tmp_path / "log.csv").write_text(f"zeit;Drehung_Ist A;Drehung_Ist B;tauA;tauB\n{rows}")
+    words = ["fit", "two-link", "log.csv", "--out", "model.json"]
+    assert main(words) == 1
+    assert "or let it be guessed, --map auto" in capsys.readouterr().err
+    assert main([*words, "--map", "auto"]) == 1
+    assert "say which it is, --map q1=COLUMN, or add it" in capsys.readouterr().err
