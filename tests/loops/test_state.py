@@ -207,8 +207,13 @@ def test_what_cannot_be_closed_is_told_and_the_last_posture_is_kept(robots):
 MICROCONTROLLER = ("-mcpu=cortex-m7", "-mfpu=fpv5-d16", "-mthumb", "-mfloat-abi=hard")
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("flags", [("gcc",), ("arm-none-eabi-gcc", *MICROCONTROLLER)])
+@pytest.mark.parametrize(
+    "flags",
+    [
+        pytest.param(flags, marks=IN_TURN)
+        for flags in (("gcc",), ("arm-none-eabi-gcc", *MICROCONTROLLER))
+    ],
+)
 def test_functions_at_a_state_need_no_more_than_8_kb_of_stack(flags, tmp_path):
     """All of evra's, with the deepest of what they call added."""
     if shutil.which(flags[0]) is None:
