@@ -14,6 +14,7 @@ from typing import Any, Literal, ParamSpec, TypeVar, Union, get_args, get_origin
 
 from modeler.core.errors import DataError
 from modeler.core.json import shown
+from modeler.core.toml_cells import near
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -60,7 +61,12 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
 
     @functools.wraps(function)
     def checked_call(*args: P.args, **kwargs: P.kwargs) -> R:
-        given = signature.bind(*args, **kwargs)  # a wrong number of arguments is Python's to tell
+        try:
+            given = signature.bind(*args, **kwargs)
+        except TypeError as error:  # Python's to tell, with the name that may be meant
+            wrong = next((name for name in kwargs if name not in signature.parameters), "")
+            hint = near(wrong, signature.parameters)
+            raise TypeError(f"{function.__name__}() {error}{hint}") from None
         hints = _hints(function)
         for name, value in given.arguments.items():
             if signature.parameters[name].kind is not inspect.Parameter.VAR_KEYWORD:

@@ -32,9 +32,9 @@ def format_of(to: str | None, like: str, out: str) -> str:
     Raises:
         DataError: nothing says it.
     """
-    if to is not None or like:
-        return to or ""
     ending = Path(out).suffix.lower()
+    if to is not None or like:  # .xml may be both
+        return to or ("" if ending == ".xml" else ENDINGS.get(ending, ""))
     if ending not in ENDINGS:
         raise DataError(
             f"export: {out or 'nothing'} does not say the format; give --to {', '.join(FORMATS)}, "
@@ -69,7 +69,8 @@ def exported(
         source = source_of(like)
         if to and to != source.format:
             raise DataError(
-                f"--like {like}: is {source.format.upper()}, and --to says {to}; leave out one"
+                f"--like {like}: is {source.format.upper()}, and --to or the ending of --out says "
+                f"{to}; leave out --like for a file of another format"
             )
         to, there = source.format, placed(source, robot)
         physics, notes = physics_of(thing, original_of(there.links)), list(there.notes)

@@ -6,7 +6,7 @@ masks, sigmas, doubts and the diagnosis read it.
 """
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -156,10 +156,18 @@ class MotionNoise(Brief):
         """What is measured, in words."""
         return f"{'logged ' if self.order < 2 else ''}{MEASURED[self.order]}"
 
-    def of_last_floors(self) -> "MotionNoise":
-        """The noise if what looks like a floor, and falls again, is motion: see `floor_of`."""
+    def of_last_floors(
+        self, which: Callable[[ChannelNoise], bool] = lambda joint: True
+    ) -> "MotionNoise":
+        """The noise if what looks like a floor, and falls again, is motion: see `floor_of`.
+
+        Args:
+            which: the joints of which that is taken.
+        """
         every = (
             dataclasses.replace(own, **floor_of(self.spectra, j, own.band_hz, self.rate, last=True))
+            if which(own)
+            else own
             for j, own in enumerate(self.joints)
         )
         return dataclasses.replace(self, joints=tuple(every))
@@ -287,6 +295,10 @@ def _colour(f: np.ndarray, S: np.ndarray) -> float:
         return 0.0
     slope = -float(np.polyfit(np.log(f), np.log(S), 1)[0])
     return slope if slope > WHITE else 0.0
+
+
+RANDOM_WALK = 2.0
+"""Power of 1/f. Where no torque can say it, what falls faster is taken for motion: no sensor's."""
 
 
 # Which part of the measured positions is motion, joint by joint.

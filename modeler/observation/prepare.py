@@ -17,6 +17,7 @@ from modeler.observation.consistency import Consistency, consistency, quieter, w
 from modeler.observation.log import Log
 from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, edge_of, segment_of
 from modeler.observation.motion_noise import (
+    RANDOM_WALK,
     MotionNoise,
     Ringing,
     motion_bands,
@@ -394,7 +395,8 @@ def noise_of_positions(seen: Positions | None) -> MotionNoise | None:
     pieces, _ = split(Log("", seen.names, time[rises], q, np.zeros_like(q)), 0, False)
     if not pieces:
         return None
-    return motion_noise(joints, pieces, joint_bands(pieces, spectra_of(pieces)))
+    found = motion_noise(joints, pieces, joint_bands(pieces, spectra_of(pieces)))
+    return found.of_last_floors(lambda joint: joint.colour > RANDOM_WALK)
 
 
 def shown_band(band: float, pieces: Sequence[Piece]) -> float:

@@ -262,3 +262,8 @@ def test_a_diagnosis_prints_its_first_sentence() -> None:
     found = session()["diagnosis"]
     assert repr(found)[:60] == f"Diagnosis({found.robot}: {found.sentences[0]})"[:60]
     assert len(repr(found)) < 220
+
+
+def test_an_argument_that_there_is_not_is_told_with_the_one_that_is_meant() -> None:
+    with pytest.raises(TypeError, match=r"'map' \(did you mean \"mapping\"\?\)"):
+        md.identify("two-link", "run.csv", map="auto")  # type: ignore[call-arg]

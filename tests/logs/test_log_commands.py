@@ -1,11 +1,13 @@
 """Every command that takes logs reads a MAT file with names and units of its own."""
 
 import json
+import re
 
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
 import scipy.io
+from scipy.signal import butter, sosfilt
 
 from modeler.api import add, compare, undo
 from modeler.cli import main
@@ -142,3 +144,18 @@ def test_an_output_is_not_named_like_a_log(ground, tmp_path, capsys):
     for ending in ("mat", "h5", "mcap"):
         status, _, err = run(capsys, "fit", "emps", ground / "a.mat", "--out", f"x.{ending}")
         assert status == 1 and "this is a log; expected a name of its own" in err
+
+
+@pytest.mark.parametrize("seed", [11, 12])
+def test_motion_that_a_controller_leaves_is_no_noise(seed, tmp_path, capsys):
+    """It may be flat for octaves, and falls faster than the drift of a sensor then."""
+    draw, t = np.random.default_rng(seed), np.arange(0.0, 20.0, 0.002)
+    tones = 2.0 * np.pi * np.array([0.2, 0.35, 0.6])
+    q = 0.4 * np.sin(tones * t[:, None] + draw.uniform(0.0, 6.0, 3)).sum(axis=1)
+    low = butter(4, 8.0, fs=500.0, output="sos")
+    q += 3e-3 * sosfilt(low, draw.normal(size=t.size)) + 2e-6 * draw.normal(size=t.size)
+    rows = (f"{a:.3f},{b:.9f},{np.sin(a):.4f}\n" for a, b in zip(t, q, strict=True))
+    (tmp_path / "log.csv").write_text("time,q1,tau1\n" + "".join(rows))
+    assert main(["log", str(tmp_path / "log.csv")]) == 0
+    [size] = re.findall(r"joint q1 ([\d.]+) mrad above \d+ Hz", capsys.readouterr().out)
+    assert float(size) == pytest.approx(0.002, rel=0.2)
