@@ -6,7 +6,6 @@ simulated, fitted without it and diagnosed.
 
 import dataclasses
 import io
-import os
 import textwrap
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -111,7 +110,7 @@ class Portrait:
 
 def portraits() -> list[Portrait]:
     """All effects of the catalogue, as many at a time as there are processors."""
-    with ProcessPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+    with ProcessPoolExecutor() as pool:
         return list(pool.map(portrait, [effect.id for effect in CATALOGUE]))
 
 

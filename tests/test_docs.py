@@ -31,7 +31,13 @@ ROOT = Path(__file__).resolve().parents[1]
 PAGES = sorted(
     p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
 )
-RUN = [page for page in PAGES if "\n```console" in (ROOT / page).read_text(encoding="utf-8")]
+RUN = [
+    page
+    for page in PAGES
+    if re.search(
+        r"^```(?:console|python)$", (ROOT / page).read_text(encoding="utf-8"), re.MULTILINE
+    )
+]
 """Every page that shows a command or a program; one that cannot run says `sh`, or is indented."""
 
 TOLERANCE = 0.002  # of a shown number: a fit to the same log differs by less on any processor

@@ -64,7 +64,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
         try:
             given = signature.bind(*args, **kwargs)
         except TypeError as error:  # Python's to tell, with the name that may be meant
-            wrong = next((name for name in kwargs if name not in signature.parameters), "")
+            wrong = next((name for name in kwargs if repr(name) in str(error)), "")
             hint = near(wrong, signature.parameters)
             raise TypeError(f"{function.__name__}() {error}{hint}") from None
         hints = _hints(function)
