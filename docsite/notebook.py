@@ -57,10 +57,11 @@ def _run(path: Path) -> str:
 
     notebook = nbformat.read(path, as_version=4)
     nbformat.validate(notebook)
-    os.environ["PYTHONPATH"] = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
+    given = os.environ.get("PYTHONPATH", "")
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), given]))}
     with tempfile.TemporaryDirectory() as folder:
         client = NotebookClient(notebook, resources={"metadata": {"path": folder}}, timeout=240)
-        client.execute(stderr=subprocess.DEVNULL)  # what a kernel says of its sockets
+        client.execute(env=environment, stderr=subprocess.DEVNULL)  # what a kernel says of its sockets
     return str(nbformat.writes(notebook))
 
 

@@ -86,7 +86,9 @@ def test_a_fault_of_the_program_says_how_to_report_it(tmp_path: Path, monkeypatc
     assert "(ZeroDivisionError: by zero); run `modeler robots --verbose`" in outcome.error
 
 
-def test_files_of_the_project_are_no_modules(tmp_path: Path) -> None:
+@pytest.mark.parametrize("given", ["", os.pathsep])
+def test_files_of_the_project_are_no_modules(tmp_path: Path, monkeypatch, given) -> None:
+    monkeypatch.setenv("PYTHONPATH", given)
     for name in ("numpy", "json", "argparse", "modeler"):
         (tmp_path / f"{name}.py").write_text("open('was-run', 'w')\n")
     assert run(tmp_path, "derive", "two-link", "--no-terms")[0].status == 0
