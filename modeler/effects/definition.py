@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from modeler.core.expression import FUNCTIONS
+from modeler.core.expression import FUNCTIONS, LAW
+from modeler.core.law import BESIDE, MOST as MOST_VALUES, Law
 from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 from modeler.effects.effect import (
     VARIABLES,
@@ -25,7 +26,8 @@ EXAMPLE = '[own_effects.brake] columns = {Keb = "v*abs(v)"}'
 MOST = 100
 """Combinations of the first values of shapes: a diagnosis tries each on each joint."""
 
-_KEYS = ("title", "columns", "shapes", "unit", "nonnegative", "acts")
+_KEYS = ("title", "columns", "shapes", "unit", "nonnegative", "acts", "law")
+_LAW = "law = {low = [-1], high = [1], cells = [2], values = [0, 0, 0, 1, 1]}"
 _CATALOGUE_KEYS = (
     *_KEYS, "scale", "limits", "meaning", "prismatic_unit", "kind", "energy", "largest",
     "resonance", "forms", "needs",
@@ -35,7 +37,7 @@ _CATALOGUE_KEYS = (
 _PREFIX = re.compile(r"[A-Za-z]([A-Za-z0-9]*[A-Za-z])?")
 _SHAPE = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _UNIT = re.compile(r"[A-Za-z0-9 .^()-]+([*/][A-Za-z0-9 .^()-]+)*")  # it becomes a comment in C
-_RESERVED = ("joint", "t0", "T0", "pi", "lambda", *FUNCTIONS)  # keys of [effects], and the language
+_RESERVED = ("joint", "t0", "T0", "pi", "lambda", *FUNCTIONS, LAW)  # [effects], and the language
 _STATES = 12  # of a joint, in which equations are tried, besides rest
 
 _PLAIN = {
@@ -55,8 +57,8 @@ def read_definition(name: str, place: Place, taken: Mapping[str, str], own: bool
 
     Args:
         name: its id.
-        place: the table: title, columns, shapes, unit, nonnegative, acts; in the catalogue also
-            what else an `Effect` says of itself.
+        place: the table: title, columns, shapes, unit, nonnegative, acts, law; in the catalogue
+            also what else an `Effect` says of itself.
         taken: names of parameters that it must not have -> whose they are.
         own: of a robot file: it has the first keys only, and its equations are tried.
 
@@ -118,7 +120,8 @@ def _form(
 ) -> Form:
     shapes = _shapes(table, place.at("shapes", table.get("shapes", {})))
     allowed = (*variables, *(shape.name for shape in shapes))
-    columns = _columns(table, allowed, taken, place)
+    law = _law(place.at("law", table["law"])) if "law" in table else None
+    columns = _columns(table, allowed, taken, place, law)
     memory = None
     if "resonance" in table:
         memory = Memory("resonance", *table["resonance"])
@@ -172,8 +175,9 @@ def _limits(grid: Sequence[float]) -> tuple[float, float]:
 
 
 def _columns(
-    table: Mapping[str, Any], allowed: Sequence[str], taken: Mapping[str, str], place: Place
-) -> tuple[EffectColumn, ...]:
+    table: Mapping[str, Any], allowed: Sequence[str], taken: Mapping[str, str], place: Place,
+    law: Law | None,
+) -> tuple[EffectColumn, ...]:  # fmt: skip
     here = place.at("columns", table.get("columns"))
     if not here.value:
         raise here.error(f"is missing; expected parameters and their equations, as in {EXAMPLE}")
@@ -196,7 +200,7 @@ def _columns(
                 f"the parameter {shown(prefix)} is that of {taken[prefix]} already; choose "
                 "another name"
             )
-        equation = here.at(prefix, cell).expression()
+        equation = here.at(prefix, cell).expression(law)
         for name in sorted(equation.names):
             if name not in allowed:
                 raise here.at(prefix).error(
@@ -210,6 +214,40 @@ def _columns(
             EffectColumn(prefix, equation, unit, other, kind, block, nonnegative, largest)
         )
     return tuple(columns)
+
+
+def _law(place: Place) -> Law:
+    """The table that `law` of the equations is."""
+    table = place.checked_table(("low", "high", "cells", "values"), _LAW, missing=f"as in {_LAW}")
+    low, high, cells, values = (
+        tuple(place.at(key).holding(entry).number("0.1") for entry in _listed(place, key, cell))
+        for key, cell in ((key, table[key]) for key in ("low", "high", "cells", "values"))
+    )
+    if not 1 <= len(low) <= 2 or not len(low) == len(high) == len(cells):
+        raise place.error(
+            f"got {len(low)}, {len(high)} and {len(cells)} entries of low, high and cells; "
+            "expected one of each for every argument of the law, which has one or two"
+        )
+    for a, b, count in zip(low, high, cells, strict=True):
+        if not a < b or count < 1 or count != int(count):
+            raise place.error(
+                f"got an axis from {a:g} to {b:g} of {count:g} cells; expected low < high, and a "
+                "whole number above 0"
+            )
+    counts = tuple(map(int, cells))
+    expected = math.prod(count + BESIDE for count in counts)
+    if len(values) != expected or expected > MOST_VALUES:
+        raise place.at("values").error(
+            f"got {len(values)} numbers; expected {expected}, {BESIDE} more than cells along each "
+            f"axis, and at most {MOST_VALUES}"
+        )
+    return Law(low, high, counts, values)
+
+
+def _listed(place: Place, key: str, cell: Any) -> Sequence[Any]:
+    if not isinstance(cell, list):
+        raise place.at(key, cell).mismatch(f"a list of numbers, as in {_LAW}")
+    return cell
 
 
 def _units(value: Any, prefixes: Sequence[str], place: Place) -> dict[str, str]:
@@ -232,6 +270,9 @@ def _check_form(form: Form, acts: Acts, place: Place) -> None:
     for shape in form.shapes:
         if shape.name not in used:
             raise place.at("shapes").error(f"no equation uses {shape.name}; use it or take it out")
+    if "law" in place.table(EXAMPLE) and not any(re.search(r"\blaw\b", c.equation.text)
+                                                 for c in form.columns):  # fmt: skip
+        raise place.at("law").error("no equation calls law; use it, as in law(q), or take it out")
     for column in form.columns:
         if acts is Acts.POSITION and re.search(r"\b(abs|sign)\b", column.equation.text):
             raise place.at(f"columns, {column.prefix}").error(
