@@ -21,6 +21,7 @@ from .derive import (
     with_home as with_home,
     written as written,
 )
+from .differentiation import derivatives as derivatives
 from .enclosed import (
     EnclosedState as EnclosedState,
     Enclosures as Enclosures,
@@ -59,8 +60,8 @@ from .graph import (
     GraphAlgebra as GraphAlgebra,
     Node as Node,
     Plan as Plan,
+    Table as Table,
     Vector as Vector,
-    derivatives as derivatives,
 )
 from .kinematics import (
     Composite as Composite,
