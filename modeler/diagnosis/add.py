@@ -119,6 +119,11 @@ def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
         )
     if joint not in names:
         raise DataError(f"--joint {joint}: no such joint; expected one of {listed(names)}")
+    if read := effect.forms[0].reads_as_other(joint):
+        raise DataError(
+            f"--joint {joint}: {effect.id} reads {listed(read)} of it as of another joint; name "
+            "another, or leave --joint out"
+        )
 
 
 _HIDDEN = 0.01  # share of its columns below which the logs do not show an effect
