@@ -22,10 +22,12 @@ from modeler.core.files import write_atomically
 from modeler.core.table import DIGITS, percent
 from modeler.diagnosis import (
     ANY_LAW,
+    LEARNED,
     LawAsked,
     add_effect,
     add_learned,
     added,
+    fall_shares,
     lines,
     notes,
     undone,
@@ -35,9 +37,6 @@ from modeler.estimation import IdentifiedModel, load_model, save_model
 from modeler.robot import Robot, near, robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
-
-LEARNED = "learned"
-"""In place of an effect: a law that is learned."""
 
 
 def run_diagnose(args: argparse.Namespace) -> Json:
@@ -105,7 +104,9 @@ def run_add(args: argparse.Namespace) -> Json:
     left_out: tuple[str, ...] = ()
     if args.effect == "auto":
         with progress("looking for missing effects") as bar:
-            better, left_out, _ = improve.auto_added(model, compiled, logs, bar, working)
+            better, left_out, _ = improve.auto_added(
+                model, compiled, logs, bar, working, args.learned
+            )
     elif args.effect == LEARNED:
         with progress("learning a law") as bar:
             better = add_learned(model, compiled, args.joint, logs, asked, bar)
@@ -155,6 +156,8 @@ def _law_asked(args: argparse.Namespace) -> LawAsked:
             f"--of, --odd, --monotone: got them with {args.effect}; expected `modeler add MODEL "
             f"{LEARNED}`"
         )
+    if args.learned and args.effect != "auto":
+        raise DataError(f"--learned: got it with {args.effect}; expected `modeler add MODEL auto`")
     return asked
 
 
@@ -174,6 +177,11 @@ def waterfall(model: IdentifiedModel) -> list[str]:
         bar = ("~" if step.learned else "#") * round(_WIDTH * step.error / largest)
         fitted = f"(fitted {percent(step.training_error, DIGITS)}{', learned' * step.learned})"
         lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  {fitted}")
-    if any(step.learned for step in model.history):
+    if (parts := fall_shares(model)) is not None:
         lines.append(f"{'':<30} ~ learned, not physics")
+        physics, learned = (100.0 * part for part in parts)
+        lines.append(
+            f"of the fall by {physics + learned:.2g} points, {physics:.2g} are physics and "
+            f"{learned:.2g} learned"
+        )
     return lines

@@ -91,7 +91,7 @@ class Coordinates(Brief):
         """
         columns = {f"x{chr(97 + k)}": text for k, text in enumerate(self.arguments)}
         table = {"columns": columns | {"by": self.factor or "1"}, **self.further}
-        effect = read_definition("law", Place("law").holding(table), {})
+        effect = read_definition("law", Place("law").holding(table), {}, joints=state.names)
         shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
         candidate = Candidate(effect, effect.forms[0], state.names[j], j, shapes)
         return [own_columns([candidate], signals) for signals in smoothed(state).signals]
@@ -168,6 +168,9 @@ class LawAsked(Brief):
 ANY_LAW = LawAsked()
 """A law of whatever predicts best."""
 
+LEARNED = "learned"
+"""What a law is called where effects have their ids."""
+
 
 def with_law(text: str, state: State, joint: str, learned: Learned) -> tuple[str, Pick]:
     """The robot file with the definition of a law, and the law as an effect to be put in.
@@ -179,7 +182,7 @@ def with_law(text: str, state: State, joint: str, learned: Learned) -> tuple[str
         learned: it.
     """
     effects = robot_from_text(text, "robot of the model").own_effects
-    name = _free(f"learned_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", [e.id for e in effects])
+    name = _free(f"{LEARNED}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", [e.id for e in effects])
     prefix = _free("Lw", [column.prefix for e in effects for column in e.columns])
     law, j = learned.law, state.names.index(joint)
     definition = {
