@@ -385,7 +385,7 @@ int simulate(const Plant *p, int ticks, const double *wanted, const double *want
             Input input = {controller.command, noise, load};
             runge_kutta(p, i * TICK + s * STEP, &state, input, next_load);
             for (int j = 0; j < n; j++) {
-                unnamed_turn(p, j, x[j].link_speed, &state.joint[j].memory);
+                unnamed_turn(p, j, x[j].link, &state.joint[j].memory);
                 load[j] = next_load[j];
                 noise[j] = keeps * noise[j] + fresh * p->noise_torque[j] * normal(&random);
             }

@@ -59,15 +59,18 @@ void unnamed_memory(const Plant *p, int j, double q, double v, const Memory *mem
 /* At rest for a long time. */
 void unnamed_start(const Plant *p, int j, double q, Memory *memory)
 {
-    *memory = (Memory){.since = 1e3};
+    *memory = (Memory){.since = 1e3, .farthest = q};
     if (j == p->law_joint && p->law == MAXWELL_HOSE) memory->lag = q;
 }
 
-/* A joint has turned back when it moves the other way at no less than `law_turns`. */
-void unnamed_turn(const Plant *p, int j, double v, Memory *memory)
+/* A joint has turned back when it is `law_turns` from the farthest place on its way. */
+void unnamed_turn(const Plant *p, int j, double q, Memory *memory)
 {
-    if (p->law == NONE || fabs(v) < p->law_turns[j]) return;
-    double way = v > 0 ? 1 : -1;
-    if (way == -memory->way) memory->since = 0;
-    memory->way = way;
+    double on = q - memory->farthest, most = p->law_turns[j];
+    if (p->law == NONE) return;
+    if (on * memory->way > 0) memory->farthest = q;
+    if (on * memory->way > 0 || fabs(on) < most) return;
+    if (memory->way != 0) memory->since = 0;
+    memory->way = on > 0 ? 1 : -1;
+    memory->farthest = q;
 }

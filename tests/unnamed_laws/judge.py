@@ -49,19 +49,18 @@ def true_column(rows: Rows, form: TrueForm) -> np.ndarray:
 
 
 def errors(own: Machine) -> Errors:
-    """Without and with the true form, all parameters fitted anew to the training log."""
-    assert own.truth is not None, own.name
+    """Without and with the true form, if there is one; all parameters fitted anew to training."""
     train, held = rows_of_machine(own)
     size = [np.sqrt((y**2).mean()) for y in held.y]
     found = []
     for form in (None, own.truth):
-        beta = least_squares(train.y, _matrices(train, form))
-        left = zip(held.y, _matrices(held, form), strict=True)
+        beta = least_squares(train.y, matrices(train, form))
+        left = zip(held.y, matrices(held, form), strict=True)
         found.append(np.array([np.sqrt(((y - W @ beta) ** 2).mean()) for y, W in left]))
     return Errors(*(100 * error / size for error in found))
 
 
-def _matrices(rows: Rows, form: TrueForm | None) -> list[np.ndarray]:
+def matrices(rows: Rows, form: TrueForm | None) -> list[np.ndarray]:
     """Base columns by joint, and that of the form."""
     if form is None:
         return list(rows.W)

@@ -43,7 +43,7 @@ class TrueForm:
         size: of the column.
         shapes: by name.
         width: speed within which dry friction changes its sign.
-        turns: speed from which on the joint counts as moving.
+        turns: way from the farthest place, from which on the joint has turned back.
     """
 
     law: str
@@ -93,13 +93,18 @@ class _Seen:
 
     @property
     def since(self) -> np.ndarray:
-        """s since the joint has turned back: since it moves the other way."""
-        way = np.where(np.abs(self.v) < self.form.turns, 0.0, np.sign(self.v))
-        moving = np.flatnonzero(way)
-        turned = moving[1:][way[moving[1:]] != way[moving[:-1]]]
-        last = np.searchsorted(turned, np.arange(len(way)), "right") - 1
-        began = self.motion.t[turned[last]] if len(turned) else self.motion.t
-        return np.where(last < 0, LONG_AGO, self.motion.t - began)
+        """s since the joint has turned back: since it is `turns` from the farthest place."""
+        since, began = np.empty(len(self.q)), -LONG_AGO
+        way, farthest = 0.0, self.q[0]
+        for k, (q, t) in enumerate(zip(self.q, self.motion.t, strict=True)):
+            on = q - farthest
+            if on * way > 0:
+                farthest = q
+            elif abs(on) >= self.form.turns:
+                began = began if way == 0 else t
+                way, farthest = np.sign(on), q
+            since[k] = t - began
+        return since
 
     def lagging(self, x: np.ndarray, tau: float) -> np.ndarray:
         """z of z' = (x - z) / tau, x straight between samples; z = x at first."""
@@ -184,6 +189,63 @@ def _draw_reversal_memory(draw: Draw, other: int) -> dict[str, float]:
     return {"tau": draw.between(0.2, 0.8)}
 
 
+def _neighbour_drag(x: _Seen, q0: float, w: float) -> np.ndarray:
+    """sign(v) exp(-((q_k - q0) / w)^2)."""
+    return x.sign * _bell((x.other_q - q0) / w)
+
+
+def _draw_neighbour_drag(draw: Draw, other: int) -> dict[str, float]:
+    angle = draw.scales.bounds.angle[other]
+    return {"q0": draw.between(-0.4, 0.4) * angle, "w": draw.between(0.25, 0.5) * angle}
+
+
+def _thixotropy(x: _Seen, v0: float, tau: float) -> np.ndarray:
+    """sign(v) exp(-z / v0), tau z' = |v| - z."""
+    return x.sign * np.exp(-x.lagging(np.abs(x.v), tau) / v0)
+
+
+def _draw_thixotropy(draw: Draw, other: int) -> dict[str, float]:
+    return {"v0": draw.between(0.12, 0.3) * draw.speed, "tau": draw.between(0.4, 2.0)}
+
+
+def _eddy_peak(x: _Seen, vc: float) -> np.ndarray:
+    """2 v vc / (v^2 + vc^2): largest at vc."""
+    ratio = x.v / vc
+    return 2 * ratio / (1 + ratio**2)
+
+
+def _draw_eddy_peak(draw: Draw, other: int) -> dict[str, float]:
+    return {"vc": draw.between(0.1, 0.3) * draw.speed}
+
+
+def _bumper(x: _Seen, q1: float, side: float) -> np.ndarray:
+    """side max(0, side (q - q1))^1.5."""
+    return side * np.maximum(0, side * (x.q - q1)) ** 1.5
+
+
+def _draw_bumper(draw: Draw, other: int) -> dict[str, float]:
+    side = draw.sign()
+    return {"q1": side * draw.between(0.2, 0.5) * draw.angle, "side": side}
+
+
+def _dither(x: _Seen, v0: float) -> np.ndarray:
+    """sign(v) / (1 + (v_k / v0)^2)."""
+    return x.sign / (1 + (x.other_v / v0) ** 2)
+
+
+def _draw_dither(draw: Draw, other: int) -> dict[str, float]:
+    return {"v0": draw.between(0.1, 0.3) * draw.scales.bounds.speed[other]}
+
+
+def _maxwell_hose(x: _Seen, tau: float) -> np.ndarray:
+    """q - z, tau z' = q - z."""
+    return x.q - x.lagging(x.q, tau)
+
+
+def _draw_maxwell_hose(draw: Draw, other: int) -> dict[str, float]:
+    return {"tau": draw.between(0.3, 1.5)}
+
+
 LAWS: Mapping[str, Law] = {
     "two_dips": Law(
         1,
@@ -211,6 +273,49 @@ LAWS: Mapping[str, Law] = {
         _draw_reversal_memory,
         _reversal_memory,
         dry=True,
+    ),
+    "neighbour_drag": Law(
+        5,
+        "cables to the tool lie in a bend that another joint makes, and rub most where it is "
+        "tightest",
+        _draw_neighbour_drag,
+        _neighbour_drag,
+        neighbour=True,
+        dry=True,
+    ),
+    "thixotropy": Law(
+        6,
+        "grease that is kneaded thins, and thickens again at rest: friction falls with the mean "
+        "speed of the last seconds",
+        _draw_thixotropy,
+        _thixotropy,
+        dry=True,
+    ),
+    "eddy_peak": Law(
+        7,
+        "currents that a brake disc's motion induces: drag that is largest at one speed",
+        _draw_eddy_peak,
+        _eddy_peak,
+    ),
+    "bumper": Law(
+        8,
+        "a rubber buffer, or a bundle of hoses that is pressed flat, towards one end (Hertz)",
+        _draw_bumper,
+        _bumper,
+    ),
+    "dither": Law(
+        9,
+        "the joint next to it shakes the contact while it runs: friction falls",
+        _draw_dither,
+        _dither,
+        neighbour=True,
+        dry=True,
+    ),
+    "maxwell_hose": Law(
+        10,
+        "a hose that creeps: a spring in series with a damper (Maxwell)",
+        _draw_maxwell_hose,
+        _maxwell_hose,
     ),
 }
 """By name."""

@@ -10,8 +10,7 @@ The arm of a law and a seed is the same with either encoder.
 """
 
 import json
-from dataclasses import asdict, dataclass
-from functools import partial
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -38,7 +37,7 @@ NOISE = "med"  # 1 % of the torque
 KINDS, SHARES = ("2R", "3R", "4R"), (0.25, 0.5, 0.25)
 TRAIN, HOLDOUT = 20.0, 15.0  # s of moves, and as many of a Fourier series
 LEAST, MOST = 0.08, 0.20  # rms of the law over that of the torque of its joint
-TURNS = 0.02  # of the top speed: a joint that is faster moves
+TURNS = 0.005  # of the largest angle: a joint that comes back by so much has turned
 ATTEMPTS = 20
 
 
@@ -106,7 +105,7 @@ def _drawn(law: str, rng: np.random.Generator, encoder: str, place: Path) -> Tru
     scales = equip(plant, bounds, paths["train"], NOISE, rng)
     noises = rng.spawn(2)
     seed = int(rng.integers(1 << 60))
-    truth = None if law == CLEAN else _with_law(law, plant, scales, paths["train"], rng)
+    truth = None if law == CLEAN else with_law(law, plant, scales, paths["train"], rng)
     SENSORS[ENCODERS[encoder]].equip(plant)
     for k, (name, path) in enumerate(paths.items()):
         run = _ran(plant, path, seed + k)
@@ -124,31 +123,28 @@ def _ran(plant: Plant, path: np.ndarray, seed: int) -> Run:
     return run
 
 
-def _with_law(
+def with_law(
     law: str, plant: Plant, scales: Scales, path: np.ndarray, rng: np.random.Generator
 ) -> TrueForm:
     """Change the plant: a law of a share of the torque of its joint along the path."""
     kind, draw = LAWS[law], Draw(plant, scales, rng)
-    other = neighbour_of(draw) if kind.neighbour else -1
+    other = neighbour_of(draw) if kind.neighbour else draw.joint
     shapes = kind.draw(draw, other)
-    j = draw.joint
-    plant.law_turns = TURNS * scales.bounds.speed
-    turns = float(plant.law_turns[j])
-    form = partial(TrueForm, law, j, other if kind.neighbour else j, shapes=shapes, turns=turns)
+    if not kind.neighbour:
+        other = draw.joint
+    j, width = draw.joint, plant.coulomb_width
+    plant.law_turns = TURNS * scales.bounds.angle
+    form = TrueForm(law, j, other, 1.0, shapes, float(width[j]), float(plant.law_turns[j]))
     v, a = rate(path), rate(rate(path))
     load = plant.inverse_dynamics(path, v, a)[0]
-    seen = Motion(path, v, a, load, np.arange(len(path)) * TICK)
-    column = form(size=1.0, width=float(plant.coulomb_width[j])).column(seen)
-    share = draw.between(LEAST, MOST)
-    size = float(share * scales.motors[j] / np.sqrt((column**2).mean()))
+    column = form.column(Motion(path, v, a, load, np.arange(len(path)) * TICK))
+    size = draw.between(LEAST, MOST) * scales.motors[j] / np.sqrt((column**2).mean())
     if kind.dry:  # the integration has to follow the steeper change of sign
         steepest = STEEPEST * (scales.inertia[j] + plant.rotor_inertia[j])
-        dry = plant.coulomb[j] + size * np.abs(column).max()
-        plant.coulomb_width[j] = max(plant.coulomb_width[j], dry / steepest)
-    plant.law, plant.law_joint, plant.law_size = kind.number, j, size
-    plant.law_with = other if kind.neighbour else j
+        width[j] = max(width[j], (plant.coulomb[j] + size * np.abs(column).max()) / steepest)
+    plant.law, plant.law_joint, plant.law_with, plant.law_size = kind.number, j, other, size
     plant.law_shape[: len(shapes)] = list(shapes.values())
-    return form(size=size, width=float(plant.coulomb_width[j]))
+    return replace(form, size=float(size), width=float(width[j]))
 
 
 def _fitted(place: Path) -> None:

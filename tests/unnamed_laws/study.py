@@ -32,15 +32,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def line(law: str, seed: int, encoder: str, folder: Path) -> str:
     """Errors on held-out motion by joint."""
     own = machine(law, seed, encoder, folder)
-    if own.truth is None:
-        return own.name
     found = errors(own)
     parts = [
-        f"{'*' if j == own.truth.joint else ''}{j + 1}: {before:.2f} -> {after:.2f} %"
+        f"{'*' if own.joint == str(j + 1) else ''}{j + 1}: {before:.2f} -> {after:.2f} %"
         for j, (before, after) in enumerate(zip(found.without, found.with_form, strict=True))
     ]
-    taken = 100 * found.taken[own.truth.joint]
-    return f"{own.name}  joint {own.joint} takes {taken:.0f} %  [{',  '.join(parts)}]"
+    taken = "" if own.truth is None else f"  takes {100 * found.taken[own.truth.joint]:.0f} %"
+    return f"{own.name}{taken}  [{',  '.join(parts)}]"
 
 
 if __name__ == "__main__":
