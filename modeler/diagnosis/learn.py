@@ -18,11 +18,11 @@ from typing import Any
 import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 from scipy.optimize import nnls
-from scipy.sparse import csr_array, diags_array, eye_array, kron, vstack
+from scipy.sparse import csr_array, eye_array, kron, vstack
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, RobotError
-from modeler.core.law import BESIDE, Law
+from modeler.core.law import Law
 from modeler.core.toml_cells import Place
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import own_columns
@@ -33,6 +33,7 @@ from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
 from modeler.diagnosis.state import State
 from modeler.diagnosis.timing import smoothed
 from modeler.effects import effect_named, read_definition
+from modeler.numerics.splines import beyond, flat_ends, second_differences, spline_products
 from modeler.robot import robot_from_text, with_own_effect
 
 CELLS = (40, 14)
@@ -314,49 +315,19 @@ def _splines(state: State, j: int, coordinates: Coordinates) -> _Splines | None:
         low, high = np.quantile(x, [_ENDS, 1.0 - _ENDS])
         if not high > low:
             return None
-        beyond = (high - low) / (count - 2)  # a cell to come to rest in
-        ends.append((float(f"{low - beyond:.6g}"), float(f"{high + beyond:.6g}")))
-    flat = [_flat_ends(count) for count in coordinates.counts]
+        ends.append(beyond(float(low), float(high), count))
+    flat = [flat_ends(count) for count in coordinates.counts]
     free = reduce(kron, flat).tocsr()
     filtered = []
     for i, blocks in enumerate(rows.blocks):
-        splines = _products(values[i], ends, coordinates.counts) @ free
+        splines = spline_products(values[i], ends, coordinates.counts) @ free
         filtered += [block.filters[j] @ splines[block.window] for block in blocks]
-    rough = [(d.T @ d) for d in (_second_differences(t) for t in flat)]
+    rough = [(d.T @ d) for d in (second_differences(t) for t in flat)]
     eyes = [eye_array(t.shape[1]) for t in flat]
     total = rough[0] if len(flat) == 1 else kron(rough[0], eyes[1]) + kron(eyes[0], rough[1])
     return _Splines(
         coordinates, tuple(ends), free, vstack(filtered).toarray(), total.toarray()
     )  # fmt: skip
-
-
-def _flat_ends(count: int) -> csr_array:
-    """(count + 3, count - 1) coefficients of which three are one at either end."""
-    place = np.clip(np.arange(count + BESIDE) - 2, 0, count - 2)
-    return csr_array((np.ones(place.size), (np.arange(place.size), place)))
-
-
-def _second_differences(flat: csr_array) -> csr_array:
-    size = flat.shape[0]
-    return diags_array([1.0, -2.0, 1.0], offsets=[0, 1, 2], shape=(size - 2, size)).tocsr() @ flat
-
-
-def _products(
-    values: np.ndarray, ends: Sequence[tuple[float, float]], counts: Sequence[int]
-) -> csr_array:
-    """(n, p) products of the splines of each axis, times the last of the values (n, axes + 1)."""
-    low, high = zip(*ends, strict=True)
-    law = Law(low, high, tuple(counts), ())
-    n, size = len(values), 1
-    columns, weights = np.zeros((n, 1), dtype=int), values[:, -1:]
-    for axis, x in enumerate(values.T[:-1]):
-        size *= counts[axis] + BESIDE
-        k, w = law.place(axis, x)
-        own = k[:, None] + np.arange(BESIDE + 1)
-        columns = (columns[:, :, None] * (counts[axis] + BESIDE) + own[:, None, :]).reshape(n, -1)
-        weights = (weights[:, :, None] * np.column_stack(w)[:, None, :]).reshape(n, -1)
-    starts = np.arange(n + 1) * columns.shape[1]
-    return csr_array((weights.ravel(), columns.ravel(), starts), shape=(n, size))
 
 
 @dataclass(frozen=True, eq=False)
