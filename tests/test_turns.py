@@ -48,10 +48,15 @@ class Told:
         self.left: list[Any] = []
 
     def get_closest_marker(self, name: str) -> pytest.Mark | None:
-        if name != IN_TURN[1].name or self.nodeid not in GROUPS:
+        slow, turn = (mark.name for mark in IN_TURN)
+        group = GROUPS.get(self.nodeid, "")
+        # Every second case beside a quick one is slow, and that is all that is said of it.
+        told = (slow, turn)[: 1 if group in QUICK and int(self.nodeid[-2]) % 2 else 2]
+        if not group or name not in told:
             return None
-        group = GROUPS[self.nodeid]
-        return pytest.Mark(name, () if "::" in group else (group,), {}, _ispytest=True)
+        return pytest.Mark(
+            name, (group,) if name == turn and "::" not in group else (), {}, _ispytest=True
+        )
 
     def getoption(self, name: str) -> Any:
         return self.options.get(name.lstrip("-"))

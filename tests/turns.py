@@ -9,7 +9,10 @@ from zlib import crc32
 import pytest
 
 IN_TURN = (pytest.mark.slow, pytest.mark.in_turn)
-"""Marks of a case of `parametrize`; the function has quick cases, or one of these runs each day."""
+"""Marks of a case of `parametrize`, where one of these runs each day.
+
+Where the function has quick cases, `slow` alone says the same.
+"""
 
 
 def in_turn(group: str) -> Any:
@@ -27,11 +30,21 @@ def today() -> int:
 
 
 def turns(items: Collection[pytest.Item]) -> dict[str, str]:
-    """Test -> its group, of those that take turns: what its mark says, else its function."""
-    marks = {item.nodeid: item.get_closest_marker("in_turn") for item in items}
-    return {
-        name: mark.args[0] if mark.args else _function(name) for name, mark in marks.items() if mark
-    }
+    """Test -> its group, of those that take turns: what its mark says, else its function.
+
+    A slow case of a function that has quick ones takes turns without a mark.
+    """
+    quick = {_function(i.nodeid) for i in items if i.get_closest_marker("slow") is None}
+    found: dict[str, str] = {}
+    for item in items:
+        mark = item.get_closest_marker("in_turn")
+        if mark is not None and mark.args:
+            found[item.nodeid] = mark.args[0]
+        elif mark is not None or (
+            item.get_closest_marker("slow") and _function(item.nodeid) in quick
+        ):
+            found[item.nodeid] = _function(item.nodeid)
+    return found
 
 
 def resting(names: Collection[str], groups: Mapping[str, str], every: int, day: int) -> set[str]:
