@@ -52,6 +52,40 @@ static inline MODELER_INTO_CLONES modeler_real modeler_law_power(const modeler_r
     return ((c[3*step]*f + c[2*step])*f + c[step])*f + c[0];
 }
 
+static inline MODELER_INTO_CLONES modeler_real modeler_law_of_1(const modeler_law *law, int along,
+                                                                modeler_real x)
+{
+    modeler_real f, rate;
+    const int cell = modeler_law_cell(law, 0, x, &f, &rate);
+    const modeler_real value = modeler_law_power(law->values + 4*cell, 1, f, along == 0);
+
+    return along < 0 ? value : value*rate;
+}
+
+#if defined(__GNUC__) && !defined(MODELER_PLAIN)
+/* Four coefficients along the second axis side by side. */
+typedef modeler_real modeler_four
+    __attribute__((vector_size(4*sizeof(modeler_real)), aligned(sizeof(modeler_real)), may_alias));
+#define MODELER_FOUR(at) (*(const modeler_four *)(const void *)(at))
+
+/* The sum of their polynomials at f, each times what it counts at g; or its derivative. */
+static inline MODELER_INTO_CLONES modeler_real modeler_law_sum(const modeler_real *c, int step,
+                                                               modeler_real f, modeler_real g,
+                                                               int along)
+{
+    const modeler_real one = 1, two = 2, three = 3, half = one/2, sixth = one/6;
+    const modeler_four a = MODELER_FOUR(c + 3*step), b = MODELER_FOUR(c + 2*step);
+    const modeler_four first = {-sixth, half, -half, sixth}, second = {half, -one, half, 0};
+    const modeler_four third = {-half, 0, half, 0}, last = {sixth, 4*sixth, sixth, 0};
+    const modeler_four values = along == 0 ? (a*(three*f) + b*two)*f + MODELER_FOUR(c + step)
+        : ((a*f + b)*f + MODELER_FOUR(c + step))*f + MODELER_FOUR(c);
+    const modeler_four counts = along == 1 ? (first*(three*g) + second*two)*g + third
+        : ((first*g + second)*g + third)*g + last;
+    const modeler_four parts = values*counts;
+
+    return (parts[0] + parts[2]) + (parts[1] + parts[3]);
+}
+#else
 /* By what the four coefficients along the second axis count at g of a cell, or its derivative. */
 static inline MODELER_INTO_CLONES void modeler_law_weights(modeler_real g, int slope,
                                                            modeler_real *w)
@@ -71,32 +105,30 @@ static inline MODELER_INTO_CLONES void modeler_law_weights(modeler_real g, int s
     }
 }
 
-static inline MODELER_INTO_CLONES modeler_real modeler_law_of_1(const modeler_law *law, int along,
-                                                                modeler_real x)
+static inline MODELER_INTO_CLONES modeler_real modeler_law_sum(const modeler_real *c, int step,
+                                                               modeler_real f, modeler_real g,
+                                                               int along)
 {
-    modeler_real f, rate;
-    const int cell = modeler_law_cell(law, 0, x, &f, &rate);
-    const modeler_real value = modeler_law_power(law->values + 4*cell, 1, f, along == 0);
+    const int slope = along == 0;
+    modeler_real w[4];
 
-    return along < 0 ? value : value*rate;
+    modeler_law_weights(g, along == 1, w);
+    return (w[0]*modeler_law_power(c, step, f, slope) + w[1]*modeler_law_power(c + 1, step, f, slope))
+        + (w[2]*modeler_law_power(c + 2, step, f, slope)
+           + w[3]*modeler_law_power(c + 3, step, f, slope));
 }
+#endif
 
 static inline MODELER_INTO_CLONES modeler_real modeler_law_of_2(const modeler_law *law, int along,
                                                                 modeler_real x, modeler_real y)
 {
-    modeler_real f, g, w[4], rates[2];
+    modeler_real f, g, rates[2];
     const int k = modeler_law_cell(law, 0, x, &f, &rates[0]);
     const int l = modeler_law_cell(law, 1, y, &g, &rates[1]);
-    const int step = law->step, slope = along == 0;
-    const modeler_real *const c = law->values + 4*k*step + l;
+    const int step = law->step;
+    const modeler_real value = modeler_law_sum(law->values + 4*k*step + l, step, f, g, along);
 
-    modeler_law_weights(g, along == 1, w);
-    const modeler_real value =
-        (w[0]*modeler_law_power(c, step, f, slope) + w[1]*modeler_law_power(c + 1, step, f, slope))
-        + (w[2]*modeler_law_power(c + 2, step, f, slope)
-           + w[3]*modeler_law_power(c + 3, step, f, slope));
-
-    return along < 0 ? value : value*rates[slope != 0 ? 0 : 1];
+    return along < 0 ? value : value*rates[along == 0 ? 0 : 1];
 }
 
 #endif
