@@ -41,6 +41,7 @@ def add(
     holdout: Sequence[AnyLog] = (),
     joint: str | None = None,
     mapping: Mapped = (),
+    law: diagnosis.LawAsked = diagnosis.ANY_LAW,
 ) -> M:
     """The model with one effect more, fitted to the logs; `table("waterfall")` says what it gained.
 
@@ -50,17 +51,20 @@ def add(
 
     Args:
         model: as it is.
-        effect: id, see `effects()`.
+        effect: id, see `effects()`; "learned": a smooth law, for what has no name.
         logs: to fit to.
         holdout: logs of other motion to judge on.
         joint: None: where it explains most.
         mapping: as of `read_logs`.
+        law: of what a learned law is a function, and its form.
 
     Raises:
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
     compiled, given = logs_of(model, logs, holdout, mapping)
+    if effect == diagnosis.LEARNED:
+        return like(model, diagnosis.add_learned(model, compiled, joint, given, law))
     return like(model, diagnosis.add_effect(model, compiled, effect, joint, given))
 
 
@@ -70,6 +74,7 @@ def auto(
     holdout: Sequence[AnyLog] = (),
     progress: Callable[[float], None] | None = None,
     mapping: Mapped = (),
+    learned: bool = False,
 ) -> M:
     """The model with all that a diagnosis on these logs names and that lowers the error.
 
@@ -77,11 +82,19 @@ def auto(
     >>> [step.effect for step in better.history[1:]]
     ['spring']
 
+    Args:
+        model: as it is.
+        logs: to fit to.
+        holdout: logs of other motion to judge on.
+        progress: called with the share that is done.
+        mapping: as of `read_logs`.
+        learned: True for a learned law of each joint at last, of what is left.
+
     Raises:
         DataError: nothing that can be added is missing.
     """
     compiled, given = logs_of(model, logs, holdout, mapping)
-    return like(model, auto_added(model, compiled, given, progress)[0])
+    return like(model, auto_added(model, compiled, given, progress, learned=learned)[0])
 
 
 def undo(model: M, logs: Sequence[AnyLog], mapping: Mapped = ()) -> M:
@@ -109,6 +122,7 @@ def auto_added(
     logs: diagnosis.Logs,
     progress: Callable[[float], None] | None = None,
     working: Steps = silent,
+    learned: bool = False,
 ) -> tuple[IdentifiedModel, tuple[str, ...], diagnosis.Diagnosis]:
     """The model with what a diagnosis names, why some of it is left out, and the diagnosis.
 
@@ -119,6 +133,10 @@ def auto_added(
     findings = [*found.effects, *found.refinements]
     with working("adding what is missing"):
         better, left_out = diagnosis.add_findings(model, compiled, findings, logs)
+    if learned:
+        with working("learning laws"):
+            better, idle = diagnosis.add_laws(better, recompile(better), logs)
+        left_out = (*left_out, *idle)
     if better is model and not left_out:
         raise DataError(
             "auto: nothing is added, because nothing that can be added is missing in this model "

@@ -59,7 +59,7 @@ def _torque(form: Form, axis: str, x: float) -> float:
     values: dict[str, float] = {}
     for shape in form.shapes:
         values[shape.name] = shape.grid[-1] if shape.grid else 6.0
-    values |= dict.fromkeys(("v", "a", "q", "load", "static", "torque", "t", "T", "z"), 1.0)
+    values |= dict.fromkeys((*form.names, "v", "load", "static", "z"), 1.0)
     if axis == "load":  # both directions, the load growing outwards
         values |= {"load": abs(x), "static": abs(x), "v": _FUNCTIONS["sign"](x)}
     elif axis == "z":

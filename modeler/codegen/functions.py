@@ -286,7 +286,8 @@ def _held_by_friction(model: SymbolicModel) -> str:
     joints: dict[str, dict[str, None]] = {}
     for column in model.columns:
         for part in column.parts if isinstance(column, ShaftColumn) else ():
-            still = part.acts is Acts.POSITION or not part.equation.names & {"v", "a", "z"}
+            moved = any(name[0] in "vaz" for name in part.equation.names - part.shapes.keys())
+            still = part.acts is Acts.POSITION or not moved
             if still and part.kind != "offset":
                 joints.setdefault(part.effect, {})[model.robot.joints[part.row].name] = None
     return " and ".join(

@@ -36,7 +36,7 @@ from modeler.derivation.kinematics import (
     wrench_columns,
 )
 from modeler.derivation.labels import Label
-from modeler.effects import ENCODERS, Acts
+from modeler.effects import ENCODERS, MOTION, Acts
 from modeler.robot import Robot
 
 _REFERRED = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
@@ -326,9 +326,12 @@ def _equation(model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] =
     values: dict[str, Expr] = {
         name: graph.constant(Fraction(repr(float(value)))) for name, value in column.shapes.items()
     }
-    for name, kind in zip(("q", "v", "a"), motion, strict=True):
-        values[name] = along(model, column.shaft, kind)
     names = column.equation.names
+    for name, kind in zip(MOTION, motion, strict=True):
+        values[name] = along(model, column.shaft, kind)
+        for joint, form in zip(model.robot.moving, model.geometry.forms, strict=True):
+            if name + joint.name in names - values.keys():
+                values[name + joint.name] = combination(graph, form, model.inputs(kind))
     for name in ("load", "static", "torque"):
         if name in names:
             values[name] = _on_shaft(graph, column.shaft, model.reference_torque(name))

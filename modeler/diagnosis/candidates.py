@@ -171,7 +171,7 @@ def candidates(
     """
     found: list[Candidate] = []
     for effect in known.catalogue:
-        if effect.several:
+        if effect.several or effect.learned:
             continue
         if effect.acts in (Acts.JOINT, Acts.POSITION):
             for j, joint in enumerate(spec.joints):
@@ -180,7 +180,7 @@ def candidates(
                 if missing and turning and _named_first(effect, joint.name, known, allowed):
                     warm = has_temperature.get(joint.name, False)
                     form = next((f for f in effect.forms if warm or "T" not in f.names), None)
-                    if form is not None:
+                    if form is not None and _others_known(form, joint.name, spec):
                         found += over_grid(effect, form, joint.name, j, scales[j])
         elif effect.acts in (Acts.TORQUE, Acts.GRAVITY):
             found.append(Candidate(effect, effect.forms[0], None, -1))
@@ -189,6 +189,12 @@ def candidates(
         elif effect.acts is Acts.PASSIVE and spec.closure is not None:
             found += _passive(spec, effect, present)
     return [candidate for candidate in found if allowed(*candidate.key)]
+
+
+def _others_known(form: Form, joint: str, spec: ModuleSpec) -> bool:
+    """True if the other joints that it reads are in the logs, and are others."""
+    logged = {own.name for own in spec.joints} - {joint}
+    return all(name[1:] in logged for name in form.others)
 
 
 def _named_first(

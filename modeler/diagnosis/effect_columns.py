@@ -47,6 +47,7 @@ def own_columns(
     }
     read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
     values |= {name: getattr(signals, name)[window, j, None] for name in read}
+    values |= {name: signals.of_other(name)[window, None] for name in first.form.others}
     if "t" in names:
         values["t"] = signals.time[window, None]
     if "T" in names and (warmth := signals.temperature(first.joint or "")) is not None:

@@ -147,6 +147,14 @@ class Signals(Brief):
         """(n,) s."""
         return self.segment.time - self.reference.time
 
+    def of_other(self, name: str) -> np.ndarray:
+        """(n,) `v3`: position, speed or acceleration of a joint by its name."""
+        motion, joints = (
+            {"q": self.q, "v": self.v, "a": self.a},
+            self.reference.compiled.spec.joints,
+        )
+        return motion[name[0]][:, [joint.name for joint in joints].index(name[1:])]
+
     def temperature(self, joint: str) -> np.ndarray | None:
         """(n,) K above the reference; None where the training logs have no such column.
 

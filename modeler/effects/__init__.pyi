@@ -11,6 +11,7 @@ from .definition import (
     read_definition as read_definition,
 )
 from .effect import (
+    MOTION as MOTION,
     Acts as Acts,
     Effect as Effect,
     EffectColumn as EffectColumn,

@@ -1,15 +1,18 @@
 """An effect from its table: one of the catalogue, or one that a robot file defines itself."""
 
+import dataclasses
 import itertools
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from modeler.core.expression import FUNCTIONS, LAW
+from modeler.core.expression import FUNCTIONS, LAW, Expression
 from modeler.core.law import BESIDE, MOST as MOST_VALUES, Law
 from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 from modeler.effects.effect import (
+    MOTION,
     VARIABLES,
     Acts,
     Effect,
@@ -52,7 +55,10 @@ _AXES: dict[str, Shows] = {
 something else shows itself there, turned with the motion."""
 
 
-def read_definition(name: str, place: Place, taken: Mapping[str, str], own: bool = True) -> Effect:
+def read_definition(
+    name: str, place: Place, taken: Mapping[str, str], own: bool = True,
+    joints: Collection[str] | None = (),
+) -> Effect:  # fmt: skip
     """The effect of one table.
 
     Args:
@@ -61,6 +67,7 @@ def read_definition(name: str, place: Place, taken: Mapping[str, str], own: bool
             also what else an `Effect` says of itself.
         taken: names of parameters that it must not have -> whose they are.
         own: of a robot file: it has the first keys only, and its equations are tried.
+        joints: whose motion its equations may read, as `v3`; None: they were checked before.
 
     Raises:
         RobotError: equations that cannot be read or that have no finite value, unknown variables,
@@ -68,13 +75,16 @@ def read_definition(name: str, place: Place, taken: Mapping[str, str], own: bool
     """
     table = place.checked_table(_KEYS, EXAMPLE) if own else place.table(EXAMPLE)
     acts, variables = _acts(place.at("acts", table.get("acts", "joint")), own)
+    known = _Names(variables, joints if acts is Acts.JOINT else ())
     forms = tuple(
-        _form({**table, **form}, variables, taken, place) for form in table.get("forms", [{}])
+        _form({**table, **form}, known, taken, place) for form in table.get("forms", [{}])
     )
     if own:
         _check_form(forms[0], acts, place)
     columns, used = forms[0].columns, forms[0].names
-    quantities = " and ".join(dict.fromkeys(_PLAIN[v] for v in _PLAIN if v in used)) or "time"
+    told = [_PLAIN[v] for v in _PLAIN if v in used]
+    told += [f"{_PLAIN[other[0]]} of joint {other[1:]}" for other in sorted(forms[0].others)]
+    quantities = " and ".join(dict.fromkeys(told)) or "time"
     axis = next((axis for variable, axis in _AXES.items() if variable in used), "v")
     title = place.at("title", table.get("title", f"{name} of the robot file"))
     stated: dict[str, Any] = {
@@ -115,13 +125,38 @@ def _acts(place: Place, own: bool) -> tuple[Acts, Sequence[str]]:
     )
 
 
-def _form(
-    table: Mapping[str, Any], variables: Sequence[str], taken: Mapping[str, str], place: Place
-) -> Form:
-    shapes = _shapes(table, place.at("shapes", table.get("shapes", {})))
-    allowed = (*variables, *(shape.name for shape in shapes))
+@dataclass(frozen=True)
+class _Names:
+    """What equations may read: variables, q, v and a of joints, shapes."""
+
+    variables: Sequence[str]
+    joints: Collection[str] | None
+    shapes: Sequence[str] = ()
+
+    def is_motion(self, name: str) -> bool:
+        """True of `v3`, if there is a joint 3, or nobody knows."""
+        head, joint = name[0], name[1:]
+        known = joint != "" if self.joints is None else joint in self.joints
+        return head in MOTION and known
+
+    def check(self, equation: Expression, place: Place) -> None:
+        """Refuses a name that is none of them."""
+        every = (*self.variables, *self.shapes)
+        for name in sorted(equation.names):
+            if name not in every and not self.is_motion(name):
+                joints = f", q, v, a with the name of a joint ({listed(self.joints or ())})"
+                raise place.error(
+                    f"got {shown(equation.text)}: {name} is unknown{near(name, every)}; expected "
+                    f"names among {listed(every)}{joints * bool(self.joints)}; list others under "
+                    "shapes"
+                )
+
+
+def _form(table: Mapping[str, Any], known: _Names, taken: Mapping[str, str], place: Place) -> Form:
+    shapes = _shapes(table, known, place.at("shapes", table.get("shapes", {})))
+    known = dataclasses.replace(known, shapes=[shape.name for shape in shapes])
     law = _law(place.at("law", table["law"])) if "law" in table else None
-    columns = _columns(table, allowed, taken, place, law)
+    columns = _columns(table, known, taken, place, law)
     memory = None
     if "resonance" in table:
         memory = Memory("resonance", *table["resonance"])
@@ -135,7 +170,7 @@ def _form(
     return Form(columns, shapes, memory)
 
 
-def _shapes(table: Mapping[str, Any], place: Place) -> tuple[Shape, ...]:
+def _shapes(table: Mapping[str, Any], known: _Names, place: Place) -> tuple[Shape, ...]:
     shapes = []
     scales, limits, meanings = (table.get(key, {}) for key in ("scale", "limits", "meaning"))
     for name, cell in place.table("shapes = {c = [-1, 0, 1]}").items():
@@ -145,6 +180,11 @@ def _shapes(table: Mapping[str, Any], place: Place) -> tuple[Shape, ...]:
             raise place.error(
                 f"got the name {shown(name)}; expected letters, digits and _, and neither a "
                 f"variable ({listed(VARIABLES)}) nor {listed(_RESERVED)}"
+            )
+        if scale == "own" and known.joints and known.is_motion(name):
+            raise place.error(
+                f"got the name {shown(name)}, which is the {_PLAIN[name[0]]} of joint "
+                f"{name[1:]}; choose another"
             )
         here = place.at(name, cell)
         entries = cell if isinstance(cell, list) else [cell]
@@ -175,7 +215,7 @@ def _limits(grid: Sequence[float]) -> tuple[float, float]:
 
 
 def _columns(
-    table: Mapping[str, Any], allowed: Sequence[str], taken: Mapping[str, str], place: Place,
+    table: Mapping[str, Any], known: _Names, taken: Mapping[str, str], place: Place,
     law: Law | None,
 ) -> tuple[EffectColumn, ...]:  # fmt: skip
     here = place.at("columns", table.get("columns"))
@@ -201,12 +241,7 @@ def _columns(
                 "another name"
             )
         equation = here.at(prefix, cell).expression(law)
-        for name in sorted(equation.names):
-            if name not in allowed:
-                raise here.at(prefix).error(
-                    f"got {shown(equation.text)}: {name} is unknown{near(name, allowed)}; expected "
-                    f"names among {listed(allowed)}; list others under shapes"
-                )
+        known.check(equation, here.at(prefix))
         block = EnergyBlock[(energy[prefix] if isinstance(energy, dict) else energy).upper()]
         kind, largest = table.get("kind", "other"), table.get("largest", math.inf)
         unit, other = units[prefix], prismatic[prefix]
@@ -296,7 +331,7 @@ def check_finite(form: Form, place: Place, given: Mapping[str, float] | None = N
     names = [shape.name for shape in form.shapes]
     grid = itertools.product(*(shape.grid for shape in form.shapes))
     every = (dict(zip(names, values, strict=True)) for values in grid)
-    states = list(_states())
+    states = list(_states(form))
     for shapes in every if given is None else [given]:
         for column, state in itertools.product(form.columns, states):
             if not _is_finite(column, {**state, **shapes}):
@@ -309,14 +344,15 @@ def check_finite(form: Form, place: Place, given: Mapping[str, float] | None = N
                 )
 
 
-def _states() -> Iterator[Mapping[str, float]]:
+def _states(form: Form) -> Iterator[Mapping[str, float]]:
     """Rest, and states with both signs of everything."""
     import random  # as long to load as the whole catalogue is to read, and seldom needed
 
-    yield dict.fromkeys(VARIABLES, 0.0)
+    names = (*VARIABLES, *sorted(form.others))
+    yield dict.fromkeys(names, 0.0)
     draw = random.Random(0)
     for _ in range(_STATES):
-        yield {name: draw.uniform(-3.0, 3.0) for name in VARIABLES}
+        yield {name: draw.uniform(-3.0, 3.0) for name in names}
 
 
 def _is_finite(column: EffectColumn, values: Mapping[str, float]) -> bool:

@@ -156,6 +156,9 @@ VARIABLES = {
 }
 """What the equation of a column may use; SI units."""
 
+MOTION = ("q", "v", "a")
+"""Those that it may read of another joint too, whose name follows: `v3`."""
+
 
 @dataclass(frozen=True)
 class Form(Brief):
@@ -178,9 +181,18 @@ class Form(Brief):
 
     @cached_property
     def names(self) -> frozenset[str]:
-        """Variables of `VARIABLES` that its equations use."""
+        """Variables that its equations use: of `VARIABLES`, and as `v3` of other joints."""
         used = frozenset().union(*(column.equation.names for column in self.columns))
-        return used & VARIABLES.keys()
+        return used - {shape.name for shape in self.shapes}
+
+    @cached_property
+    def others(self) -> frozenset[str]:
+        """Those of other joints."""
+        return self.names - VARIABLES.keys()
+
+    def reads_as_other(self, joint: str) -> list[str]:
+        """Those that name that joint, on which the effect cannot act therefore."""
+        return sorted(name for name in self.others if name[1:] == joint)
 
 
 @dataclass(frozen=True)
@@ -250,6 +262,11 @@ class Effect(Brief):
     def columns(self) -> tuple[EffectColumn, ...]:
         """Of its usual form."""
         return self.forms[0].columns
+
+    @property
+    def learned(self) -> bool:
+        """True of a law that was learned, which is no physics."""
+        return any(column.equation.law is not None for column in self.columns)
 
     def mends(self, value: float) -> bool:
         """True if that value of its first parameter mends the form of a law in the model."""

@@ -2,7 +2,7 @@
 
 import dataclasses
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from modeler.core.toml_cells import Place, listed, near, shown
@@ -26,12 +26,15 @@ _WORDS = ("all", "auto", "undo", "rigid_body")  # mean something else where ids 
 _LOGGED = ("q", "qc", "qd", "qdd", "tau", "current", "temperature")  # columns of logs
 
 
-def read_own_effects(value: Any, place: Place) -> tuple[Effect, ...]:
+def read_own_effects(
+    value: Any, place: Place, joints: Collection[str] | None = None
+) -> tuple[Effect, ...]:
     """The effects that the file defines, in its order.
 
     Args:
         value: the table `own_effects`: id -> title, columns, shapes, unit, nonnegative, acts.
         place: of the file.
+        joints: of the robot, whose motion equations may read; None: of a file that was read before.
 
     Raises:
         RobotError: names that the catalogue has, and what `read_definition` refuses.
@@ -51,7 +54,7 @@ def read_own_effects(value: Any, place: Place) -> tuple[Effect, ...]:
             )
         taken = parameter_owners((*CATALOGUE, *found)) | dict.fromkeys(INERTIAL, "the links")
         taken |= dict.fromkeys(_LOGGED, "the logs")
-        found.append(read_definition(name, here, taken))
+        found.append(read_definition(name, here, taken, joints=joints))
     return tuple(found)
 
 
@@ -115,6 +118,12 @@ def read_effects(
             fixed = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
             shaped = tuple(EffectInstance(joint, 0, fixed) for joint in joints) if fixed else ()
             uses[effect.id] = EffectUse(effect.id, joints, shaped)
+        for name in uses[effect.id].joints:
+            if read := effect.forms[0].reads_as_other(name):
+                raise here.error(
+                    f"joint {shown(name)} is the one whose {listed(read)} it reads as another's; "
+                    f"write {listed(r[0] for r in read)} for its own, or take the joint out"
+                )
     if rubbing := uses.pop(PASSIVE_FRICTION, None):  # it becomes what it is made of
         for part in PASSIVE_FRICTION_IS:
             has = uses[part].joints if part in uses else ()

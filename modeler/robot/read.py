@@ -176,7 +176,7 @@ def _with_tables(
 
     moving = {joint.name: joint for joint in robot.moving}
     coupling = read_coupling(section("coupling"), moving, values)
-    own = read_own_effects(document.get("own_effects", {}), place)
+    own = read_own_effects(document.get("own_effects", {}), place, moving)
     robot = dataclasses.replace(robot, own_effects=own)
     effects = read_effects(section("effects"), moving, coupling, robot.catalogue, robot.platform)
     links: dict[str, tuple[str, ...]] = dict.fromkeys(robot.platform[:-1], ())

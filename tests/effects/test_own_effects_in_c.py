@@ -1,6 +1,7 @@
 """Effects that a robot file defines: their columns in the emitted C against numpy."""
 
 from collections.abc import Callable
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -82,6 +83,37 @@ def test_c_computes_the_equation_of_the_robot_file(name: str) -> None:
         compiled.inverse_dynamics(q, v, a, beta, signals),
     ):
         np.testing.assert_allclose(base, standard, rtol=0, atol=1e-12 * np.abs(standard).max())
+
+
+@pytest.mark.parametrize("precision", ["double", "single"])
+def test_an_equation_reads_the_motion_of_other_joints(
+    precision: Literal["double", "single"],
+) -> None:
+    """Tiles, scalar functions and friction alone, against numpy."""
+    columns = {"Kl": "v*exp(-(q3/w)**2)", "Km": "a1*sin(q) + v3*abs(v1)"}
+    robot = arm_with("leaning", {"columns": columns, "shapes": {"w": [0.5, 1]}}, {"w": 0.8})
+    derivation = derive(robot)
+    assert derivation.base.proof.kind == "exact"
+    compiled = loaded(generate(derivation, precision=precision))
+    q, v, a = np.random.default_rng(13).uniform(-2.0, 2.0, (3, SAMPLES, 3))
+    phi = compiled.regressor(q, v, a)
+    got = columns_of(robot, "leaning", compiled, phi)
+    wanted = np.column_stack([
+        v[:, 1] * np.exp(-((q[:, 2] / 0.8) ** 2)),
+        a[:, 0] * np.sin(q[:, 1]) + v[:, 2] * np.abs(v[:, 0]),
+    ])  # fmt: skip
+    close = (
+        {"rtol": 1e-12, "atol": 1e-14} if precision == "double" else {"rtol": 2e-5, "atol": 1e-6}
+    )
+    np.testing.assert_allclose(got[:, JOINT], wanted, **close)
+    assert not np.delete(got, JOINT, axis=1).any()
+    place = [b.name for b in compiled.spec.base].index("Kl2")
+    np.testing.assert_allclose(
+        compiled.base_regressor(q, v, a)[:, JOINT, place], wanted[:, 0], **close
+    )
+    one = np.eye(len(compiled.spec.base))[place]
+    friction = compiled.friction(v, one, q=q, qdd=a)
+    np.testing.assert_allclose(friction[:, JOINT], wanted[:, 0], **close)
 
 
 def test_a_load_is_that_of_the_reference() -> None:

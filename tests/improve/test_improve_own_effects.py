@@ -32,6 +32,13 @@ nonnegative = true
 columns = {Kc = "T*v**3"}
 """
 
+MEMORIES = """
+[own_effects.leaning]
+title = "drag that grows with the reach of joint 3"
+columns = {Kl = "v*(1 - cos(q3))"}
+unit = "N*m*s/rad"
+"""
+
 
 def brake(log: Log) -> np.ndarray:
     """The torque of the magnet on joint 2."""
@@ -76,6 +83,29 @@ def test_it_is_found_added_judged_and_taken_out(own: Case, tmp_path: Path) -> No
     back = undone(better, logs)
     assert back.robot_text == model.robot_text
     np.testing.assert_allclose(back.beta, model.beta, rtol=1e-9)
+
+
+@pytest.fixture(scope="module")
+def remembering(case: Case) -> Case:
+    """The arm whose file defines effects that read other joints."""
+    robot = robot_from_text(api.load("demo-arm").text + MEMORIES, "arm.toml")
+    return dataclasses.replace(case, derivation=api.derive(robot))
+
+
+def test_one_that_reads_another_joint_is_added_where_it_acts(remembering: Case) -> None:
+    def leaning(log: Log) -> np.ndarray:
+        q, v = motion(log)
+        return on_joint(log, 1, 6.0 * v[:, 1] * (1.0 - np.cos(q[:, 2])))
+
+    model, train, holdout = remembering.hidden(leaning)
+    logs = Logs([train], [holdout])
+    better = add_effect(model, remembering.compiled, "leaning", None, logs)
+    assert better.history[1].joint == "2"
+    found = {p.name: p for p in better.fit.parameters}["Kl2"]
+    assert found.sigma is not None and abs(found.value - 6.0) < 3.0 * found.sigma
+    assert better.history[1].error < 0.2 * better.history[0].error
+    with pytest.raises(DataError, match="--joint 3: leaning reads q3 of it as of another joint"):
+        add_effect(model, remembering.compiled, "leaning", "3", logs)
 
 
 def test_without_the_definition_the_catalogue_is_all_there_is(own: Case) -> None:
