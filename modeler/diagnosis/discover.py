@@ -6,7 +6,7 @@ quick and nearly right; the best are made anew, filtered as a whole, and their s
 What is compared is a length in nats (Rissanen 1978): with S the squared residual of the joint on
 motion that was held out, S0 that of the model, n its rows that do not repeat each other,
 
-    n/2 ln(S / S0) + PRICE * symbols.
+    n/2 ln(S / S0) + PRICE (symbols + free numbers).
 """
 
 import dataclasses
@@ -37,7 +37,7 @@ from modeler.numerics.spectra import order_spectrum as spectrum_of
 from modeler.runtime import mapped
 
 PRICE = 4.0
-"""Nats of a symbol: it is one of about fifty."""
+"""Nats of a symbol, which is one of about fifty, and of a free number: 1/2 ln n (Schwarz 1978)."""
 
 SAME = 0.01
 """Share of its torque by which a formula must differ from a better one to be another."""
@@ -48,15 +48,20 @@ MORE = 0.9**2
 ALIKE = 0.995
 """Correlation of two columns, off the model, from which on the shorter one stands for both."""
 
+NEAR = 0.97
+"""The same where shapes are refined still."""
+
 _AT_ONCE = 16  # columns, each with all factors
 _MANY = 512  # columns
 _BEAM = 30  # products of two that get a third factor
 _EXACT = 40  # columns that are made anew
 _REFINED = 8
-_FIRSTS = 4  # columns that get a second one beside them
+_FIRSTS = 3  # columns that get a second one beside them
 _SECONDS = 1500  # products of two that are tried there
-_BESIDE = 6
+_BESIDE = 5
 _TURNS = 4
+_NEAR, _ROUNDS, _CHANGED = 3, 3, 8
+_PLAIN = ("sign(v)", "v", "abs(v)", "v*abs(v)", "load", "abs(load)")
 _LOW = (0.5, 1.0, 1.5, 2.0, 2.5)  # waves in the stroke that no spectrum shows
 
 
@@ -104,13 +109,14 @@ class JointSearch:
         self.joint = state.spec.joints[j]
         self.effort: Unit = {"N": 1.0, "m": 1.0} if self.joint.unit == "rad" else {"N": 1.0}
         self.before = float(state.sigma[j] ** 2 * np.sum(state.folded.left_out[j] ** 2))
-        self.count = self._count(state)
+        noise = np.random.default_rng(0).normal(size=len(state.y[j]))
+        self.count = self._count(noise)  # what is missing is remembered, noise is not
 
-    def _count(self, state: State) -> float:
-        """Rows of the joint that do not repeat each other, by what a state leaves of it."""
-        observation = state.data.observation
+    def _count(self, left: np.ndarray) -> float:
+        """Rows of the joint that do not repeat each other, by what is left of it (rows_j,)."""
+        observation = self.state.data.observation
         rows = np.flatnonzero(observation.used[:, self.j])
-        r = remembered(observation, state.residual[self.j], rows)
+        r = remembered(observation, left, rows)
         return len(rows) / max(1.0, 2.0 * float(r.sum()) - 1.0)
 
     def cost(self, left: np.ndarray | float, symbols: np.ndarray | int) -> np.ndarray:
@@ -129,7 +135,8 @@ class JointSearch:
         """Those of this joint."""
         state = self.state
         warm = self.joint.name in state.reference.temperature
-        return factors(state.scales, state.names, self.j, self.effort, warm, False)
+        return factors(state.scales, state.names, self.j, self.effort, warm,
+                       state.spec.closure is not None)
 
     @cached_property
     def atoms(self) -> list[_Column]:
@@ -137,7 +144,7 @@ class JointSearch:
         found = []
         for factor in self.factors:
             parts = [Part(factor, shapes) for shapes in factor.over_grid()]
-            first = self.formula((parts[0],)).candidate(self.joint.name, self.j)
+            first = self.formula((parts[0],)).candidate(self.state.names, self.j)
             every = [dataclasses.replace(first, shapes=dict(part.shapes)) for part in parts]
             columns = self.state.rows.many(every) if len(every) > 1 else [
                 self.state.rows.columns(first)
@@ -157,8 +164,8 @@ class JointSearch:
 
     def _product(self, a: _Column, b: _Column) -> _Column:
         """Of a column and a factor that is no wave."""
-        symbols = a.symbols + len(a.values.T) * b.symbols
-        return _Column((*a.term, *b.term), a.values * b.values, symbols)
+        term = (*a.term, *b.term)
+        return _Column(term, a.values * b.values, self.formula(term).symbols)
 
     def waves(self) -> list[_Column]:
         """Waves over the position of this joint and of others."""
@@ -168,7 +175,7 @@ class JointSearch:
         orders = dict.fromkeys([*(scale.angular * [1.0]), *(unit * x for x in _LOW), *self.orders()])
         every = [(wave("q", order, scale, "the position"), places[self.j], order) for order in orders]
         for k, name in enumerate(self.state.names):
-            if False and k in places and k != self.j and self.state.scales[k].angular:
+            if k in places and k != self.j and self.state.scales[k].angular:
                 words = f"the position of joint {name}"
                 every.append((wave(f"q{name}", 1.0, self.state.scales[k], words), places[k], 1.0))
         for factor, q, order in every:
@@ -229,7 +236,7 @@ class JointSearch:
             who = first + np.flatnonzero(fit)
             made = column.values.T[None] * values[who][:, None]
             count = len(column.values.T)
-            costs = self.priced(state, made, column.symbols + count * symbols[who])
+            costs = self.priced(state, made, column.symbols + count * (symbols[who] - 1))
             best = np.argsort(costs)[:keep]
             return [(float(costs[k]), column, right[who[k]]) for k in best]
 
@@ -243,6 +250,12 @@ class JointSearch:
 
     def priced(self, state: State, made: np.ndarray, symbols: np.ndarray) -> np.ndarray:
         """(K,) nats of columns (K, k, rows_j) by what they explain of all rows beside a state."""
+        whole = float(np.sum(state.residual[self.j] ** 2))
+        fall = float(state.sigma[self.j] ** 2) * self.fall(state, made)
+        return self.cost(whole - np.clip(fall, 0.0, whole), symbols)
+
+    def fall(self, state: State, made: np.ndarray) -> np.ndarray:
+        """(K,) fall of the squared residual, weighted, by columns (K, k, rows_j), on all rows."""
         base, e = state.base.columns[self.j], state.residual[self.j] / state.sigma[self.j]
         T = made @ base
         gram = made @ made.swapaxes(1, 2) - T @ T.swapaxes(1, 2)
@@ -251,9 +264,7 @@ class JointSearch:
         gram /= np.sqrt(length[:, :, None] * length[:, None])
         gram += 1e-6 * np.eye(gram.shape[1])
         fall = np.einsum("ki,ki->k", side, np.linalg.solve(gram, side[..., None])[..., 0])
-        share = np.nan_to_num(fall / float(e @ e))
-        left = float(state.sigma[self.j] ** 2) * float(e @ e) * (1.0 - np.clip(share, 0.0, 1.0))
-        return self.cost(left, symbols)
+        return np.nan_to_num(fall)
 
     def singles(self, columns: Sequence[_Column], state: State | None = None) -> list[_Priced]:
         """Columns as they are, the cheapest first."""
@@ -269,7 +280,9 @@ class JointSearch:
                     found += [(float(cost), c, None) for cost, c in zip(costs, own, strict=True)]
         return sorted(found, key=lambda item: item[0])
 
-    def distinct(self, ranked: Sequence[_Priced], keep: int) -> list[_Column]:
+    def distinct(
+        self, ranked: Sequence[_Priced], keep: int, alike: float = ALIKE
+    ) -> list[_Column]:
         """The cheapest that are not alike."""
         base = self.state.base.columns[self.j]
         found: list[tuple[np.ndarray, _Column]] = []
@@ -279,7 +292,7 @@ class JointSearch:
             own = np.vstack([c, 1j * (base.T @ c)])  # products are those of columns off the model
             own = own @ _root((own.T @ own).real)
             if all(np.linalg.norm((own.T @ other).real) ** 2
-                   < ALIKE**2 * min(own.shape[1], other.shape[1]) for other, _ in found):  # fmt: skip
+                   < alike**2 * min(own.shape[1], other.shape[1]) for other, _ in found):  # fmt: skip
                 found.append((own, column))
             if len(found) == keep:
                 break
@@ -289,7 +302,7 @@ class JointSearch:
 
     def scored(self, formulas: Sequence[Formula]) -> list[Scored]:
         """Formulas by the columns that they have as effects, the cheapest first."""
-        made = [(f, f.candidate(self.joint.name, self.j)) for f in formulas]
+        made = [(f, f.candidate(self.state.names, self.j)) for f in formulas]
         pairs = [(f, c, self.state.rows.columns(c)) for f, c in made]
         pairs = [own for own in pairs if visible(own[2])]
         if not pairs:
@@ -302,13 +315,11 @@ class JointSearch:
             found.append(Scored(formula, candidate, left, float(self.cost(left, formula.symbols))))
         return sorted(found, key=lambda s: s.cost)
 
-    def refined(self, item: Scored) -> Scored:
+    def refined(self, item: Scored, turns: int = _TURNS) -> Scored:
         """The same at its best shapes."""
-        for _ in range(_TURNS):
-            candidate = refined(self.state, item.candidate)
+        for _ in range(turns):
+            candidate = refined(self.state, item.candidate, self.explained)
             self._tick()
-            if candidate == item.candidate:
-                break
             again = self.scored([item.formula.with_shapes(candidate.shapes)])
             if not again or again[0].cost >= item.cost:
                 break
@@ -317,6 +328,14 @@ class JointSearch:
                 break
         return item
 
+    def explained(self, candidate: Candidate) -> float:
+        """Fall of the squared residual, weighted, on all rows."""
+        columns = self.state.rows.columns(candidate)
+        if not visible(columns):
+            return 0.0
+        values = dense(columns, self.j, self._rows)
+        return float(self.fall(self.state, values.T[None])[0])
+
     def found(self) -> list[Scored]:
         """Formulas that say more than they cost, the cheapest first; no two are alike."""
         atoms, waves = self.atoms, self.waves()
@@ -324,29 +343,51 @@ class JointSearch:
         doubles = self.products([*atoms, *waves], atoms, _SECONDS)
         triples = self.products(self.distinct(doubles, _BEAM), atoms, _SECONDS)
         every = sorted([*every, *doubles, *triples], key=lambda item: item[0])
-        leading = [self.formula(c.term) for c in self.distinct(every, _EXACT)]
+        leading = [self.formula(c.term) for c in self.distinct(every, _EXACT, NEAR)]
         single = self.best(self.scored(leading), _REFINED)
         seconds = [left if right is None else self._product(left, right)
                    for _, left, right in every[:_SECONDS]]  # fmt: skip
         pairs: list[Scored] = []
         for first in single[:_FIRSTS]:
             beside = JointSearch(self._with(first.candidate), self.j, self._tick)
-            near = self.distinct(self.singles(seconds, beside.state), 2 * _BESIDE)
-            others = beside.best(beside.scored([self.formula(c.term) for c in near]), _BESIDE)
+            near = self.distinct(self.singles(seconds, beside.state), _BESIDE, NEAR)
+            others = beside.best(beside.scored([self.formula(c.term) for c in near]), _BESIDE, 1)
             sums = [self.formula(*first.formula.terms, *s.formula.terms) for s in others]
             own = self.scored([f for f in sums if f.possible])
             pairs += [s for s in own if s.left < MORE * first.left]
-        return self.apart(self.priced_anew([*single, *self.best(pairs, _REFINED)]))
+        found = sorted([*single, *self.best(pairs, _REFINED)], key=lambda s: s.cost)
+        for _ in range(_ROUNDS):
+            first, near = found[0].cost if found else 0.0, found[:_NEAR]
+            better = self.scored([f for item in near for f in self.neighbours(item.formula)])
+            found = sorted([*self.best(better, _CHANGED, 2), *found], key=lambda s: s.cost)
+            if not found or found[0].cost >= first:
+                break
+        return self.apart(self.priced_anew(found))
 
-    def best(self, ranked: Sequence[Scored], count: int) -> list[Scored]:
+    def neighbours(self, formula: Formula) -> list[Formula]:
+        """It without a part or a term, and with a plain factor in place of a part."""
+        found = [self.formula(term) for term in formula.terms if len(formula.terms) > 1]
+        for k, term in enumerate(formula.terms):
+            for i in range(len(term)):
+                rest = (*term[:i], *term[i + 1 :])
+                texts = [part.factor.text for part in rest]
+                others = [self.named[text].term for text in _PLAIN
+                          if text in self.named and text not in (*texts, term[i].factor.text)]  # fmt: skip
+                for one in ((*plain, *rest) for plain in ((), *others)):
+                    if one:
+                        found.append(self.formula(*formula.terms[:k], one, *formula.terms[k + 1 :]))
+        return [f for f in found if f.possible]
+
+    def best(self, ranked: Sequence[Scored], count: int, turns: int = _TURNS) -> list[Scored]:
         """The cheapest at their best shapes."""
         first = sorted(ranked, key=lambda s: s.cost)[:count]
-        return self.priced_anew([self.refined(item) for item in first])
+        return sorted((self.refined(item, turns) for item in first), key=lambda s: s.cost)
 
     def priced_anew(self, every: Sequence[Scored]) -> list[Scored]:
-        """The cheapest first, by what the best leaves: what is missing is remembered, noise not."""
+        """The cheapest first, by how many rows there are in what the best leaves."""
         if every:
-            self.count = self._count(self._with(min(every, key=lambda s: s.left).candidate))
+            best = self._with(min(every, key=lambda s: s.left).candidate)
+            self.count = self._count(best.residual[self.j])
         again = [dataclasses.replace(s, cost=float(self.cost(s.left, s.formula.symbols)))
                  for s in every]  # fmt: skip
         return sorted(again, key=lambda s: s.cost)

@@ -9,11 +9,12 @@ from functools import cached_property
 from modeler.core.brief import Brief
 from modeler.core.toml_cells import Place
 from modeler.diagnosis.candidates import Candidate, JointScale
-from modeler.effects import read_definition
+from modeler.effects import VARIABLES, read_definition
 
 Unit = Mapping[str, float]
 """Exponents by unit: {"rad": 1, "s": -1}."""
 
+_SPEEDS = {"v", "a"}
 _SYMBOL = re.compile(r"[A-Za-z_]\w*|[0-9.]+")
 _SHAPE = re.compile(r"\{(\w+)\}")
 _MOST_SHAPES = 6
@@ -44,6 +45,15 @@ class Factor(Brief):
         """All combinations of the first values of its shapes."""
         for values in itertools.product(*self.grid.values()):
             yield dict(zip(self.grid, values, strict=True))
+
+    def within(self, shape: str, value: float) -> float:
+        """A value no further beyond the first ones than a step, or than twice and half of them."""
+        first = self.grid[shape]
+        if self.wave:
+            return value
+        low, high = min(first), max(first)
+        wide = (0.5 * low, 2.0 * high) if low > 0.0 else (low, high)
+        return min(max(value, wide[0]), wide[1])
 
     @property
     def remembers(self) -> bool:
@@ -115,8 +125,12 @@ class Formula(Brief):
 
     @property
     def symbols(self) -> int:
-        """Names and numbers in its columns, as they are read: what its price counts."""
-        return sum(len(_SYMBOL.findall(text)) for text, _ in self.columns)
+        """Names and numbers in it, of what z stands for too, and free numbers: what has a price."""
+        told = [text for text, _ in self.columns]
+        for part, _ in self.parts:
+            told += [part.factor.lag, *part.shapes] if part.factor.remembers else []
+        free = len(self.columns) + len(self.shapes)
+        return free + sum(len(_SYMBOL.findall(text)) for text in told)
 
     @property
     def possible(self) -> bool:
@@ -128,7 +142,8 @@ class Formula(Brief):
         """The same at other values of its shapes, by their names in it."""
         every = iter(self.parts)
         terms = tuple(
-            tuple(replace(part, shapes={k: shapes[names[k]] for k in part.shapes})
+            tuple(replace(part, shapes={k: part.factor.within(k, shapes[names[k]])
+                                        for k in part.shapes})
                   for part, names in (next(every) for _ in term))
             for term in self.terms
         )  # fmt: skip
@@ -151,13 +166,13 @@ class Formula(Brief):
         table["unit"] = one.pop() if len(one) == 1 else units
         return table
 
-    def candidate(self, joint: str, index: int) -> Candidate:
-        """It as an effect of its joint, named by its equation."""
+    def candidate(self, names: Sequence[str], j: int) -> Candidate:
+        """It as an effect of joint j of those with the names; its id is its equation."""
         table = self.definition([f"X{letter}" for letter in "abcd"])
         lag = str(table.get("lag", ""))
         name = " + ".join([*(text for text, _ in self.columns), *([lag] if lag else [])])
-        effect = read_definition(name, Place("discover", value=table), {})
-        return Candidate(effect, effect.forms[0], joint, index, dict(self.shapes))
+        effect = read_definition(name, Place("discover", value=table), {}, joints=names)
+        return Candidate(effect, effect.forms[0], names[j], j, dict(self.shapes))
 
 
 def _step(part: Part, key: str) -> float:
@@ -194,7 +209,7 @@ def _power(name: str, power: float) -> str:
 
 def factors(
     scales: Sequence[JointScale], names: Sequence[str], j: int, effort: Unit, warm: bool,
-    further: bool = True,
+    loops: bool,
 ) -> list[Factor]:  # fmt: skip
     """All factors for a joint, waves of orders that are not known yet left out.
 
@@ -204,7 +219,7 @@ def factors(
         j: index of the joint.
         effort: unit of its torque.
         warm: True if its temperature is logged.
-        further: True if equations may read other joints, `since` and lags.
+        loops: True of a robot with loops, where equations read speeds and accelerations only.
     """
     scale = scales[j]
     place: Unit = {"rad": 1.0} if scale.angular else {"m": 1.0}
@@ -245,15 +260,15 @@ def factors(
         found.append(Factor(f"abs({name})**1.5", unit, "the load to the power 1.5"))
     if warm:
         found.append(Factor("T", {"K": 1.0}, "the temperature"))
-    if not further:
-        return found
-    found.append(Factor("exp(-since/{ts})", one, "a decay after each reversal", {"ts": taus}))
+    if "since" in VARIABLES:
+        found.append(Factor("exp(-since/{ts})", one, "a decay after each reversal", {"ts": taus}))
     lagged = {"v": speed, "abs(v)": speed, "v**2": squared(speed), "load": effort,
               "abs(load)": effort}  # fmt: skip
-    found += [Factor("z", unit, f"{x} that lags behind", {"tau": taus[1:]}, x)
-              for x, unit in lagged.items()]  # fmt: skip
+    if False:
+        found += [Factor("z", unit, f"{x} that lags behind", {"tau": taus[1:]}, x)
+                  for x, unit in lagged.items()]  # fmt: skip
     for k, name in enumerate(names):
-        if k != j:
+        if k != j and not loops:
             other: Unit = {"rad": 1.0} if scales[k].angular else {"m": 1.0}
             rate: Unit = {**other, "s": -1.0}
             found += _placed(f"q{name}", scales[k], other, f"the position of joint {name}", name)
@@ -262,7 +277,12 @@ def factors(
                 Factor(f"abs(v{name})", rate, f"the size of the speed of joint {name}"),
                 Factor(f"sign(v{name})", one, f"the direction of joint {name}"),
             ]
-    return found
+    return [f for f in found if not loops or _SPEEDS.issuperset(_names(f))]
+
+
+def _names(factor: Factor) -> set[str]:
+    """Variables that it reads."""
+    return set(_SYMBOL.findall(_SHAPE.sub("", factor.text))) & VARIABLES.keys()
 
 
 def squared(unit: Unit) -> Unit:
