@@ -61,7 +61,7 @@ def _run(path: Path) -> str:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), given]))}
     with tempfile.TemporaryDirectory() as folder:
         client = NotebookClient(notebook, resources={"metadata": {"path": folder}}, timeout=240)
-        client.execute(env=environment, stderr=subprocess.DEVNULL)  # what a kernel says of its sockets
+        client.execute(env=environment, stderr=subprocess.DEVNULL)  # it speaks of sockets
     return str(nbformat.writes(notebook))
 
 

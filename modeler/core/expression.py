@@ -12,12 +12,16 @@ import re
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 from modeler.core import rounded
+from modeler.core.law import Law
 
 FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign", "tanh")
-_KNOWN = (*FUNCTIONS, "pi")
+LAW = "law"
+"""The function of a table, of as many arguments as the table has axes."""
+_KNOWN = (*FUNCTIONS, LAW, "pi")
 _BINARY: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul,
     ast.Div: operator.truediv, ast.Pow: operator.pow,
@@ -45,16 +49,18 @@ class ExpressionError(ValueError):
 
 @dataclass(frozen=True)
 class Expression:
-    """A checked expression; two are equal when their texts are equal.
+    """A checked expression; two are equal when their texts and their laws are equal.
 
     Attributes:
         text: as the user wrote it.
         names: the names it uses, `pi` and functions left out.
+        law: what `law` stands for in it.
     """
 
     text: str
     names: frozenset[str]
     _tree: ast.expr = field(repr=False, compare=False)
+    law: Law | None = None
 
     @property
     def uses_pi(self) -> bool:
@@ -70,7 +76,8 @@ class Expression:
     def rewritten(self, change: Callable[[ast.expr], ast.expr]) -> "Expression":
         """The expression with a changed tree; itself if nothing was changed."""
         tree = change(self._tree)
-        return self if ast.dump(tree) == ast.dump(self._tree) else parse(written(tree))
+        same = ast.dump(tree) == ast.dump(self._tree)
+        return self if same else parse(written(tree), self.law)
 
     def units(self, of: Mapping[str, Collection[str]]) -> set[str]:
         """What it is measured in: "rad" of degrees, "m"; not what stands in a function.
@@ -95,7 +102,7 @@ class Expression:
     def fold(
         self,
         values: Mapping[str, Any],
-        functions: Mapping[str, Callable[[Any], Any]],
+        functions: Mapping[str, Callable[..., Any]],
         pi: Any,
         constant: Callable[[Fraction], Any],
         power: Callable[[Any, Any], Any] = operator.pow,
@@ -104,12 +111,17 @@ class Expression:
 
         Args:
             values: what stands for each name.
-            functions: what stands for each function of `FUNCTIONS` that is used.
+            functions: what stands for each function of `FUNCTIONS` that is used; "law", of the law
+                and its arguments, where it cannot be called with these.
             pi: what stands for pi.
             constant: turns an exact rational number into the algebra's constant.
             power: what stands for `**`; integer exponents stay Python integers.
         """
-        return _Algebra(self.text, values, functions, pi, constant, power).of(self._tree)
+        every = dict(functions)
+        if self.law is not None:
+            law = every.get(LAW, Law.__call__)
+            every[LAW] = partial(law, self.law)
+        return _Algebra(self.text, values, every, pi, constant, power).of(self._tree)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +134,7 @@ class _Algebra:
 
     text: str
     values: Mapping[str, Any]
-    functions: Mapping[str, Callable[[Any], Any]]
+    functions: Mapping[str, Callable[..., Any]]
     pi: Any
     constant: Callable[[Fraction], Any]
     power: Callable[[Any, Any], Any]
@@ -137,7 +149,7 @@ class _Algebra:
             inner = self.of(node.operand)
             return -inner if isinstance(node.op, ast.USub) else inner
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-            return self.functions[node.func.id](self.of(node.args[0]))
+            return self.functions[node.func.id](*map(self.of, node.args))
         assert isinstance(node, ast.BinOp)
         left = self.of(node.left)
         if isinstance(node.op, ast.Pow):
@@ -146,8 +158,12 @@ class _Algebra:
         return _BINARY[type(node.op)](left, right)
 
 
-def parse(value: str | int | float) -> Expression:
+def parse(value: str | int | float, law: Law | None = None) -> Expression:
     """An `Expression` from a TOML cell (text or number).
+
+    Args:
+        value: the cell.
+        law: what `law` stands for in it; None: there is none.
 
     Raises:
         ExpressionError: not a number or a valid expression; the message says what was got.
@@ -175,9 +191,9 @@ def parse(value: str | int | float) -> Expression:
         ) from None
     _check_size(tree, text)
     names: set[str] = set()
-    _check(tree, text, names)
+    _check(tree, text, names, law)
     _check_exponents(tree, text)
-    return Expression(text, frozenset(names), tree)
+    return Expression(text, frozenset(names), tree, law)
 
 
 def _spelled(found: re.Match[str]) -> str:
@@ -279,27 +295,30 @@ def _check_exponents(tree: ast.expr, text: str) -> None:
             )
 
 
-def _check(node: ast.expr, text: str, names: set[str]) -> None:
+def _check(node: ast.expr, text: str, names: set[str], law: Law | None) -> None:
     if isinstance(node, ast.Constant):
         _exact(node, text)
     elif isinstance(node, ast.Name):
-        if node.id in FUNCTIONS:
+        if node.id in FUNCTIONS or (law and node.id == LAW):
             raise ExpressionError(f'got "{text}": {node.id} needs an argument, as in {node.id}(x)')
         if node.id != "pi":
             names.add(node.id)
     elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
-        _check(node.operand, text, names)
+        _check(node.operand, text, names, law)
     elif isinstance(node, ast.BinOp) and type(node.op) in _BINARY:
-        _check(node.left, text, names)
-        _check(node.right, text, names)
+        _check(node.left, text, names, law)
+        _check(node.right, text, names, law)
     elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-        if node.func.id not in FUNCTIONS:
+        if node.func.id not in (*FUNCTIONS, *([LAW] if law else [])):
             raise ExpressionError(
                 f'got "{text}": no function {node.func.id}; there are {", ".join(FUNCTIONS)}'
             )
-        if len(node.args) != 1 or node.keywords:
-            raise ExpressionError(f'got "{text}": {node.func.id} takes one argument')
-        _check(node.args[0], text, names)
+        count = len(law.cells) if law and node.func.id == LAW else 1
+        if len(node.args) != count or node.keywords:
+            few = "one argument" if count == 1 else f"{count} arguments"
+            raise ExpressionError(f'got "{text}": {node.func.id} takes {few}')
+        for argument in node.args:
+            _check(argument, text, names, law)
     else:
         hint = "; write powers as x**2" if "^" in text else ""
         raise ExpressionError(

@@ -8,6 +8,7 @@ from typing import Any
 
 from modeler.core.errors import RobotError
 from modeler.core.expression import Expression, ExpressionError, parse
+from modeler.core.law import Law
 
 LARGEST = 1e12
 """Size of any number, in SI units: squares and products of larger ones leave double precision."""
@@ -44,10 +45,10 @@ class Place:
         """The error to raise where something else stands than is expected."""
         return self.error(f"got {shown(self.value)}; expected {expected}")
 
-    def expression(self) -> Expression:
-        """An `Expression` or a number; names are not checked."""
+    def expression(self, law: Law | None = None) -> Expression:
+        """An `Expression` or a number; names are not checked. `law` may stand in it."""
         try:
-            return parse(self.value)
+            return parse(self.value, law)
         except ExpressionError as error:
             told = str(error)
             if isinstance(self.value, str):

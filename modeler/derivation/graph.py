@@ -27,6 +27,7 @@ import sympy
 
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS
+from modeler.core.law import Law
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, quarter_turns
 from modeler.derivation.labels import Label, Link
 
@@ -84,7 +85,8 @@ class Plan:
             else:
                 a, b = (*node.args, None)[:2]
                 second = _ALONE if b is None else place[abs(b)]
-                call = _signed(arithmetic.functions[node.op], node.op, a, b)
+                known = graph.tables.get(node.op) or arithmetic.functions[node.op]
+                call = _signed(known, node.op, a, b)
                 self._steps.append((at, call, place[abs(a)], second))
         self._outputs = [(place[abs(output.ref)], output.ref < 0) for output in outputs]
 
@@ -126,7 +128,8 @@ class Node:
 
     Attributes:
         op: "num" (args: a positive Fraction), "pi" (no args), "sym" (args: name), "add", "mul",
-            "div" (args: two references), or a function name (args: one reference).
+            "div" (args: two references), a function name (args: one reference), or that of a table
+            (args: one reference for each axis).
         static: True if it depends on numbers and geometric symbols only.
     """
 
@@ -135,11 +138,29 @@ class Node:
     static: bool
 
 
+@dataclass(frozen=True)
+class Table:
+    """A law that was learned, as an operation.
+
+    Attributes:
+        law: it.
+        along: its derivative along this axis; None: itself.
+    """
+
+    law: Law
+    along: int | None
+
+    def __call__(self, *x: Any) -> Any:
+        """Its value."""
+        return self.law(*x, along=self.along)
+
+
 class Graph:
     """Nodes in order of creation: arguments always stand before their users.
 
     Attributes:
         nodes: the operations.
+        tables: {operation: the law that was learned, or its derivative along an axis}.
         labels: {node: what it is}, of those that were named; see `named`.
         links: {name: the row}, for those who write of them.
         called: {quantity: another}, while speeds are put in the place of accelerations.
@@ -160,6 +181,7 @@ class Graph:
         self._symbols = 0
         self._plans: dict[tuple[int, ...], Plan] = {}
         self._reached: tuple[list[int], list[int]] = ([], [])
+        self.tables: dict[str, Table] = {}
         self.labels: dict[int, Label] = {}
         self.links: dict[str, Link] = {}
         self.called: Mapping[str, str] = {}
@@ -191,6 +213,18 @@ class Graph:
         if ref == 0:
             return self.constant(1 if name in ("cos", "exp") else 0)
         return Expr(self, sign * self._node(name, (ref,), self.nodes[abs(ref)].static))
+
+    def law(self, law: Law, *arguments: "Expr", along: int | None = None) -> "Expr":
+        """A law that was learned, or its derivative along an axis."""
+        table = Table(law, along)
+        name = next((name for name, known in self.tables.items() if known == table), "")
+        if not name:
+            laws = list(dict.fromkeys(known.law for known in self.tables.values()))
+            number = laws.index(law) if law in laws else len(laws)
+            name = f"law{number + 1}" + ("" if along is None else "_slope" + "xy"[along])
+            self.tables[name] = table
+        args = tuple(argument.ref for argument in arguments)
+        return Expr(self, self._node(name, args, False))
 
     def power(self, base: "Expr", exponent: "Expr") -> "Expr":
         """base**exponent for any constant exponent; the base is not negative."""
@@ -666,6 +700,13 @@ def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr], k
         return slopes[0] + slopes[1]
     if node.op == "mul":
         return slopes[0] * args[1] + args[0] * slopes[1]
+    if table := graph.tables.get(node.op):
+        if table.along is not None:
+            raise DerivationError("a law that was learned is derived once only")
+        total = graph.constant(0)
+        for axis, slope in enumerate(slopes):
+            total = total + (graph.law(table.law, *args, along=axis) * slope if slope.ref else 0)
+        return total
     value = Expr(graph, index)
     if node.op == "div":
         return (slopes[0] - value * slopes[1]) / args[1]

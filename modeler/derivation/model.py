@@ -9,7 +9,7 @@ from functools import cached_property, partial
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
-from modeler.core.expression import FUNCTIONS
+from modeler.core.expression import FUNCTIONS, LAW
 from modeler.derivation.closure import Closure, closure_of
 from modeler.derivation.columns import (
     LinkColumn,
@@ -344,7 +344,7 @@ def _equation(model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] =
             values["T"] = read - values.get("T0", zero)
         else:
             values["z"] = read
-    functions = {name: partial(graph.call, name) for name in FUNCTIONS}
+    functions = {name: partial(graph.call, name) for name in FUNCTIONS} | {LAW: graph.law}
     pi = graph.constant(Fraction(repr(math.pi)))
     return graph.lift(column.equation.fold(values, functions, pi, graph.constant))
 

@@ -8,7 +8,8 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeler.core.expression import FUNCTIONS, Expression
+from modeler.core.expression import FUNCTIONS, LAW, Expression
+from modeler.core.law import BESIDE, MOST as MOST_VALUES, Law
 from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 from modeler.effects.effect import (
     MOTION,
@@ -28,7 +29,8 @@ EXAMPLE = '[own_effects.brake] columns = {Keb = "v*abs(v)"}'
 MOST = 100
 """Combinations of the first values of shapes: a diagnosis tries each on each joint."""
 
-_KEYS = ("title", "columns", "shapes", "unit", "nonnegative", "acts")
+_KEYS = ("title", "columns", "shapes", "unit", "nonnegative", "acts", "law")
+_LAW = "law = {low = [-1], high = [1], cells = [2], values = [0, 0, 0, 1, 1]}"
 _CATALOGUE_KEYS = (
     *_KEYS, "scale", "limits", "meaning", "prismatic_unit", "kind", "energy", "largest",
     "resonance", "forms", "needs",
@@ -38,7 +40,7 @@ _CATALOGUE_KEYS = (
 _PREFIX = re.compile(r"[A-Za-z]([A-Za-z0-9]*[A-Za-z])?")
 _SHAPE = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _UNIT = re.compile(r"[A-Za-z0-9 .^()-]+([*/][A-Za-z0-9 .^()-]+)*")  # it becomes a comment in C
-_RESERVED = ("joint", "t0", "T0", "pi", "lambda", *FUNCTIONS)  # keys of [effects], and the language
+_RESERVED = ("joint", "t0", "T0", "pi", "lambda", *FUNCTIONS, LAW)  # [effects], and the language
 _STATES = 12  # of a joint, in which equations are tried, besides rest
 
 _PLAIN = {
@@ -61,8 +63,8 @@ def read_definition(
 
     Args:
         name: its id.
-        place: the table: title, columns, shapes, unit, nonnegative, acts; in the catalogue also
-            what else an `Effect` says of itself.
+        place: the table: title, columns, shapes, unit, nonnegative, acts, law; in the catalogue
+            also what else an `Effect` says of itself.
         taken: names of parameters that it must not have -> whose they are.
         own: of a robot file: it has the first keys only, and its equations are tried.
         joints: whose motion its equations may read, as `v3`; None: they were checked before.
@@ -130,6 +132,7 @@ class _Names:
     variables: Sequence[str]
     joints: Collection[str] | None
     shapes: Sequence[str] = ()
+    law: Law | None = None
 
     def is_motion(self, name: str) -> bool:
         """True of `v3`, if there is a joint 3, or nobody knows."""
@@ -137,8 +140,9 @@ class _Names:
         known = joint != "" if self.joints is None else joint in self.joints
         return head in MOTION and known
 
-    def check(self, equation: Expression, place: Place) -> None:
-        """Refuses a name that is none of them."""
+    def equation(self, place: Place) -> Expression:
+        """The equation at a place, which reads nothing else."""
+        equation = place.expression(self.law)
         every = (*self.variables, *self.shapes)
         for name in sorted(equation.names):
             if name not in every and not self.is_motion(name):
@@ -148,11 +152,13 @@ class _Names:
                     f"names among {listed(every)}{joints * bool(self.joints)}; list others under "
                     "shapes"
                 )
+        return equation
 
 
 def _form(table: Mapping[str, Any], known: _Names, taken: Mapping[str, str], place: Place) -> Form:
     shapes = _shapes(table, known, place.at("shapes", table.get("shapes", {})))
-    known = dataclasses.replace(known, shapes=[shape.name for shape in shapes])
+    law = _law(place.at("law", table["law"])) if "law" in table else None
+    known = dataclasses.replace(known, shapes=[shape.name for shape in shapes], law=law)
     columns = _columns(table, known, taken, place)
     memory = None
     if "resonance" in table:
@@ -236,8 +242,7 @@ def _columns(
                 f"the parameter {shown(prefix)} is that of {taken[prefix]} already; choose "
                 "another name"
             )
-        equation = here.at(prefix, cell).expression()
-        known.check(equation, here.at(prefix))
+        equation = known.equation(here.at(prefix, cell))
         block = EnergyBlock[(energy[prefix] if isinstance(energy, dict) else energy).upper()]
         kind, largest = table.get("kind", "other"), table.get("largest", math.inf)
         unit, other = units[prefix], prismatic[prefix]
@@ -245,6 +250,40 @@ def _columns(
             EffectColumn(prefix, equation, unit, other, kind, block, nonnegative, largest)
         )
     return tuple(columns)
+
+
+def _law(place: Place) -> Law:
+    """The table that `law` of the equations is."""
+    table = place.checked_table(("low", "high", "cells", "values"), _LAW, missing=f"as in {_LAW}")
+    low, high, cells, values = (
+        tuple(place.at(key).holding(entry).number("0.1") for entry in _listed(place, key, cell))
+        for key, cell in ((key, table[key]) for key in ("low", "high", "cells", "values"))
+    )
+    if not 1 <= len(low) <= 2 or not len(low) == len(high) == len(cells):
+        raise place.error(
+            f"got {len(low)}, {len(high)} and {len(cells)} entries of low, high and cells; "
+            "expected one of each for every argument of the law, which has one or two"
+        )
+    for a, b, count in zip(low, high, cells, strict=True):
+        if not a < b or count < 1 or count != int(count):
+            raise place.error(
+                f"got an axis from {a:g} to {b:g} of {count:g} cells; expected low < high, and a "
+                "whole number above 0"
+            )
+    counts = tuple(map(int, cells))
+    expected = math.prod(count + BESIDE for count in counts)
+    if len(values) != expected or expected > MOST_VALUES:
+        raise place.at("values").error(
+            f"got {len(values)} numbers; expected {expected}, {BESIDE} more than cells along each "
+            f"axis, and at most {MOST_VALUES}"
+        )
+    return Law(low, high, counts, values)
+
+
+def _listed(place: Place, key: str, cell: Any) -> Sequence[Any]:
+    if not isinstance(cell, list):
+        raise place.at(key, cell).mismatch(f"a list of numbers, as in {_LAW}")
+    return cell
 
 
 def _units(value: Any, prefixes: Sequence[str], place: Place) -> dict[str, str]:
@@ -267,6 +306,9 @@ def _check_form(form: Form, acts: Acts, place: Place) -> None:
     for shape in form.shapes:
         if shape.name not in used:
             raise place.at("shapes").error(f"no equation uses {shape.name}; use it or take it out")
+    if "law" in place.table(EXAMPLE) and not any(re.search(r"\blaw\b", c.equation.text)
+                                                 for c in form.columns):  # fmt: skip
+        raise place.at("law").error("no equation calls law; use it, as in law(q), or take it out")
     for column in form.columns:
         if acts is Acts.POSITION and re.search(r"\b(abs|sign)\b", column.equation.text):
             raise place.at(f"columns, {column.prefix}").error(
