@@ -45,11 +45,12 @@ _STATES = 12  # of a joint, in which equations are tried, besides rest
 
 _PLAIN = {
     "q": "position", "v": "speed", "a": "acceleration", "load": "load", "static": "load",
-    "torque": "torque", "t": "time", "T": "temperature", "z": "travel since the last reversal",
+    "torque": "torque", "t": "time", "T": "temperature", "since": "time since the last reversal",
+    "z": "travel since the last reversal",
 }  # fmt: skip
 _AXES: dict[str, Shows] = {
-    "T": "T", "t": "t", "load": "load", "static": "load", "torque": "torque", "z": "travel",
-    "q": "q", "a": "a",
+    "T": "T", "t": "t", "load": "load", "static": "load", "torque": "torque", "since": "since",
+    "z": "travel", "q": "q", "a": "a",
 }  # fmt: skip
 """Variable -> axis; the first that an equation uses shows it: friction that also depends on
 something else shows itself there, turned with the motion."""
@@ -353,7 +354,8 @@ def _states(form: Form) -> Iterator[Mapping[str, float]]:
     yield dict.fromkeys(names, 0.0)
     draw = random.Random(0)
     for _ in range(_STATES):
-        yield {name: draw.uniform(-3.0, 3.0) for name in names}
+        values = {name: draw.uniform(-3.0, 3.0) for name in names}
+        yield values | {"since": abs(values["since"])}
 
 
 def _is_finite(column: EffectColumn, values: Mapping[str, float]) -> bool:
