@@ -11,6 +11,7 @@ from .closure import (
 from .columns import (
     LinkColumn as LinkColumn,
     ShaftColumn as ShaftColumn,
+    Signal as Signal,
     StandardColumn as StandardColumn,
     in_block as in_block,
 )
@@ -60,6 +61,7 @@ from .graph import (
     Node as Node,
     Plan as Plan,
     Vector as Vector,
+    combination as combination,
     derivatives as derivatives,
 )
 from .kinematics import (
