@@ -133,6 +133,11 @@ class Formula(Brief):
         return free + sum(len(_SYMBOL.findall(text)) for text in told)
 
     @property
+    def title(self) -> str:
+        """In plain words."""
+        return " and ".join(" times ".join(p.factor.words for p in term) for term in self.terms)
+
+    @property
     def possible(self) -> bool:
         """True if a definition can hold it: one inner state, few shapes."""
         few = len(self.shapes) <= _MOST_SHAPES
