@@ -19,18 +19,10 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import dense
-from modeler.diagnosis.expressions import (
-    Factor,
-    Formula,
-    Part,
-    Term,
-    Unit,
-    factors,
-    wave,
-)
-from modeler.diagnosis.judge import Judged, decide, judged_at, tried
+from modeler.diagnosis.expressions import Factor, Formula, Part, Term, Unit, factors, wave
+from modeler.diagnosis.judge import judged_at, tried
 from modeler.diagnosis.orders import order_spectrum
-from modeler.diagnosis.search import Veto, extended, refined
+from modeler.diagnosis.search import refined
 from modeler.diagnosis.state import State, columns_of, state_of, visible
 from modeler.estimation import remembered
 from modeler.numerics.spectra import order_spectrum as spectrum_of
@@ -135,8 +127,9 @@ class JointSearch:
         """Those of this joint."""
         state = self.state
         warm = self.joint.name in state.reference.temperature
-        return factors(state.scales, state.names, self.j, self.effort, warm,
-                       state.spec.closure is not None)
+        return factors(
+            state.scales, state.names, self.j, self.effort, warm, state.spec.closure is not None
+        )
 
     @cached_property
     def atoms(self) -> list[_Column]:
@@ -172,8 +165,12 @@ class JointSearch:
         found = []
         scale, places = self.state.scales[self.j], self._positions()
         unit = 2.0 * np.pi / scale.range
-        orders = dict.fromkeys([*(scale.angular * [1.0]), *(unit * x for x in _LOW), *self.orders()])
-        every = [(wave("q", order, scale, "the position"), places[self.j], order) for order in orders]
+        orders = dict.fromkeys(
+            [*(scale.angular * [1.0]), *(unit * x for x in _LOW), *self.orders()]
+        )
+        every = [
+            (wave("q", order, scale, "the position"), places[self.j], order) for order in orders
+        ]
         for k, name in enumerate(self.state.names):
             if k in places and k != self.j and self.state.scales[k].angular:
                 words = f"the position of joint {name}"
@@ -280,9 +277,7 @@ class JointSearch:
                     found += [(float(cost), c, None) for cost, c in zip(costs, own, strict=True)]
         return sorted(found, key=lambda item: item[0])
 
-    def distinct(
-        self, ranked: Sequence[_Priced], keep: int, alike: float = ALIKE
-    ) -> list[_Column]:
+    def distinct(self, ranked: Sequence[_Priced], keep: int, alike: float = ALIKE) -> list[_Column]:
         """The cheapest that are not alike."""
         base = self.state.base.columns[self.j]
         found: list[tuple[np.ndarray, _Column]] = []

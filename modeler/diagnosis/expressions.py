@@ -295,16 +295,16 @@ def squared(unit: Unit) -> Unit:
     return {name: 2.0 * power for name, power in unit.items()}
 
 
-def _placed(
-    q: str, scale: JointScale, unit: Unit, words: str, tail: str = ""
-) -> Iterator[Factor]:
+def _placed(q: str, scale: JointScale, unit: Unit, words: str, tail: str = "") -> Iterator[Factor]:
     """Factors that read a position."""
     yield Factor(q, unit, words)
     yield Factor(f"{q}**2", squared(unit), f"the square of {words}")
     if scale.angular:
         yield Factor(f"sin({q})", {}, f"the sine of {words}")
         yield Factor(f"cos({q})", {}, f"the cosine of {words}")
-    ends = [scale.middle + scale.range * x for x in (-0.4, -0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4)]
+    ends = [
+        scale.middle + scale.range * x for x in (-0.4, -0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4)
+    ]
     widths = [scale.range * x for x in (0.06, 0.14, 0.3)]
     bump = f"exp(-(({q} - {{c}})/{{b}})**2)"
     yield Factor(bump, {}, f"a bump over {words}", {"c": ends, "b": widths})

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import Brief
 from modeler.core.table import percent
 from modeler.core.toml_cells import Place
 from modeler.diagnosis.candidates import Candidate, over_grid
@@ -140,7 +139,9 @@ def _proposal(found: Search, own: _Offered, share: float, rank: int,
     j, k, joint = item.candidate.index, len(state.picks), item.candidate.joint or ""
     taken = {e.id for e in state.data.known.catalogue}
     stem = f"found_{re.sub(r'[^a-z0-9]', '_', joint.lower())}"
-    name = next(n for n in (f"{stem}{'abc'[rank]}{mark}" for mark in ("", *"defghij")) if n not in taken)
+    name = next(
+        n for n in (f"{stem}{'abc'[rank]}{mark}" for mark in ("", *"defghij")) if n not in taken
+    )
     prefixes = {c.prefix for e in state.data.known.catalogue for f in e.forms for c in f.columns}
     mark = next(x for x in "XYZUHNB" if not any(
         p.startswith(f"{x}{chr(97 + j)}{'abc'[rank]}") for p in prefixes))  # fmt: skip
@@ -171,7 +172,7 @@ def _proposal(found: Search, own: _Offered, share: float, rank: int,
     equation = " + ".join(f"{c.prefix}{joint} {c.equation.text}" for c in effect.columns)
     shapes = ", ".join([f'joint = "{joint}"', *(f"{key} = {float(f'{value:.6g}')!r}"
                                                 for key, value in candidate.shapes.items())])  # fmt: skip
-    line = f'{name} = [{{{shapes}}}]' if candidate.shapes else f'{name} = ["{joint}"]'
+    line = f"{name} = [{{{shapes}}}]" if candidate.shapes else f'{name} = ["{joint}"]'
     step = Step(own.judged, (), state)
     drawn = dataclasses.replace(found, start=state, steps=(step,), end=later)
     return Proposal(
@@ -204,7 +205,10 @@ def _relative(
                 column = _columns(state, rest.candidate(state.names, candidate.index))
                 head, alike = _nearest(column[:, 0], named)
                 if head is not None and alike > factors[0]:
-                    factors = alike, f"{head.effect.title} ({head.effect.id}), times {part.factor.words}"
+                    factors = (
+                        alike,
+                        f"{head.effect.title} ({head.effect.id}), times {part.factor.words}",
+                    )
     if factors[1]:
         return best[1].effect.id, share, factors[1]
     return best[1].effect.id, share, f"nearest is {told}, which explains {percent(share)} of it"
