@@ -47,12 +47,12 @@ _AT_ONCE = 16  # columns, each with all factors
 _MANY = 512  # columns
 _BEAM = 30  # products of two that get a third factor
 _EXACT = 40  # columns that are made anew
-_REFINED = 8
-_FIRSTS = 3  # columns that get a second one beside them
+_REFINED = 12
+_FIRSTS = 4  # columns that get a second one beside them
 _SECONDS = 1500  # products of two that are tried there
-_BESIDE = 5
+_BESIDE = 8
 _TURNS = 4
-_NEAR, _ROUNDS, _CHANGED = 3, 3, 8
+_NEAR, _ROUNDS, _CHANGED = 4, 3, 12
 _PLAIN = ("sign(v)", "v", "abs(v)", "v*abs(v)", "load", "abs(load)")
 _LOW = (0.5, 1.0, 1.5, 2.0, 2.5)  # waves in the stroke that no spectrum shows
 
@@ -334,44 +334,55 @@ class JointSearch:
     def found(self) -> list[Scored]:
         """Formulas that say more than they cost, the cheapest first; no two are alike."""
         atoms, waves = self.atoms, self.waves()
-        every = self.singles([*atoms, *waves])
         doubles = self.products([*atoms, *waves], atoms, _SECONDS)
         triples = self.products(self.distinct(doubles, _BEAM), atoms, _SECONDS)
-        every = sorted([*every, *doubles, *triples], key=lambda item: item[0])
-        leading = [self.formula(c.term) for c in self.distinct(every, _EXACT, NEAR)]
+        ranked = sorted([*self.singles([*atoms, *waves]), *doubles, *triples],
+                        key=lambda item: item[0])  # fmt: skip
+        leading = [self.formula(c.term) for c in self.distinct(ranked, _EXACT, NEAR)]
         single = self.best(self.scored(leading), _REFINED)
         seconds = [left if right is None else self._product(left, right)
-                   for _, left, right in every[:_SECONDS]]  # fmt: skip
-        pairs: list[Scored] = []
-        for first in single[:_FIRSTS]:
-            beside = JointSearch(self._with(first.candidate), self.j, self._tick)
-            near = self.distinct(self.singles(seconds, beside.state), _BESIDE, NEAR)
-            others = beside.best(beside.scored([self.formula(c.term) for c in near]), _BESIDE, 1)
-            sums = [self.formula(*first.formula.terms, *s.formula.terms) for s in others]
-            own = self.scored([f for f in sums if f.possible])
-            pairs += [s for s in own if s.left < MORE * first.left]
-        found = sorted([*single, *self.best(pairs, _REFINED)], key=lambda s: s.cost)
-        for _ in range(_ROUNDS):
-            first, near = found[0].cost if found else 0.0, found[:_NEAR]
-            better = self.scored([f for item in near for f in self.neighbours(item.formula)])
-            found = sorted([*self.best(better, _CHANGED, 2), *found], key=lambda s: s.cost)
-            if not found or found[0].cost >= first:
-                break
+                   for _, left, right in ranked[:_SECONDS]]  # fmt: skip
+        pairs = [own for first in single[:_FIRSTS] for own in self.sums(first, seconds)]
+        found = self.polished([*single, *self.best(pairs, _REFINED)])
         return self.apart(self.priced_anew(found))
 
-    def neighbours(self, formula: Formula) -> list[Formula]:
-        """It without a part or a term, and with a plain factor in place of a part."""
-        found = [self.formula(term) for term in formula.terms if len(formula.terms) > 1]
+    def sums(self, first: Scored, seconds: Sequence[_Column]) -> list[Scored]:
+        """A formula and a second term that surely adds to it."""
+        beside = JointSearch(self._with(first.candidate), self.j, self._tick)
+        near = self.distinct(self.singles(seconds, beside.state), _BESIDE, NEAR)
+        others = beside.best(beside.scored([self.formula(c.term) for c in near]), _BESIDE, 1)
+        sums = [self.formula(*first.formula.terms, *s.formula.terms) for s in others]
+        return [s for s in self.scored(sums) if s.left < MORE * first.left]
+
+    def polished(self, found: Sequence[Scored]) -> list[Scored]:
+        """Formulas and their neighbours, as long as these are better."""
+        seen, first = set[str](), np.inf
+        for _ in range(_ROUNDS):
+            found = sorted(found, key=lambda s: s.cost)
+            if not found or found[0].cost >= first:
+                break
+            first, near = found[0].cost, list[list[Scored]]()
+            for kind in zip(*(self.neighbours(item.formula) for item in found[:_NEAR]), strict=True):
+                new = {f.text: f for own in kind for f in own if f.text not in seen}
+                seen |= new.keys()
+                near.append(self.scored([*new.values()]))
+            found = [*found, *(item for own in near for item in self.best(own, _CHANGED, 2))]
+        return list(found)
+
+    def neighbours(self, formula: Formula) -> tuple[list[Formula], list[Formula]]:
+        """It without a part or a term; with a plain factor in place of a part."""
+        shorter = [self.formula(term) for term in formula.terms if len(formula.terms) > 1]
+        others = []
         for k, term in enumerate(formula.terms):
             for i in range(len(term)):
                 rest = (*term[:i], *term[i + 1 :])
-                texts = [part.factor.text for part in rest]
-                others = [self.named[text].term for text in _PLAIN
-                          if text in self.named and text not in (*texts, term[i].factor.text)]  # fmt: skip
-                for one in ((*plain, *rest) for plain in ((), *others)):
-                    if one:
-                        found.append(self.formula(*formula.terms[:k], one, *formula.terms[k + 1 :]))
-        return [f for f in found if f.possible]
+                taken = [part.factor.text for part in term]
+                plain = [self.named[text].term for text in _PLAIN
+                         if text in self.named and text not in taken]  # fmt: skip
+                for new in ((), *plain) if rest else plain:
+                    terms = (*formula.terms[:k], (*new, *rest), *formula.terms[k + 1 :])
+                    (others if new else shorter).append(self.formula(*terms))
+        return shorter, [f for f in others if f.possible]
 
     def best(self, ranked: Sequence[Scored], count: int, turns: int = _TURNS) -> list[Scored]:
         """The cheapest at their best shapes."""

@@ -124,6 +124,12 @@ class Formula(Brief):
         return found
 
     @property
+    def text(self) -> str:
+        """Its columns."""
+        lags = (part.factor.lag for part, _ in self.parts if part.factor.lag)
+        return " + ".join([*(text for text, _ in self.columns), *lags])
+
+    @property
     def symbols(self) -> int:
         """Names and numbers in it, of what z stands for too, and free numbers: what has a price."""
         told = [text for text, _ in self.columns]
@@ -174,9 +180,8 @@ class Formula(Brief):
     def candidate(self, names: Sequence[str], j: int) -> Candidate:
         """It as an effect of joint j of those with the names; its id is its equation."""
         table = self.definition([f"X{letter}" for letter in "abcd"])
-        lag = str(table.get("lag", ""))
-        name = " + ".join([*(text for text, _ in self.columns), *([lag] if lag else [])])
-        effect = read_definition(name, Place("discover", value=table), {}, joints=names)
+        # whether it is finite everywhere is asked of those that are offered: it takes long
+        effect = read_definition(self.text, Place("discover", value=table), {}, False, names)
         return Candidate(effect, effect.forms[0], names[j], j, dict(self.shapes))
 
 
