@@ -41,6 +41,8 @@ CELLS = (40, 14)
 
 _WAVE = 8  # cells for each wave that stands out in the residual
 _MOST_CELLS, _FEW = 240, 5
+_SLIPS = (0.02, 0.2)
+"""Travels after a reversal, of the range of motion, over which z turns."""
 _SMOOTH = tuple(10.0**power for power in range(-5, 4))
 _FIRST = (1e-2, 1.0)  # smoothness in which coordinates are compared
 _RIDGE = 1e-4  # of the mean square of a spline
@@ -253,14 +255,15 @@ def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
 
 def _quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
     """What a law may depend on, with what else its definition needs."""
-    found: list[str] = ["q", "v", "a"]
+    found, slips = ["q", "v", "a"], list[float]()
     if state.spec.closure is None:  # in loops laws read the motion of their own joint
-        found += ["load"]
+        found += ["load", "since"]
+        slips = [float(f"{share * state.scales[j].range:.3g}") for share in _SLIPS]
         others = [name for name in state.names if name != state.names[j]]
         found += [f"{letter}{name}" for name in others for letter in "qv"]
     if state.names[j] in state.reference.temperature:
         found.append("T")
-    return [(name, {}) for name in found]
+    return [*((name, {}) for name in found), *(("z", {"shapes": {"d": [d]}}) for d in slips)]
 
 
 def _simplest(found: Sequence[tuple["_Solved", "_Splines"]]) -> tuple["_Solved", "_Splines"]:
