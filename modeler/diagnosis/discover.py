@@ -297,7 +297,7 @@ class JointSearch:
 
     def scored(self, formulas: Sequence[Formula]) -> list[Scored]:
         """Formulas by the columns that they have as effects, the cheapest first."""
-        made = [(f, f.candidate(self.state.names, self.j)) for f in formulas]
+        made = [(f, f.candidate(self.state.names, self.j)) for f in formulas if f.possible]
         pairs = [(f, c, self.state.rows.columns(c)) for f, c in made]
         pairs = [own for own in pairs if visible(own[2])]
         if not pairs:
@@ -362,7 +362,9 @@ class JointSearch:
             if not found or found[0].cost >= first:
                 break
             first, near = found[0].cost, list[list[Scored]]()
-            for kind in zip(*(self.neighbours(item.formula) for item in found[:_NEAR]), strict=True):
+            for kind in zip(
+                *(self.neighbours(item.formula) for item in found[:_NEAR]), strict=True
+            ):
                 new = {f.text: f for own in kind for f in own if f.text not in seen}
                 seen |= new.keys()
                 near.append(self.scored([*new.values()]))

@@ -30,6 +30,7 @@ class Factor(Brief):
         unit: of its value.
         words: plain language.
         grid: values of its shapes that are tried first, SI.
+        measure: unit of its shapes; "1" of an exponent.
         lag: what a first-order lag makes z of, in `text`; empty without.
         wave: True if it stands for a wave of any phase: its sine and its cosine, two columns.
     """
@@ -38,6 +39,7 @@ class Factor(Brief):
     unit: Unit
     words: str
     grid: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    measure: Unit = field(default_factory=dict)
     lag: str = ""
     wave: bool = False
 
@@ -115,8 +117,7 @@ class Formula(Brief):
         found, every = [], iter(self.parts)
         for term in self.terms:
             own = [next(every) for _ in term]
-            texts = [_SHAPE.sub(lambda m, names=names: names[m[1]], part.factor.text)
-                     for part, names in own]  # fmt: skip
+            texts = [part.factor.text.format_map(names) for part, names in own]
             unit = unit_text(self.effort, [part.factor.unit for part in term])
             wave = any(part.factor.wave for part in term)
             for function in ("sin", "cos") if wave else ("",):
@@ -137,6 +138,14 @@ class Formula(Brief):
             told += [part.factor.lag, *part.shapes] if part.factor.remembers else []
         free = len(self.columns) + len(self.shapes)
         return free + sum(len(_SYMBOL.findall(text)) for text in told)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Of its shapes."""
+        return {
+            names[key]: "1" if key == "p" else unit_text(part.factor.measure, ())
+            for part, names in self.parts for key in part.shapes
+        }  # fmt: skip
 
     @property
     def title(self) -> str:

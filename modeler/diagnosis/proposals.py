@@ -27,7 +27,7 @@ from modeler.diagnosis.orders import rival
 from modeler.diagnosis.profile import profile_of, shape_units, values_of
 from modeler.diagnosis.result import Discovery, Finding, Pick, Proposal
 from modeler.diagnosis.search import Search, Step, extended
-from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of
+from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of, visible
 from modeler.effects import Acts, read_definition
 
 MOST = 3
@@ -225,7 +225,8 @@ def _named(state: State, j: int) -> list[tuple[Candidate, np.ndarray]]:
         for candidate in over_grid(effect, form, name, j, state.scales[j])
     ]  # fmt: skip
     columns = all_columns_of(state.rows, every)
-    return [(c, dense(own, j, len(state.y[j]))) for c, own in zip(every, columns, strict=True)]
+    return [(c, dense(own, j, len(state.y[j]))) for c, own in zip(every, columns, strict=True)
+            if visible(own)]  # fmt: skip
 
 
 def _nearest(
