@@ -36,6 +36,11 @@ CLOSURE_RUNTIME = (
 CONTROL_RUNTIME = ("modeler_status.h", "modeler_solve.h")
 """Those that stand beside the controller's unit."""
 
+LAW_RUNTIME = ("modeler_law.h",)
+"""Those that stand beside laws that were learned; and beside tiles of them."""
+
+LAW_TILE_RUNTIME = ("modeler_law_lanes.h",)
+
 CUDA_THREADS = 128
 """Threads of a block of the emitted kernels."""
 
@@ -160,14 +165,28 @@ class SymbolSpec:
     value: float
 
 
+SIGNALS = {
+    "time": "s", "temperature": "K or degC",
+    "slip": "1",  # bristle of a joint, z' = (v/d)(1 - z sign v)
+    "direction": "1",  # sign: which way a joint goes; size: 1 less the share of the way back
+    "since": "s",  # time since it last turned back, by the direction before it
+}  # fmt: skip
+"""Kind of a signal -> its unit."""
+
+
 @dataclass(frozen=True)
 class SignalSpec:
     """One entry of the input `s`: what effects read besides the motion."""
 
-    kind: str  # "time" | "temperature" | "slip"
-    joint: str  # whose temperature or bristle; "" for the time
+    kind: str  # of `SIGNALS`
+    joint: str  # whose temperature or inner state; "" for the time
     unit: str
-    value: float  # travel over which the bristle turns, rad or m; 0 for the others
+    value: float  # rad or m: travel over which the bristle turns, way back that is a reversal
+
+    @property
+    def inner(self) -> bool:
+        """True of a state that is stepped along the motion."""
+        return self.kind not in ("time", "temperature")
 
 
 @dataclass(frozen=True)
@@ -241,6 +260,7 @@ class ModuleSpec(Brief):
     control: ControlSpec | None = None  # where `modeler generate` wrote it
     origin: OriginSpec | None = field(default=None, compare=False)  # in the file alone
     units: tuple[str, ...] | None = None  # "_control", ...: of some functions; None: all there are
+    laws: int = 0  # that were learned, whose tables stand in the C
 
     @property
     def every_function(self) -> tuple[FunctionSpec, ...]:
@@ -274,7 +294,7 @@ class ModuleSpec(Brief):
         headed = [unit for unit in ("_fitted", "_control") if self.has(unit)]
         headed += ["_joints"] if self.control is not None else []
         units += [f"{unit}.{kind}" for unit in headed for kind in "hc"]
-        runtime = list(RUNTIME)
+        runtime = [*RUNTIME, *(LAW_RUNTIME if self.laws else ())]
         if self.closure is not None:
             units += ["_tree.h", "_loops.c"]
             runtime += CLOSURE_RUNTIME
@@ -294,14 +314,16 @@ class ModuleSpec(Brief):
         if not self.has("_batch"):
             return ()
         units = (f"{self.prefix}_tile.h", f"{self.prefix}_tile.c")
-        others = RUNTIME if self.closure is None else self.sources
+        own = (*RUNTIME, *(LAW_RUNTIME if self.laws else ()))
+        others = own if self.closure is None else self.sources
         headers = (name for name in others if name.endswith(".h"))
         return (*units, *self.tile_runtime, *headers)
 
     @property
     def tile_runtime(self) -> tuple[str, ...]:
         """Hand-written files of the tiles alone."""
-        return (*TILE_RUNTIME, *(CLOSING_RUNTIME if self.closure is not None else ()))
+        more = CLOSING_RUNTIME if self.closure is not None else ()
+        return (*TILE_RUNTIME, *more, *(LAW_TILE_RUNTIME if self.laws else ()))
 
     def to_json(self) -> str:
         """Stable text: sorted as declared, no date, no version."""
@@ -315,6 +337,8 @@ class ModuleSpec(Brief):
                 del entries[name]
         if self.precision == "double":
             del entries["precision"]
+        if not self.laws:
+            del entries["laws"]
         for entry, name in [
             (entries, "inertial_uncertainty"),
             *((parameter, "deviation") for parameter in entries["standard"]),

@@ -11,6 +11,7 @@ from .closure import (
 from .columns import (
     LinkColumn as LinkColumn,
     ShaftColumn as ShaftColumn,
+    Signal as Signal,
     StandardColumn as StandardColumn,
     in_block as in_block,
 )
@@ -21,6 +22,7 @@ from .derive import (
     with_home as with_home,
     written as written,
 )
+from .differentiation import derivatives as derivatives
 from .enclosed import (
     EnclosedState as EnclosedState,
     Enclosures as Enclosures,
@@ -59,8 +61,9 @@ from .graph import (
     GraphAlgebra as GraphAlgebra,
     Node as Node,
     Plan as Plan,
+    Table as Table,
     Vector as Vector,
-    derivatives as derivatives,
+    combination as combination,
 )
 from .kinematics import (
     Composite as Composite,

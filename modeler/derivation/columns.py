@@ -9,7 +9,7 @@ from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
 from modeler.derivation.geometry import Geometry
-from modeler.effects import Acts, EnergyBlock, Memory
+from modeler.effects import TURN, Acts, EnergyBlock, Memory
 from modeler.robot import Joint, Robot
 
 _INERTIAL_UNITS = dict.fromkeys(("XX", "XY", "XZ", "YY", "YZ", "ZZ"), "kg m2") | dict.fromkeys(
@@ -169,14 +169,19 @@ class Signal:
     """One entry of the input `s`.
 
     Attributes:
-        kind: "time" [s], "temperature" [K or degC], or "slip", the bristle of a joint [1].
-        row: of the joint whose temperature or bristle it is; -1 for the time.
-        value: travel over which the bristle turns, rad or m; 0 for the others.
+        kind: one of `modeler.core.manifest.SIGNALS`.
+        row: of the joint whose temperature or inner state it is; -1 for the time.
+        value: as of a `SignalSpec`.
     """
 
     kind: str
     row: int
     value: float = 0.0
+
+    @property
+    def before(self) -> tuple["Signal", ...]:
+        """Those that it is stepped with, which stand before it."""
+        return (Signal("direction", self.row, self.value),) if self.kind == "since" else ()
 
 
 def signals_of(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
@@ -185,20 +190,18 @@ def signals_of(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
     for column in columns:
         if isinstance(column, ShaftColumn):
             for part in column.parts:
-                found |= dict.fromkeys(signals_read(part))
+                for signal in signals_read(part).values():
+                    found |= dict.fromkeys((*signal.before, signal))
     return tuple(found)
 
 
-def signals_read(column: ShaftColumn) -> list[Signal]:
-    """Those that one column reads."""
-    names = column.equation.names
-    found = []
-    if "t" in names:
-        found.append(Signal("time", -1))
-    if "T" in names:
-        found.append(Signal("temperature", column.row))
+def signals_read(column: ShaftColumn) -> dict[str, Signal]:
+    """Those that one column reads, by the variable of its equation."""
+    names, row = column.equation.names, column.row
+    found = {"t": Signal("time", -1), "T": Signal("temperature", row)}
+    found["since"] = Signal("since", row, TURN)
     if "z" in names:
         if column.memory is None or column.memory.kind != "slip":
             raise DerivationError(f"{column.name}: its inner state has no form in C")
-        found.append(Signal("slip", column.row, column.shapes[column.memory.shape]))
-    return found
+        found["z"] = Signal("slip", row, column.shapes[column.memory.shape])
+    return {name: signal for name, signal in found.items() if name in names}

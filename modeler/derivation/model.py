@@ -19,8 +19,9 @@ from modeler.derivation.columns import (
     signals_of,
     signals_read,
 )
+from modeler.derivation.differentiation import derivatives
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.graph import Expr, Graph, GraphAlgebra, combination, derivatives
+from modeler.derivation.graph import Expr, Graph, GraphAlgebra, combination
 from modeler.derivation.kinematics import (
     Motion,
     MotionState,
@@ -336,14 +337,9 @@ def _equation(model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] =
         if name in names:
             values[name] = _on_shaft(graph, column.shaft, model.reference_torque(name))
     zero = graph.constant(0)
-    for signal in signals_read(column):
+    for name, signal in signals_read(column).items():
         read = graph.symbol(f"s[{model.signals.index(signal)}]")
-        if signal.kind == "time":
-            values["t"] = read - values.get("t0", zero)
-        elif signal.kind == "temperature":
-            values["T"] = read - values.get("T0", zero)
-        else:
-            values["z"] = read
+        values[name] = read - values.get(f"{name}0", zero) if name in ("t", "T") else read
     functions = {name: partial(graph.call, name) for name in FUNCTIONS} | {LAW: graph.law}
     pi = graph.constant(Fraction(repr(math.pi)))
     return graph.lift(column.equation.fold(values, functions, pi, graph.constant))

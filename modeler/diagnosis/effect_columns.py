@@ -45,7 +45,7 @@ def own_columns(
         name: np.array([candidate.shapes[name] for candidate in candidates])
         for name in first.shapes
     }
-    read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
+    read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate", "since"}))
     values |= {name: getattr(signals, name)[window, j, None] for name in read}
     values |= {name: signals.of_other(name)[window, None] for name in first.form.others}
     if "t" in names:
@@ -281,7 +281,7 @@ def coarser(observation: Observation, compiled: "CompiledModel") -> Observation:
     parts = list[Stretch]()
     for part in observation.stretches:
         every = max(1, int(SPREAD / (cutoff * part.segment.step))) if cutoff > 0.0 else 1
-        read = signals_of(compiled.spec, part.segment)
+        read = signals_of(compiled, part.segment)
         parts.append(part.thinned(every, read) if every > 1 else part)
     return observed_alike(compiled, dataclasses.replace(observation, stretches=tuple(parts)))
 

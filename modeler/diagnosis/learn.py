@@ -18,11 +18,11 @@ from typing import Any
 import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 from scipy.optimize import nnls
-from scipy.sparse import csr_array, diags_array, eye_array, kron, vstack
+from scipy.sparse import csr_array, eye_array, kron, vstack
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, RobotError
-from modeler.core.law import BESIDE, Law
+from modeler.core.law import Law
 from modeler.core.toml_cells import Place
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import own_columns
@@ -33,6 +33,7 @@ from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
 from modeler.diagnosis.state import State
 from modeler.diagnosis.timing import smoothed
 from modeler.effects import effect_named, read_definition
+from modeler.numerics.splines import beyond, flat_ends, second_differences, spline_products
 from modeler.robot import robot_from_text, with_own_effect
 
 CELLS = (40, 14)
@@ -40,8 +41,10 @@ CELLS = (40, 14)
 
 _WAVE = 8  # cells for each wave that stands out in the residual
 _MOST_CELLS, _FEW = 240, 5
+_SLIPS = (0.02, 0.2)
+"""Travels after a reversal, of the range of motion, over which z turns."""
 _SMOOTH = tuple(10.0**power for power in range(-5, 4))
-_FIRST = (1e-2,)  # smoothness in which coordinates are compared
+_FIRST = (1e-2, 1.0)  # smoothness in which coordinates are compared
 _RIDGE = 1e-4  # of the mean square of a spline
 _ENDS = 1e-3  # share of the samples beyond either end
 _DIGITS = 6
@@ -107,7 +110,8 @@ class Learned(Brief):
         size: N m or N, times which it is the torque.
         torque: (rows_j,) N m or N, with the columns of the model fitted beside it.
         drop: (blocks,) fall of the squared residuals, weighted, on folds that were not fitted.
-        gain: the same as a share of the residual of its joint.
+        sure: fall of the error over its standard error, paired over blocks (see `score.scored`).
+        gain: fall of the squared residual, as a share of that of its joint.
         felt: rms of what it explains over the rms torque of its joint.
     """
 
@@ -116,13 +120,9 @@ class Learned(Brief):
     size: float
     torque: np.ndarray
     drop: np.ndarray
+    sure: float
     gain: float
     felt: float
-
-    @property
-    def sure(self) -> float:
-        """Fall over its standard error."""
-        return standard_errors(self.drop)
 
     @property
     def significant(self) -> bool:
@@ -232,38 +232,38 @@ def learn(state: State, j: int, asked: LawAsked = ANY_LAW) -> Learned | None:
 
 
 def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
-    """Those that make sense on a joint: own, of others, and what is odd in v; simple ones first."""
-    odd, loads = "sign(v)", state.spec.closure is None
+    """Those that make sense on a joint: of every quantity alone, and beside v or q.
+
+    Odd in v, and not.
+    """
     peaks = [] if (spectrum := order_spectrum(state, j)) is None else spectrum.peaks
-    fine = min(_MOST_CELLS, round(_WAVE * max(peaks, default=0.0) * state.scales[j].range / 6.28))
-    waves: list[tuple[int, ...]] = [()] + ([(fine,)] if fine > CELLS[0] else [])
-    warm = state.names[j] in state.reference.temperature
-    others = [n for n in state.names if n != state.names[j]] if loads else []
-    for cells in waves:
-        yield Coordinates(("q",), cells=cells)
-        yield Coordinates(("q",), odd, cells=cells)
-    singles = ["v", "a", *(["load"] if loads else []), *(["T"] if warm else [])]
-    for name in singles:
-        yield Coordinates((name,))
-    yield Coordinates(("abs(v)",), odd)
-    if loads:
-        yield Coordinates(("load",), odd)
-    for name in others:
-        yield Coordinates((f"q{name}",))
-        yield Coordinates((f"q{name}",), odd)
-        yield Coordinates((f"v{name}",))
-    for name in ["q", *(["load"] if loads else []), *(["T"] if warm else [])]:
-        yield Coordinates(("abs(v)", name), odd)
-    yield Coordinates(("q", "v"))
-    if loads:
-        for cells in waves:
-            pair = (*cells, _FEW) if cells else ()
-            yield Coordinates(("q", "load"), cells=pair)
-        yield Coordinates(("v", "load"))
-    for name in others:
-        yield Coordinates(("abs(v)", f"q{name}"), odd)
-        yield Coordinates(("q", f"q{name}"))
-        yield Coordinates(("v", f"v{name}"))
+    turns = state.scales[j].range / (2.0 * np.pi)
+    fine = min(_MOST_CELLS, round(_WAVE * max(peaks, default=0.0) * turns))
+    waves = [0] + ([fine] if fine > CELLS[0] else [])
+    quantities = _quantities(state, j)
+    for x, further in quantities:
+        for cells in waves if x == "q" else [0]:
+            yield Coordinates((x,), "", further, (cells,) if cells else ())
+            odd = "abs(v)" if x == "v" else x
+            yield Coordinates((odd,), "sign(v)", further, (cells,) if cells else ())
+        if x != "v":
+            yield Coordinates(("v", x), "", further)
+            yield Coordinates(("abs(v)", x), "sign(v)", further)
+        for cells in waves if x not in ("q", "v") else []:
+            yield Coordinates(("q", x), "", further, (cells, _FEW) if cells else ())
+
+
+def _quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
+    """What a law may depend on, with what else its definition needs."""
+    found, slips = ["q", "v", "a"], list[float]()
+    if state.spec.closure is None:  # in loops laws read the motion of their own joint
+        found += ["load", "since"]
+        slips = [float(f"{share * state.scales[j].range:.3g}") for share in _SLIPS]
+        others = [name for name in state.names if name != state.names[j]]
+        found += [f"{letter}{name}" for name in others for letter in "qv"]
+    if state.names[j] in state.reference.temperature:
+        found.append("T")
+    return [*((name, {}) for name in found), *(("z", {"shapes": {"d": [d]}}) for d in slips)]
 
 
 def _simplest(found: Sequence[tuple["_Solved", "_Splines"]]) -> tuple["_Solved", "_Splines"]:
@@ -273,7 +273,7 @@ def _simplest(found: Sequence[tuple["_Solved", "_Splines"]]) -> tuple["_Solved",
     near = [
         item for item in found
         if item is best or (item[0].drop.sum() > NEARLY * total
-                            and standard_errors(best[0].drop - item[0].drop) <= STANDARD_ERRORS)
+                            and standard_errors(item[0].after - best[0].after) <= STANDARD_ERRORS)
     ]  # fmt: skip
     return min(near, key=lambda item: (len(item[1].counts), -float(item[0].drop.sum())))
 
@@ -314,15 +314,14 @@ def _splines(state: State, j: int, coordinates: Coordinates) -> _Splines | None:
         low, high = np.quantile(x, [_ENDS, 1.0 - _ENDS])
         if not high > low:
             return None
-        beyond = (high - low) / (count - 2)  # a cell to come to rest in
-        ends.append((float(f"{low - beyond:.6g}"), float(f"{high + beyond:.6g}")))
-    flat = [_flat_ends(count) for count in coordinates.counts]
+        ends.append(beyond(float(low), float(high), count))
+    flat = [flat_ends(count) for count in coordinates.counts]
     free = reduce(kron, flat).tocsr()
     filtered = []
     for i, blocks in enumerate(rows.blocks):
-        splines = _products(values[i], ends, coordinates.counts) @ free
+        splines = spline_products(values[i], ends, coordinates.counts) @ free
         filtered += [block.filters[j] @ splines[block.window] for block in blocks]
-    rough = [(d.T @ d) for d in (_second_differences(t) for t in flat)]
+    rough = [(d.T @ d) for d in (second_differences(t) for t in flat)]
     eyes = [eye_array(t.shape[1]) for t in flat]
     total = rough[0] if len(flat) == 1 else kron(rough[0], eyes[1]) + kron(eyes[0], rough[1])
     return _Splines(
@@ -330,43 +329,23 @@ def _splines(state: State, j: int, coordinates: Coordinates) -> _Splines | None:
     )  # fmt: skip
 
 
-def _flat_ends(count: int) -> csr_array:
-    """(count + 3, count - 1) coefficients of which three are one at either end."""
-    place = np.clip(np.arange(count + BESIDE) - 2, 0, count - 2)
-    return csr_array((np.ones(place.size), (np.arange(place.size), place)))
-
-
-def _second_differences(flat: csr_array) -> csr_array:
-    size = flat.shape[0]
-    return diags_array([1.0, -2.0, 1.0], offsets=[0, 1, 2], shape=(size - 2, size)).tocsr() @ flat
-
-
-def _products(
-    values: np.ndarray, ends: Sequence[tuple[float, float]], counts: Sequence[int]
-) -> csr_array:
-    """(n, p) products of the splines of each axis, times the last of the values (n, axes + 1)."""
-    low, high = zip(*ends, strict=True)
-    law = Law(low, high, tuple(counts), ())
-    n, size = len(values), 1
-    columns, weights = np.zeros((n, 1), dtype=int), values[:, -1:]
-    for axis, x in enumerate(values.T[:-1]):
-        size *= counts[axis] + BESIDE
-        k, w = law.place(axis, x)
-        own = k[:, None] + np.arange(BESIDE + 1)
-        columns = (columns[:, :, None] * (counts[axis] + BESIDE) + own[:, None, :]).reshape(n, -1)
-        weights = (weights[:, :, None] * np.column_stack(w)[:, None, :]).reshape(n, -1)
-    starts = np.arange(n + 1) * columns.shape[1]
-    return csr_array((weights.ravel(), columns.ravel(), starts), shape=(n, size))
-
-
 @dataclass(frozen=True, eq=False)
 class _Solved(Brief):
-    """Coefficients (f,) at a smoothness, and what they are worth where they were not fitted."""
+    """Coefficients (f,), and squared residuals (blocks,) where they were not fitted."""
 
     c: np.ndarray
-    beta: np.ndarray
-    drop: np.ndarray
-    smooth: float
+    before: np.ndarray
+    after: np.ndarray
+
+    @property
+    def drop(self) -> np.ndarray:
+        """(blocks,) fall of the squared residuals."""
+        return self.before - self.after
+
+    @property
+    def sure(self) -> float:
+        """Fall of the error over its standard error."""
+        return standard_errors(np.sqrt(self.before) - np.sqrt(self.after))
 
 
 class _Fit:
@@ -431,15 +410,14 @@ class _Fit:
 
     def best(self, grid: Sequence[float], rising: int = 0) -> _Solved:
         """At the smoothness of the grid that loses least on rows that were not fitted."""
-        drops = [(self._drop(smooth, rising), smooth) for smooth in grid]
-        drop, smooth = max(drops, key=lambda item: float(item[0].sum()))
+        every = [(*self._left(smooth, rising), smooth) for smooth in grid]
+        before, after, smooth = min(every, key=lambda item: float(item[1].sum()))
         found = self.solved(None, smooth, rising)
-        if found is None:
-            return _Solved(np.zeros(self.B.shape[1]), self.whole[1], np.zeros_like(drop), smooth)
-        return _Solved(*found, drop, smooth)
+        c = np.zeros(self.B.shape[1]) if found is None else found[0]
+        return _Solved(c, before, after)
 
-    def _drop(self, smooth: float, rising: int) -> np.ndarray:
-        """(blocks,) fall of the squared residuals of all joints where they were not fitted."""
+    def _left(self, smooth: float, rising: int) -> tuple[np.ndarray, np.ndarray]:
+        """(blocks,) squared residuals of all joints, without and with, of folds not fitted."""
         base = self.state.base
         after = np.zeros(base.blocks)
         before = np.zeros(base.blocks)
@@ -457,7 +435,7 @@ class _Fit:
                     e[rows] -= self.B[rows] @ found[0]
             before += np.bincount(block, left**2, base.blocks)
             after += np.bincount(block, e**2, base.blocks)
-        return before - after
+        return before, after
 
 
 def _learned(state: State, j: int, splines: _Splines, fit: _Solved) -> Learned | None:
@@ -472,7 +450,7 @@ def _learned(state: State, j: int, splines: _Splines, fit: _Solved) -> Learned |
     asked = float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2))
     fall = float(fit.drop.sum())
     return Learned(
-        splines.coordinates, law, size, torque, fit.drop,
+        splines.coordinates, law, size, torque, fit.drop, fit.sure,
         gain=min(1.0, fall / max(before, 1e-300)),
         felt=float(np.sqrt(max(0.0, fall) / (asked + 1e-300))),
     )  # fmt: skip

@@ -9,9 +9,9 @@ import numpy as np
 from scipy.linalg import expm
 
 from modeler.core.brief import Brief
-from modeler.effects import Memory
+from modeler.effects import TURN, Memory
 from modeler.numerics.filters import recursion
-from modeler.observation import Segment, bristle, nearest_closed, signals_of
+from modeler.observation import Segment, bristle, nearest_closed, signals_of, since_reversal
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -93,7 +93,7 @@ class Signals(Brief):
     @cached_property
     def read(self) -> np.ndarray | None:
         """(n, m) what effects of the model read besides the motion."""
-        return signals_of(self.reference.compiled.spec, self.segment)
+        return signals_of(self.reference.compiled, self.segment)
 
     def base_regressor(self, window: slice) -> np.ndarray:
         """(n, J, c) of the model, over a window of the samples."""
@@ -136,6 +136,11 @@ class Signals(Brief):
     def rate(self) -> np.ndarray:
         """(n, J) time derivative of `torque`."""
         return np.gradient(self.torque, self.step, axis=0)
+
+    @cached_property
+    def since(self) -> np.ndarray:
+        """(n, J) s since the joint last turned back."""
+        return np.stack([since_reversal(q, self.step, TURN)[1] for q in self.q.T], axis=1)
 
     @cached_property
     def coupling(self) -> np.ndarray:

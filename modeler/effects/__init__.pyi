@@ -12,6 +12,7 @@ from .definition import (
 )
 from .effect import (
     MOTION as MOTION,
+    TURN as TURN,
     Acts as Acts,
     Effect as Effect,
     EffectColumn as EffectColumn,

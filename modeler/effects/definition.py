@@ -45,11 +45,12 @@ _STATES = 12  # of a joint, in which equations are tried, besides rest
 
 _PLAIN = {
     "q": "position", "v": "speed", "a": "acceleration", "load": "load", "static": "load",
-    "torque": "torque", "t": "time", "T": "temperature", "z": "travel since the last reversal",
+    "torque": "torque", "t": "time", "T": "temperature", "since": "time since the last reversal",
+    "z": "travel since the last reversal",
 }  # fmt: skip
 _AXES: dict[str, Shows] = {
-    "T": "T", "t": "t", "load": "load", "static": "load", "torque": "torque", "z": "travel",
-    "q": "q", "a": "a",
+    "T": "T", "t": "t", "load": "load", "static": "load", "torque": "torque", "since": "since",
+    "z": "travel", "q": "q", "a": "a",
 }  # fmt: skip
 """Variable -> axis; the first that an equation uses shows it: friction that also depends on
 something else shows itself there, turned with the motion."""
@@ -132,6 +133,7 @@ class _Names:
     variables: Sequence[str]
     joints: Collection[str] | None
     shapes: Sequence[str] = ()
+    law: Law | None = None
 
     def is_motion(self, name: str) -> bool:
         """True of `v3`, if there is a joint 3, or nobody knows."""
@@ -139,8 +141,9 @@ class _Names:
         known = joint != "" if self.joints is None else joint in self.joints
         return head in MOTION and known
 
-    def check(self, equation: Expression, place: Place) -> None:
-        """Refuses a name that is none of them."""
+    def equation(self, place: Place) -> Expression:
+        """The equation at a place, which reads nothing else."""
+        equation = place.expression(self.law)
         every = (*self.variables, *self.shapes)
         for name in sorted(equation.names):
             if name not in every and not self.is_motion(name):
@@ -150,13 +153,14 @@ class _Names:
                     f"names among {listed(every)}{joints * bool(self.joints)}; list others under "
                     "shapes"
                 )
+        return equation
 
 
 def _form(table: Mapping[str, Any], known: _Names, taken: Mapping[str, str], place: Place) -> Form:
     shapes = _shapes(table, known, place.at("shapes", table.get("shapes", {})))
-    known = dataclasses.replace(known, shapes=[shape.name for shape in shapes])
     law = _law(place.at("law", table["law"])) if "law" in table else None
-    columns = _columns(table, known, taken, place, law)
+    known = dataclasses.replace(known, shapes=[shape.name for shape in shapes], law=law)
+    columns = _columns(table, known, taken, place)
     memory = None
     if "resonance" in table:
         memory = Memory("resonance", *table["resonance"])
@@ -215,9 +219,8 @@ def _limits(grid: Sequence[float]) -> tuple[float, float]:
 
 
 def _columns(
-    table: Mapping[str, Any], known: _Names, taken: Mapping[str, str], place: Place,
-    law: Law | None,
-) -> tuple[EffectColumn, ...]:  # fmt: skip
+    table: Mapping[str, Any], known: _Names, taken: Mapping[str, str], place: Place
+) -> tuple[EffectColumn, ...]:
     here = place.at("columns", table.get("columns"))
     if not here.value:
         raise here.error(f"is missing; expected parameters and their equations, as in {EXAMPLE}")
@@ -240,8 +243,7 @@ def _columns(
                 f"the parameter {shown(prefix)} is that of {taken[prefix]} already; choose "
                 "another name"
             )
-        equation = here.at(prefix, cell).expression(law)
-        known.check(equation, here.at(prefix))
+        equation = known.equation(here.at(prefix, cell))
         block = EnergyBlock[(energy[prefix] if isinstance(energy, dict) else energy).upper()]
         kind, largest = table.get("kind", "other"), table.get("largest", math.inf)
         unit, other = units[prefix], prismatic[prefix]
@@ -352,7 +354,8 @@ def _states(form: Form) -> Iterator[Mapping[str, float]]:
     yield dict.fromkeys(names, 0.0)
     draw = random.Random(0)
     for _ in range(_STATES):
-        yield {name: draw.uniform(-3.0, 3.0) for name in names}
+        values = {name: draw.uniform(-3.0, 3.0) for name in names}
+        yield values | {"since": abs(values["since"])}
 
 
 def _is_finite(column: EffectColumn, values: Mapping[str, float]) -> bool:

@@ -50,7 +50,9 @@ class Needs(enum.Enum):
     FRICTION = "it is a part of the friction of its joint, never larger than all of it"
 
 
-Shows = Literal["q", "v", "a", "load", "torque", "rate", "t", "T", "travel", "waves", "itself"]
+Shows = Literal[
+    "q", "v", "a", "load", "torque", "rate", "t", "T", "since", "travel", "waves", "itself"
+]
 """The axis against which a residual shows an effect: a variable of `VARIABLES`; the travel since
 the joint last turned back; waves per turn; or the torque of the effect itself, where it is a
 function of no single quantity."""
@@ -152,9 +154,13 @@ VARIABLES = {
     "rate": "d torque / dt",
     "t": "time of the log, s",
     "T": "temperature of the joint less its mean over the logs, K",
+    "since": "time since the joint last turned back, s; before, since the start of the stretch",
     "z": "inner state of the effect",
 }
 """What the equation of a column may use; SI units."""
+
+TURN = 3e-4
+"""rad or m: a joint that has come back by more has turned back; less is noise of its encoder."""
 
 MOTION = ("q", "v", "a")
 """Those that it may read of another joint too, whose name follows: `v3`."""

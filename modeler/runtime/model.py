@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from modeler.core.checks import as_samples, as_vector
+from modeler.core.checks import as_vector
 from modeler.core.errors import LoopError, ManifestError, ShapeError, SolutionError
 from modeler.core.files import read_file
 from modeler.core.manifest import MANIFEST, Emitted, FunctionSpec, ModuleSpec, module_from_json
@@ -206,24 +206,17 @@ class CompiledModel(Batches, Presented):
         return beta
 
     def advance(self, dq: Any, dt: float, s: Any) -> np.ndarray:
-        """The signals of effects one sample later, (m,): time and bristles; see the header.
+        """The signals of effects one sample later, as s: time and inner states; see the header.
 
         Args:
-            dq: (joints,) travel since the last sample.
+            dq: (joints,) or (n, joints) travel since the last sample.
             dt: s since then.
-            s: (m,) signals then.
+            s: (m,) or (n, m) signals then.
         """
-        function = self._functions.get("advance")
-        if function is None:
+        if "advance" not in self._functions:
             raise ManifestError(f"{self.spec.robot} has no effects that read signals")
-        given = [
-            as_samples([dq], "dq", self._joints),
-            as_samples([[dt]], "dt", 1),
-            as_samples([s], "s", len(self.spec.signals)),
-        ]
-        out = np.empty((1, len(self.spec.signals)))
-        self._library.batch(function, given, out)
-        return out[0]
+        after = self.evaluate("advance", dq=dq, dt=[dt], s=s)
+        return after if np.ndim(s) == 2 else after[0]
 
     def evaluate(self, role: str, **arrays: Any) -> np.ndarray:
         """What an emitted function gives, (n, ...) by its output's shape.

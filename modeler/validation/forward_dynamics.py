@@ -63,11 +63,8 @@ class FittedPlant:
         else:
             self._places = [i for i, name in enumerate(closure.variables) if name in rubbing]
             self.shafts = len(self._places)
-        self._slips = [
-            (i, [joint.name for joint in model.spec.joints].index(signal.joint), signal.value)
-            for i, signal in enumerate(model.spec.signals)
-            if signal.kind == "slip"
-        ]
+        self.inner = [i for i, signal in enumerate(model.spec.signals) if signal.inner]
+        """Places in s of what is part of the state."""
 
     def reaches(self, q: np.ndarray) -> np.ndarray:
         """(b,) True where the loops close; everywhere without loops."""
@@ -137,22 +134,9 @@ class FittedPlant:
             return np.broadcast_to(self._rows, (len(q), *self._rows.shape))
         return self.model.coupling(q)[:, self._places]
 
-    def turned(self, s: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """(b, m) signals after the joints have moved by `step` (b, n): bristles turn."""
-        if not self._slips:
-            return s
-        s = s.copy()
-        for place, joint, distance in self._slips:
-            # bristles z after a travel `step`: s + (z - s) exp(-|step|/distance), s its sign
-            way = np.sign(step[:, joint])
-            left = np.exp(-np.abs(step[:, joint]) / distance)
-            s[:, place] = way + (s[:, place] - way) * left
-        return s
-
-    @property
-    def slipping(self) -> list[int]:
-        """Places in s of what is part of the state."""
-        return [place for place, _, _ in self._slips]
+    def stepped(self, s: np.ndarray, step: np.ndarray, dt: float) -> np.ndarray:
+        """(b, m) signals dt s later, after the joints have moved by `step` (b, n)."""
+        return self.model.advance(step, dt, s) if self.inner else s
 
     def _rest(
         self, M: np.ndarray, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
