@@ -20,6 +20,7 @@ help:
 	@echo '                  (EVERY=3: of the cases that repeat what others show, today a third)'
 	@echo 'make lint         ruff and mypy only'
 	@echo 'make docs         the documentation as a site, in build/site; nothing in it needs the network'
+	@echo '                  (EVERY=3: of the pictures that take long, today a third)'
 	@echo 'make regenerate   write generated/ and the generated pages of docs/ anew'
 	@echo 'make clean        remove all that these commands made, .venv included'
 	@echo 'PYTHON=...        the Python to install with; default: the first of $(PYTHONS)'
@@ -39,7 +40,7 @@ lint: .venv/.installed-test
 	$(BIN)/python -m mypy
 
 docs: .venv/.installed-docs
-	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
+	EVERY=$(EVERY) NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict
 	@echo 'built: build/site/index.html'
 
 regenerate: .venv/.installed-test

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from docsite.days import has_its_turn
 from docsite.markdown import block, cell, code, table
 from modeler import api
 from modeler.core.errors import DataError
@@ -109,9 +110,14 @@ class Portrait:
 
 
 def portraits() -> list[Portrait]:
-    """All effects of the catalogue, as many at a time as there are processors."""
+    """All effects of the catalogue, as many at a time as there are processors.
+
+    One that has not its turn today stands without a picture.
+    """
+    drawn = [effect.id for place, effect in enumerate(CATALOGUE) if has_its_turn(place)]
     with ProcessPoolExecutor() as pool:
-        return list(pool.map(portrait, [effect.id for effect in CATALOGUE]))
+        found = dict(zip(drawn, pool.map(portrait, drawn), strict=True))
+    return [found.get(e.id) or _without_picture(e, "No picture was made today.") for e in CATALOGUE]
 
 
 def portrait(name: str) -> Portrait:
@@ -119,7 +125,7 @@ def portrait(name: str) -> Portrait:
     effect = next(effect for effect in CATALOGUE if effect.id == name)
     if name not in HIDDEN:
         told = "Nothing simulates this effect, so there is no picture of its residual."
-        return Portrait(effect, _page(effect, told, "", {}), None, None)
+        return _without_picture(effect, told)
     scene = SCENES.get(name, Scene())
     shown = _shown(effect, scene)
     picture = _picture(effect, shown.found)
@@ -135,6 +141,10 @@ def portrait(name: str) -> Portrait:
     ]  # fmt: skip
     page = _page(effect, "\n".join(parts), _apart(effect, shown), _shapes(effect, shown.found))
     return Portrait(effect, page, _png(picture), _png(_small(picture), (4.0, 2.7)))
+
+
+def _without_picture(effect: Effect, told: str) -> Portrait:
+    return Portrait(effect, _page(effect, told, "", {}), None, None)
 
 
 def effects_index(found: Sequence[Portrait]) -> str:

@@ -1,6 +1,7 @@
 """What all tests share: the cache of compiled models, and kept generated files."""
 
 import difflib
+import gc
 import os
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -11,7 +12,8 @@ from hypothesis.internal.conjecture import providers
 
 from modeler.core.json import nulled
 from tests.further_robots import FurtherRobots
-from tests.turns import resting, today, turns
+from tests.robots import KINDS, OTHERS
+from tests.turns import resting, resting_robots, today, turns
 
 # Hypothesis mixes the constants of whatever modules happen to be imported into its examples, and
 # which are depends on the tests that ran before in the process: examples shall be the same always.
@@ -49,13 +51,23 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         left = [item for item in items if not keepers & set(getattr(item, "fixturenames", ()))]
     else:
         every, day = config.getoption("every"), config.getoption("day")
-        rest = resting([item.nodeid for item in items], turns(items), every, day)
+        in_turn = turns(items)
+        rest = resting([item.nodeid for item in items], in_turn, every, day)
+        daily = [item for item in items if item.nodeid not in in_turn]
+        rest |= resting_robots(daily, KINDS, OTHERS, every, day)
         left = [item for item in items if item.nodeid in rest]
     if left:
         config.hook.pytest_deselected(items=left)
         gone = set(left)
         items[:] = [item for item in items if item not in gone]
     items.sort(key=lambda item: not item.nodeid.partition("::")[0].endswith(LONGEST))
+
+
+def pytest_collection_finish() -> None:
+    """What is collected stays: to look for garbage among it, so often, costs a sixth of a run."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(20_000, 20, 10)
 
 
 @pytest.fixture

@@ -42,6 +42,8 @@ CLOSED = tuple(name for name in LOOPED if name != "sr400")
 KINDS = ("emps", "puma560", "sr400-tree", "wrist-coupled", "sr400", "five-bar", "orthoglide-2003")
 """One of each structure: slide, chain, tree, motors of several joints, parallelogram, loops."""
 
+OTHERS = tuple(name for name in ROBOTS if name not in KINDS)
+
 
 def kinds_first(names: Iterable[str]) -> list[Any]:
     """Names for parametrize: one robot of each kind always, the others long, in turn."""

@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from tests.repository import ROOT, kept_files
+from tests.turns import in_turn
 
 pytestmark = pytest.mark.slow
 
@@ -141,10 +142,26 @@ print("used")
 """
 
 
-@pytest.mark.parametrize("archive", ["installed", "from_sdist"])
-def test_what_a_stranger_does_first(archive: str, request, tmp_path: Path) -> None:
+def test_the_sdist_installs_what_the_wheel_does(installed: Path, from_sdist: Path) -> None:
+    """File by file, so that what one does the other does; and its program starts."""
+    of_wheel, of_sdist = (
+        {
+            path.relative_to(folder).as_posix(): path.read_bytes()
+            for path in folder.rglob("*")
+            if path.is_file() and "__pycache__" not in path.parts
+        }
+        for programs in (installed, from_sdist)
+        for folder in programs.parent.glob("lib/python*/site-packages/modeler")
+    )
+    assert len(of_wheel) > 100 and of_sdist == of_wheel
+    told = _runner(from_sdist, from_sdist)("modeler", "--version")
+    assert re.fullmatch(r"modeler \d+\.\d+\.\d+\S*\n", told)
+
+
+@in_turn("the wheel used")
+def test_what_a_stranger_does_first(installed: Path, tmp_path: Path) -> None:
     """A log, a fit, a page, C that checks itself; the C in Python, against a textbook."""
-    run = _runner(request.getfixturevalue(archive), tmp_path)
+    run = _runner(installed, tmp_path)
     assert re.fullmatch(r"modeler \d+\.\d+\.\d+\S*\n", run("modeler", "--version"))
     for seed in ("1", "2"):
         words = ("--duration", "6", "--rate", "200", "--seed", seed, "--out", f"{seed}.csv")
@@ -156,11 +173,10 @@ def test_what_a_stranger_does_first(archive: str, request, tmp_path: Path) -> No
     assert (tmp_path / "a.html").stat().st_size > 100_000
     run("modeler", "generate", "two-link", "--out", "arm")
     assert "agree with the stored states" in run("make", "-C", "arm", "check")
-    if archive == "installed":
-        assert run("python", "-c", _USE, "arm") == "used\n"
+    assert run("python", "-c", _USE, "arm") == "used\n"
 
 
-@pytest.mark.in_turn("demo")
+@in_turn("the wheel used")
 def test_the_demonstration_from_the_wheel(installed: Path, tmp_path: Path) -> None:
     """Short: on the arm the hidden effect is found all the same."""
     told = _runner(installed, tmp_path)("modeler", "demo", "--duration", "5", "--out", "demo")
@@ -204,6 +220,7 @@ print("told")
 """
 
 
+@in_turn("the wheel used")
 def test_the_story_of_one_object_from_the_wheel(installed: Path, tmp_path: Path) -> None:
     assert _runner(installed, tmp_path)("python", "-c", _STORY) == "told\n"
     assert (tmp_path / "out" / "manifest.json").is_file()

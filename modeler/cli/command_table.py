@@ -389,6 +389,12 @@ _DIAGNOSE = Command(
         repeated("--without", "EFFECT[@J]", places.Word,
                  "an effect that this robot does not have, on one joint or at all"),
         MAP, *page(), pictures(),
+        Group("what has no name", None, (
+            flag("--discover", "propose equations, as [own_effects] to paste"),
+            value("--add", "MODEL2", places.Output,
+                  "put the first of each joint into the model, with the effects beside which it "
+                  "stands, and write it where it lowers the error"),
+        )),
     ),
 )  # fmt: skip
 
@@ -396,13 +402,14 @@ _ADD = Command(
     "add", "improve:run_add",
     "put a physical effect into a model and watch the error fall",
     "Adds EFFECT to the robot of MODEL, derives and emits it anew, fits it to the logs and shows "
-    "the error before and after. EFFECT may also be `auto`: all that `modeler diagnose` names, or "
-    "`undo`: without the last one.",
+    "the error before and after. EFFECT may also be `auto`: all that `modeler diagnose` names, "
+    "`undo`: without the last one, or `learned`: a smooth law of one or two quantities, for what "
+    "has no name.",
     "modeler add arm.model.json load_friction --joint 2 train.parquet "
     "--holdout other.parquet --out arm2.model.json",
     (
         MODEL,
-        value("effect", "EFFECT", places.Word, "see `modeler effects`; auto; undo"),
+        value("effect", "EFFECT", places.Word, "see `modeler effects`; auto; undo; learned"),
         logs("logs to fit to"),
         value("--joint", "J", places.Word, "default: where it explains most"),
         value("--out", "MODEL2", places.Output, "model file to write", **REQUIRED),
@@ -410,6 +417,14 @@ _ADD = Command(
         value("--robot-out", "FILE.toml", places.Output, "write the new robot file too",
               old=("--robot",)),
         MAP, *page(), pictures(),
+        Group("of `learned`, and of `auto`", None, (
+            value("--of", "X[,Y]", places.Word,
+                  "what the law is a function of, of the variables of [own_effects]: q,v or v,load "
+                  "or q (default: what predicts best)"),
+            flag("--odd", "odd in v: times its sign, of |v|"),
+            choice("--monotone", ("rising", "falling"), "along the first quantity"),
+            flag("--learned", "`auto`: a learned law at last, for what is left"),
+        )),
     ),
 )  # fmt: skip
 

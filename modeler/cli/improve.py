@@ -20,7 +20,18 @@ from modeler.cli.lists import use_options_of
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
 from modeler.core.table import DIGITS, percent
-from modeler.diagnosis import add_effect, added, lines, notes, undone
+from modeler.diagnosis import (
+    ANY_LAW,
+    LEARNED,
+    LawAsked,
+    add_effect,
+    add_learned,
+    added,
+    fall_shares,
+    lines,
+    notes,
+    undone,
+)
 from modeler.effects import effect_named
 from modeler.estimation import IdentifiedModel, load_model, save_model
 from modeler.robot import Robot, near, robot_from_text
@@ -30,6 +41,8 @@ _WIDTH = 40  # characters of the longest bar
 
 def run_diagnose(args: argparse.Namespace) -> Json:
     """Prints the verdict, the effects and what cannot be told."""
+    if args.add is not None and not args.discover:
+        raise DataError(f"--add {args.add}: adds what --discover finds; give both, or neither")
     model = load_model(args.model)
     robot = robot_from_text(model.robot_text, f"{args.model}, robot")
     use_options_of(args, "diagnose", robot.diagnose)
@@ -37,7 +50,12 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     with working("deriving the robot of the model"):
         compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map, True)
     with progress("looking for missing effects") as bar:
-        diagnosis = improve.missing(model, compiled, logs, args.without, bar)
+        diagnosis = improve.missing(model, compiled, logs, args.without, bar, args.discover)
+    better, left_out = model, tuple[str, ...]()
+    if args.add is not None:
+        with working("adding what was found"):
+            better, left_out = improve.discovered_added(model, compiled, logs, diagnosis)
+        save_model(args.add, better)
     following = report.after_diagnosis(args.model, args.logs, args.holdout, diagnosis)
     if args.report is not None or args.picture is not None:
         shown = [Path(place).name for place in (*args.logs, *args.holdout)]
@@ -53,6 +71,10 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     say_lines([*lines(diagnosis), *model.warning])
     draw_page(args.report, lambda: page)
     draw_pictures(args.picture, lambda: page.pictures())
+    if args.add is not None:
+        say_lines([*waterfall(better), *added(better), *left_out])
+        say_lines([args.add], "written: ")
+        return diagnosis.to_json() | {"left_out": list(left_out)}
     show_next(following)
     return diagnosis.to_json()
 
@@ -86,13 +108,19 @@ def run_add(args: argparse.Namespace) -> Json:
             f"--joint {args.joint}: `{args.effect}` takes no joint; expected one effect with "
             "--joint, or leave it out"
         )
+    asked = _law_asked(args)
     model = load_model(args.model)
     with working("deriving the robot of the model"):
         compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map)
     left_out: tuple[str, ...] = ()
     if args.effect == "auto":
         with progress("looking for missing effects") as bar:
-            better, left_out, _ = improve.auto_added(model, compiled, logs, bar, working)
+            better, left_out, _ = improve.auto_added(
+                model, compiled, logs, bar, working, args.learned
+            )
+    elif args.effect == LEARNED:
+        with progress("learning a law") as bar:
+            better = add_learned(model, compiled, args.joint, logs, asked, bar)
     elif args.effect == "undo":
         with working("fitting without the last effect"):
             better = undone(model, logs)
@@ -125,6 +153,25 @@ def run_add(args: argparse.Namespace) -> Json:
     return better.fit.to_json() | {"waterfall": steps, "left_out": list(left_out)}
 
 
+def _law_asked(args: argparse.Namespace) -> LawAsked:
+    """What the options say of a law.
+
+    Raises:
+        DataError: some stand beside another effect.
+    """
+    rising = {"rising": 1, "falling": -1, None: 0}[args.monotone]
+    of = tuple(part.strip() for part in (args.of or "").split(",") if part.strip())
+    asked = LawAsked(of, args.odd, rising)
+    if args.effect != LEARNED and asked != ANY_LAW:
+        raise DataError(
+            f"--of, --odd, --monotone: got them with {args.effect}; expected `modeler add MODEL "
+            f"{LEARNED}`"
+        )
+    if args.learned and args.effect != "auto":
+        raise DataError(f"--learned: got it with {args.effect}; expected `modeler add MODEL auto`")
+    return asked
+
+
 def waterfall(model: IdentifiedModel) -> list[str]:
     """The error after every effect that was added, as bars."""
     if not model.history:
@@ -138,7 +185,14 @@ def waterfall(model: IdentifiedModel) -> list[str]:
     largest = max(step.error for step in model.history) or 1.0
     for step in model.history:
         name = report.step_name(step) if step.effect else "model as fitted"
-        bar = "#" * round(_WIDTH * step.error / largest)
-        fitted = percent(step.training_error, DIGITS)
-        lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  (fitted {fitted})")
+        bar = ("~" if step.learned else "#") * round(_WIDTH * step.error / largest)
+        fitted = f"(fitted {percent(step.training_error, DIGITS)}{', learned' * step.learned})"
+        lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  {fitted}")
+    if (parts := fall_shares(model)) is not None:
+        lines.append(f"{'':<30} ~ learned, not physics")
+        physics, learned = (100.0 * part for part in parts)
+        lines.append(
+            f"of the fall by {physics + learned:.2g} points, {physics:.2g} are physics and "
+            f"{learned:.2g} learned"
+        )
     return lines

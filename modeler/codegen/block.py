@@ -15,6 +15,7 @@ from fractions import Fraction
 from modeler.codegen.naming import Letters, Naming
 from modeler.codegen.targets import DOUBLE, FUNCTIONS, Target
 from modeler.core.errors import EmitError
+from modeler.core.law import Law
 from modeler.derivation import Expr, Graph
 
 # One operation as C99 text.
@@ -102,6 +103,7 @@ class Block:
         additions: per call of the function; constants are not counted.
         multiplications: the same, divisions included.
         letters: of the names of temporaries.
+        laws: tables that are read, by name.
     """
 
     constants: tuple[str, ...]
@@ -111,6 +113,7 @@ class Block:
     additions: int
     multiplications: int
     letters: frozenset[Letters] = frozenset()
+    laws: Mapping[str, Law] = field(default_factory=dict)
 
 
 def make_block(
@@ -145,6 +148,7 @@ def make_block(
             named |= {abs(arg) for arg in node.args if graph.nodes[abs(arg)].static}
     forced = {i for i in named if graph.nodes[i].op not in _LEAVES}
     writer = _Writer(graph, places, widths or {}, target, forced)
+    writer.texts[0] = number_text(Fraction(0), target.still)
     hoisted = [i for i in reachable if writer.is_call(i) and not graph.nodes[i].static]
     writer.forced |= set(hoisted)
     for index in reachable:
@@ -161,7 +165,9 @@ def make_block(
     parts = constants, calls, writer.take()
     naming = Naming(graph, writer.temporaries, [line for part in parts for line in part])
     constants, calls, body = (naming.written(part, target.remark) for part in parts)
-    return Block(constants, calls, body, symbols, additions, multiplications, naming.letters)
+    tables = {node.op: graph.tables[node.op] for node in inner if node.op in graph.tables}
+    laws = {name.partition("_")[0]: tables[name].law for name in sorted(tables)}
+    return Block(constants, calls, body, symbols, additions, multiplications, naming.letters, laws)
 
 
 @dataclass
@@ -182,7 +188,9 @@ class _Writer:
     def is_call(self, index: int) -> bool:
         """True if C calls a function for it, which stands before the arithmetic."""
         node = self.graph.nodes[index]
-        return node.op in _HOISTED or (node.op == "sign" and node.args[0] in self.widths)
+        return node.op in (*_HOISTED, *self.graph.tables) or (
+            node.op == "sign" and node.args[0] in self.widths
+        )
 
     def take(self) -> tuple[str, ...]:
         """The lines since the last call."""
@@ -290,11 +298,16 @@ class _Writer:
             if node.op == "mul":
                 return product_text(*args)
             return Text(f"{args[0].within(PRODUCT)}/{args[1].within(ATOM)}", PRODUCT)
-        signed = [a if arg > 0 else negative(a) for arg, a in zip(node.args, args, strict=True)]
+        signed = [a if arg >= 0 else negative(a) for arg, a in zip(node.args, args, strict=True)]
+        if not node.static:
+            pairs = zip(node.args, signed, strict=True)
+            signed = [self._spread(abs(arg), text) for arg, text in pairs]
+        if node.op in self.graph.tables:
+            name, _, slope = node.op.partition("_slope")
+            arguments = ", ".join(each.text for each in signed)
+            form = {"axes": len(signed), "along": slope, "name": name, "arguments": arguments}
+            return Text(target.law.format(**form), ATOM)
         if node.op == "pow":
-            if not node.static:
-                pairs = zip(node.args, signed, strict=True)
-                signed = [self._spread(abs(arg), text) for arg, text in pairs]
             base, exponent = signed
             return Text(f"{target.functions['pow']}({base.text}, {exponent.text})", ATOM)
         if node.op == "sign" and node.args[0] in self.widths:

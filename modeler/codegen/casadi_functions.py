@@ -15,18 +15,55 @@ from modeler.codegen.fitted import widths
 from modeler.codegen.forward import efforts
 from modeler.codegen.functions import CFunction
 from modeler.codegen.parameter_set import SMOOTH, smooth_functions, turning_joint, turning_joints
+from modeler.core.expression import LAW
+from modeler.core.law import BESIDE
 from modeler.core.manifest import ArgumentSpec
-from modeler.derivation import Arithmetic, BaseParameters, Closure, Expr, Graph, Plan, SymbolicModel
+from modeler.derivation import (
+    Arithmetic,
+    BaseParameters,
+    Closure,
+    Expr,
+    Graph,
+    Plan,
+    SymbolicModel,
+    Table,
+)
 
 _OPERATIONS = {
     name: getattr(casadi, name) for name in ("sin", "cos", "tan", "sqrt", "exp", "sign", "tanh")
 }
+
+
+def _law(table: Table, *x: casadi.SX) -> casadi.SX:
+    """A law as a sum of coefficients times cardinal splines B, of truncated powers."""
+    given = [casadi.SX.sym(f"x{k}") for k in range(len(x))]
+    total, law = casadi.SX(0), table.law
+    splines = [
+        [_spline(casadi.fmax(0, casadi.fmin((y - low) * scale, count)) - i + 3)
+         for i in range(count + BESIDE)]
+        for y, low, scale, count in zip(given, law.low, law.scales, law.cells, strict=True)
+    ]  # fmt: skip
+    rows = law.coefficients.reshape(law.cells[0] + BESIDE, -1)
+    for first, row in zip(splines[0], rows, strict=True):
+        others = zip(row.tolist(), splines[1] if len(splines) > 1 else [1], strict=True)
+        total += first * sum(c * second for c, second in others)
+    if table.along is not None:
+        total = casadi.gradient(total, given[table.along])
+    return casadi.substitute([total], given, list(x))[0]
+
+
+def _spline(t: casadi.SX) -> casadi.SX:
+    """B of [0, 4]."""
+    s = casadi.fabs(t - 2)
+    return (casadi.fmax(2 - s, 0) ** 3 - 4 * casadi.fmax(1 - s, 0) ** 3) / 6
+
+
 _SYMBOLIC = Arithmetic(
     float,
     lambda: casadi.pi,
     {
         **_OPERATIONS, "abs": casadi.fabs, "pow": casadi.power, "add": casadi.plus,
-        "mul": casadi.times, "div": casadi.rdivide,
+        "mul": casadi.times, "div": casadi.rdivide, LAW: _law,
     },
 )  # fmt: skip
 

@@ -147,7 +147,9 @@ def fitted_control_functions(
 
 def _apart(model: SymbolicModel) -> SymbolicModel:
     """The model in a graph of its own, so that what others left there cannot change the C."""
-    return dataclasses.replace(model, graph=Graph(apart=True))
+    graph = Graph(apart=True)
+    graph.tables |= model.graph.tables  # one law has one name in all C
+    return dataclasses.replace(model, graph=graph)
 
 
 def _dynamics(

@@ -26,6 +26,7 @@ from modeler.codegen.cuda import cuda_files
 from modeler.codegen.fitted import UNIT, check_values, fitted_functions, fitted_texts, widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.fused import UNIT as TILE_UNIT, ClosingTile, Tile, closing_tile_of, tile_of
+from modeler.codegen.law_tables import law_tables
 from modeler.codegen.naming import Letters, legend
 from modeler.codegen.package import C_INTERFACE, LICENSE, origin_of, package_files, render
 from modeler.codegen.parameter_set import SMOOTH
@@ -37,6 +38,7 @@ from modeler.core import manifest
 from modeler.core.errors import EmitError, Precision
 from modeler.core.files import resource_dir
 from modeler.core.json import entries
+from modeler.core.law import Law
 from modeler.core.manifest import Emitted, FittedSpec, FunctionSpec, ModuleSpec
 from modeler.derivation import (
     BaseParameters,
@@ -194,6 +196,7 @@ class _Written(CFunction):
     additions: int
     multiplications: int
     letters: frozenset[Letters]
+    laws: Mapping[str, Law]
 
 
 def emit(
@@ -341,6 +344,7 @@ def _module(
         module_spec(model, base, blocks),
         precision=precision,
         units=None if units is None else tuple(sorted(units)),
+        laws=len({name for table in model.graph.tables for name in [table.partition("_")[0]]}),
     )
     there = {f.role for f in functions}
     shown = spec.has("_batch") or "base_regressor_nonzeros" in there
@@ -434,6 +438,7 @@ def _fitted_unit(
         "inner": [f for f in written if f.internal],
         "outer": [f for f in written if not f.internal],
         "constants": _constants(written, values, values["symbols"].texts),
+        "laws": law_tables(written, target),
         "geometry": list(values["symbols"].macros),
         "letters": _letters(written),
     }
@@ -477,6 +482,7 @@ def _control_unit(
         "fitted": spec.fitted,
         "functions": written,
         "constants": _constants(written, values, texts),
+        "laws": law_tables(written, target),
         "geometry": list(values["symbols"].macros) if fitted else [],
         "widths": tuple(dict.fromkeys(found.values())),
         "smooth": given,
@@ -509,17 +515,19 @@ def _fitted_files(prefix: str, values: dict[str, Any], fitted: FittedSpec) -> di
 def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
     """The files that the library is compiled from."""
     prefix, functions, initial = spec.prefix, values["functions"], values["symbols"].initial
+    target = OF_PRECISION[spec.precision]
     files = {f"{prefix}.h": render("module.h", **values)}
     for unit in ("", "_regressor", "_base_regressor"):
         own = [f for f in functions if f.unit == unit]
         if unit and not spec.has(unit):
             continue
         more = {"functions": own, "constants": _constants(own, values, initial), "main": not unit}
-        more["letters"] = _letters(own)
+        more |= {"letters": _letters(own), "laws": law_tables(own, target)}
         files[f"{prefix}{unit}.c"] = render("module.c", **{**values, **more})
     for kind in "hc" if spec.has("_batch") else "":
         files[f"{prefix}_batch.{kind}"] = render(f"batch.{kind}", **values)
     runtime: tuple[str, ...] = (*manifest.RUNTIME, *manifest.BATCH_RUNTIME)
+    runtime += manifest.LAW_RUNTIME if spec.laws else ()
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops
         inner = [f for f in functions if f.internal]
         outer = [f for f in functions if f.unit == "_loops"]
@@ -528,6 +536,7 @@ def _code(spec: ModuleSpec, values: dict[str, Any]) -> dict[str, str]:
         runtime += manifest.CLOSURE_RUNTIME
     if spec.tile_sources:
         given = {**values, "constants": _constants([values["tile"]], values, initial)}
+        given["laws"] = law_tables([values["tile"]], target)
         for kind in ("h", "c"):
             name = "closing_tile.c" if spec.closure is not None and kind == "c" else f"tile.{kind}"
             files[f"{prefix}{TILE_UNIT}.{kind}"] = render(name, **given)
@@ -572,7 +581,7 @@ def _written(prefix: str, function: CFunction, block: Block, target: Target) -> 
         at_declaration=declared,
         at_definition=defined,
         lines=[] if function.status else layout.body_lines(function, block, target),
-        **entries(block, "symbols additions multiplications letters"),
+        **entries(block, "symbols additions multiplications letters laws"),
     )
 
 

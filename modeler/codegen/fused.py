@@ -16,6 +16,7 @@ from modeler.codegen.elimination import Elimination
 from modeler.codegen.functions import CFunction, name_lines
 from modeler.codegen.targets import Target
 from modeler.core.json import entries
+from modeler.core.law import Law
 from modeler.derivation import BaseParameters, Expr, Graph, SymbolicModel
 
 _TURNS = ("sin", "cos")
@@ -41,16 +42,22 @@ class Turns:
 
 
 def turns_of(graph: Graph, outputs: Sequence[Expr]) -> Turns:
-    """Those that the outputs read."""
+    """Those of positions that the outputs read."""
     nodes = [
         k
         for k in graph.reachable(outputs)
-        if graph.nodes[k].op in _TURNS and not graph.nodes[k].static
+        if graph.nodes[k].op in _TURNS and not graph.nodes[k].static and _placed(graph, k)
     ]
     return Turns(
         values=tuple(Expr(graph, k) for k in nodes),
         symbols={k: graph.symbol(f"t[{at}]") for at, k in enumerate(nodes)},
     )
+
+
+def _placed(graph: Graph, node: int) -> bool:
+    """True if it reads no speed."""
+    read = (graph.nodes[k] for k in graph.reachable([Expr(graph, node)]))
+    return all(each.op != "sym" or not each.args[0].startswith(("qd", "s[")) for each in read)
 
 
 def base_columns(model: SymbolicModel, base: BaseParameters) -> dict[tuple[int, int], Expr]:
@@ -140,7 +147,9 @@ def replaced(
         args = [signed(arg) for arg in node.args]
         if all(new.ref == old for new, old in zip(args, node.args, strict=True)):
             continue
-        if node.op in _ARITHMETIC:
+        if table := graph.tables.get(node.op):
+            found[index] = graph.law(table.law, *args, along=table.along)
+        elif node.op in _ARITHMETIC:
             found[index] = _ARITHMETIC[node.op](*args)
         else:
             found[index] = graph.call(node.op, args[0])
@@ -170,6 +179,7 @@ class Tile:
         symbols: names of the graph's symbols that are read.
         additions: for each sample.
         multiplications: the same, divisions included.
+        laws: tables that are read, by name.
         signals: how many there are.
     """
 
@@ -178,6 +188,7 @@ class Tile:
     symbols: frozenset[str]
     additions: int
     multiplications: int
+    laws: Mapping[str, Law]
     signals: int
 
 
@@ -200,7 +211,7 @@ class Part:
 
 @dataclass(frozen=True)
 class ClosingTile:
-    """The finished strings of a unit that closes loops; symbols as of `Tile`.
+    """The finished strings of a unit that closes loops; symbols and laws as of `Tile`.
 
     Attributes:
         parts: functions.
@@ -210,6 +221,7 @@ class ClosingTile:
     parts: tuple[Part, ...]
     entries: tuple[tuple[int, int], ...]
     symbols: frozenset[str]
+    laws: Mapping[str, Law]
     signals: int = 0
 
     @property
@@ -240,7 +252,7 @@ def closing_tile_of(
     found = {f.role: f for f in functions if f.internal}
     if "tree_rows" not in found:
         return None
-    parts, symbols, entries = [], frozenset[str](), []
+    parts, symbols, laws, entries = [], frozenset[str](), dict[str, Law](), []
     for name in _PARTS:
         f = found[f"tree_{name}"]
         rows, out = name == "rows", f.output.name
@@ -252,6 +264,7 @@ def closing_tile_of(
             places, target=target,
         )  # fmt: skip
         symbols |= block.symbols
+        laws |= block.laws
         inputs = tuple(argument.name for argument in f.inputs)
         read = {symbol.partition("[")[0] for symbol in block.symbols}
         written = {at for at, _ in f.entries}
@@ -262,7 +275,7 @@ def closing_tile_of(
         unread = tuple(f"(void){name};" for name in inputs if name not in read)
         lines = (*unread, *block.constants, *block.calls, *block.body, *zeros)
         parts.append(Part(name, inputs, None if rows else out, lines))
-    return ClosingTile(tuple(parts), tuple(divmod(at, columns) for at in entries), symbols)
+    return ClosingTile(tuple(parts), tuple(divmod(at, columns) for at in entries), symbols, laws)
 
 
 def tile_of(
@@ -309,6 +322,6 @@ def tile_of(
             for name, length in lengths.items()
             if name not in unread
         ),
-        **entries(block, "symbols additions multiplications"),
+        **entries(block, "symbols additions multiplications laws"),
         signals=lengths.get("s", 0),
     )

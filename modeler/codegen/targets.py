@@ -35,6 +35,8 @@ class Target:
         functions: {function of the graph: C name}, all of `FUNCTIONS`.
         sincos: C name of the function that gives sine and cosine at once.
         smooth_sign: C name of the sign that turns over a width.
+        law: call of a law that was learned, of `{name}`, `{axes}`, `{along}` (which derivative,
+            "", "x" or "y") and `{arguments}`.
         spread: C text of a value of all lanes that are alike, of `{0}`, one number.
         constant: target of values that do not depend on the motion; None: this one.
         point: True if a literal has a point before its exponent, 1.0E-05.
@@ -53,6 +55,7 @@ class Target:
     functions: Mapping[str, str]
     sincos: str
     smooth_sign: str
+    law: str = "modeler_law_{axes}{along}(&{name}, {arguments})"
     spread: str = "{0}"
     constant: "Target | None" = None
     point: bool = False
@@ -147,6 +150,7 @@ TILES: Mapping[Precision, Target] = MappingProxyType(
             functions=MappingProxyType({name: f"modeler_lanes_{c}" for name, c in _MATH.items()}),
             sincos="modeler_lanes_sincos",
             smooth_sign="modeler_lanes_smooth_sign",
+            law="modeler_lanes_law_{axes}{along}(&{name}, {arguments})",
             spread="modeler_lanes_spread({0})",
             constant=target,
         )

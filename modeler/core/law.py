@@ -54,7 +54,7 @@ class Law:
         return np.array(self.values).reshape([count + BESIDE for count in self.cells])
 
     def __call__(self, *x: "np.ndarray | float", along: int | None = None) -> "np.ndarray":
-        """Its values at x, arrays of one shape; not a number where one of x is none.
+        """Its values at x, arrays of one shape; not a number where one of x is not finite.
 
         Args:
             x: one for each axis.
@@ -83,10 +83,15 @@ class Law:
         import numpy as np
 
         scale, count = self.scales[axis], self.cells[axis]
-        u = np.clip((x - self.low[axis]) * scale, 0.0, count)
+        free = (x - self.low[axis]) * scale
+        u = np.clip(free, 0.0, count)
         k = np.minimum(np.where(np.isnan(u), 0.0, u).astype(int), count - 1)
-        f = u - k
-        return k, [scale * w for w in _slopes(f)] if slope else _weights(f)
+        with np.errstate(invalid="ignore"):
+            f = u - k + (x - x)
+        if not slope:
+            return k, _weights(f)
+        rate = np.where(u == free, scale, 0.0)  # beyond the ends it is held
+        return k, [rate * w for w in _slopes(f)]
 
 
 def _weights(f: "np.ndarray") -> tuple["np.ndarray", ...]:

@@ -36,6 +36,11 @@ CLOSURE_RUNTIME = (
 CONTROL_RUNTIME = ("modeler_status.h", "modeler_solve.h")
 """Those that stand beside the controller's unit."""
 
+LAW_RUNTIME = ("modeler_law.h",)
+"""Those that stand beside laws that were learned; and beside tiles of them."""
+
+LAW_TILE_RUNTIME = ("modeler_law_lanes.h",)
+
 CUDA_THREADS = 128
 """Threads of a block of the emitted kernels."""
 
@@ -259,6 +264,7 @@ class ModuleSpec(Brief):
     control: ControlSpec | None = None  # where `modeler generate` wrote it
     origin: OriginSpec | None = field(default=None, compare=False)  # in the file alone
     units: tuple[str, ...] | None = None  # "_control", ...: of some functions; None: all there are
+    laws: int = 0  # that were learned, whose tables stand in the C
 
     @property
     def every_function(self) -> tuple[FunctionSpec, ...]:
@@ -292,7 +298,7 @@ class ModuleSpec(Brief):
         headed = [unit for unit in ("_fitted", "_control") if self.has(unit)]
         headed += ["_joints"] if self.control is not None else []
         units += [f"{unit}.{kind}" for unit in headed for kind in "hc"]
-        runtime = list(RUNTIME)
+        runtime = [*RUNTIME, *(LAW_RUNTIME if self.laws else ())]
         if self.closure is not None:
             units += ["_tree.h", "_loops.c"]
             runtime += CLOSURE_RUNTIME
@@ -312,14 +318,16 @@ class ModuleSpec(Brief):
         if not self.has("_batch"):
             return ()
         units = (f"{self.prefix}_tile.h", f"{self.prefix}_tile.c")
-        others = RUNTIME if self.closure is None else self.sources
+        own = (*RUNTIME, *(LAW_RUNTIME if self.laws else ()))
+        others = own if self.closure is None else self.sources
         headers = (name for name in others if name.endswith(".h"))
         return (*units, *self.tile_runtime, *headers)
 
     @property
     def tile_runtime(self) -> tuple[str, ...]:
         """Hand-written files of the tiles alone."""
-        return (*TILE_RUNTIME, *(CLOSING_RUNTIME if self.closure is not None else ()))
+        more = CLOSING_RUNTIME if self.closure is not None else ()
+        return (*TILE_RUNTIME, *more, *(LAW_TILE_RUNTIME if self.laws else ()))
 
     def to_json(self) -> str:
         """Stable text: sorted as declared, no date, no version."""
@@ -333,6 +341,8 @@ class ModuleSpec(Brief):
                 del entries[name]
         if self.precision == "double":
             del entries["precision"]
+        if not self.laws:
+            del entries["laws"]
         for entry, name in [
             (entries, "inertial_uncertainty"),
             *((parameter, "deviation") for parameter in entries["standard"]),

@@ -22,6 +22,7 @@ from .derive import (
     with_home as with_home,
     written as written,
 )
+from .differentiation import derivatives as derivatives
 from .enclosed import (
     EnclosedState as EnclosedState,
     Enclosures as Enclosures,
@@ -60,9 +61,9 @@ from .graph import (
     GraphAlgebra as GraphAlgebra,
     Node as Node,
     Plan as Plan,
+    Table as Table,
     Vector as Vector,
     combination as combination,
-    derivatives as derivatives,
 )
 from .kinematics import (
     Composite as Composite,

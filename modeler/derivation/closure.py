@@ -18,8 +18,9 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.errors import LoopError
 from modeler.core.rounded import precise
+from modeler.derivation.differentiation import derivatives
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.graph import Algebra, Expr, Graph, GraphAlgebra, derivatives
+from modeler.derivation.graph import Algebra, Expr, Graph, GraphAlgebra
 from modeler.derivation.kinematics import Pose, dot, plus, poses_from, times
 from modeler.derivation.precise import decimal, precise_values
 from modeler.robot import INERTIAL, Loop, Robot

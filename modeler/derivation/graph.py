@@ -16,17 +16,17 @@ compared with other derivations anyway.)
 
 import hashlib
 import operator
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import Any, Protocol, Union
 
 import numpy as np
 import sympy
 
 from modeler.core.errors import DerivationError
-from modeler.core.expression import FUNCTIONS
+from modeler.core.expression import FUNCTIONS, LAW
 from modeler.core.law import Law
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, quarter_turns
 from modeler.derivation.labels import Label, Link
@@ -46,7 +46,8 @@ class Arithmetic:
     Attributes:
         number: a rational number as one of them.
         pi: as one of them, with the precision of the caller.
-        functions: by name, `OPERATIONS` and "pow" of two arguments, the others of one.
+        functions: by name, `OPERATIONS` and "pow" of two arguments, the others of one; "law" of a
+            `Table` and its arguments.
     """
 
     number: Callable[[Fraction], Any]
@@ -57,6 +58,7 @@ class Arithmetic:
 FLOATS = Arithmetic(float, lambda: np.pi, {
     **OPERATIONS, "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
     "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh, "pow": np.power,
+    LAW: lambda table, *x: table(*x),
 })  # fmt: skip
 
 _ALONE = -1
@@ -85,8 +87,9 @@ class Plan:
             else:
                 a, b = (*node.args, None)[:2]
                 second = _ALONE if b is None else place[abs(b)]
-                known = graph.tables.get(node.op) or arithmetic.functions[node.op]
-                call = _signed(known, node.op, a, b)
+                table = graph.tables.get(node.op)
+                known = arithmetic.functions[LAW if table else node.op]
+                call = _signed(partial(known, table) if table else known, node.op, a, b)
                 self._steps.append((at, call, place[abs(a)], second))
         self._outputs = [(place[abs(output.ref)], output.ref < 0) for output in outputs]
 
@@ -638,92 +641,3 @@ class GraphAlgebra:
         for _ in range(quarters % 4):
             c, s = -s, c
         return c, s
-
-
-# Derivatives of graph expressions along a direction, by the rules of differentiation.
-
-
-_EVERYWHERE = {"add", "mul", "div", "sin", "cos", "sqrt", "exp", "tan", "tanh"}
-"""Operations that have a derivative wherever they have a value, for our purposes."""
-
-
-def derivatives(
-    values: Sequence[Expr], direction: Mapping[str, Expr], kinks: bool = False
-) -> list[Expr]:
-    """d values / ds where each symbol of `direction` moves with that speed; others stand still.
-
-    With speeds 1 and 0 these are partial derivatives; with dq/dt they are time derivatives.
-
-    Args:
-        values: of one graph.
-        direction: {symbol: speed}.
-        kinks: True to take 0 for the derivative of a sign, and the sign for that of |x|.
-
-    Raises:
-        DerivationError: a function that has no derivative everywhere (sign, abs), without `kinks`.
-    """
-    if not values:
-        return []
-    graph = values[0].graph
-    zero = graph.constant(0)
-    found: dict[int, Expr] = {0: zero}
-    for index in graph.reachable(values):
-        node = graph.nodes[index]
-        if node.op == "sym":
-            found[index] = direction.get(node.args[0], zero)
-        elif node.static:
-            found[index] = zero
-        elif (kinks or node.op in _EVERYWHERE) and not any(
-            found[abs(ref)].ref for ref in node.args
-        ):
-            found[index] = zero  # most nodes depend on few symbols
-        else:
-            found[index] = _derivative(index, node, values[0], found, kinks)
-            _name_derivative(graph, index, found[index], direction)
-    return [found[abs(v.ref)] if v.ref >= 0 else -found[-v.ref] for v in values]
-
-
-def _name_derivative(graph: Graph, index: int, slope: Expr, direction: Mapping[str, Expr]) -> None:
-    """Names it by what is derived, and by the one variable that moves, or the time."""
-    if label := graph.labels.get(index):
-        by = re.sub(r"\W", "", min(direction)) if len(direction) == 1 else "t"
-        value = [-slope if label.minus else slope]
-        step, of = f"{label.step}d", label.of + by
-        named(label.quantity, label.link, value, step, of, [label.component])
-
-
-def _derivative(index: int, node: Node, like: Expr, found: Mapping[int, Expr], kinks: bool) -> Expr:
-    graph = like.graph
-    args = [Expr(graph, ref) for ref in node.args]
-    slopes = [found[abs(a.ref)] if a.ref >= 0 else -found[-a.ref] for a in args]
-    if node.op == "add":
-        return slopes[0] + slopes[1]
-    if node.op == "mul":
-        return slopes[0] * args[1] + args[0] * slopes[1]
-    if table := graph.tables.get(node.op):
-        if table.along is not None:
-            raise DerivationError("a law that was learned is derived once only")
-        total = graph.constant(0)
-        for axis, slope in enumerate(slopes):
-            total = total + (graph.law(table.law, *args, along=axis) * slope if slope.ref else 0)
-        return total
-    value = Expr(graph, index)
-    if node.op == "div":
-        return (slopes[0] - value * slopes[1]) / args[1]
-    rules: dict[str, Callable[[Expr], Expr]] = {
-        "sin": lambda x: graph.call("cos", x),
-        "cos": lambda x: -graph.call("sin", x),
-        "sqrt": lambda x: 1 / (2 * value),
-        "exp": lambda x: value,
-        "tan": lambda x: 1 + value * value,
-        "tanh": lambda x: 1 - value * value,
-    }
-    if kinks:
-        rules |= {
-            "sign": lambda x: graph.constant(0),
-            "abs": lambda x: graph.call("sign", x),
-            "pow": lambda x: args[1] * graph.power(x, args[1] - 1),  # of constant exponents
-        }
-    if node.op not in rules:
-        raise DerivationError(f"{node.op} has no derivative everywhere")
-    return rules[node.op](args[0]) * slopes[0]

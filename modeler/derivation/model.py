@@ -19,8 +19,9 @@ from modeler.derivation.columns import (
     signals_of,
     signals_read,
 )
+from modeler.derivation.differentiation import derivatives
 from modeler.derivation.geometry import Geometry
-from modeler.derivation.graph import Expr, Graph, GraphAlgebra, combination, derivatives
+from modeler.derivation.graph import Expr, Graph, GraphAlgebra, combination
 from modeler.derivation.kinematics import (
     Motion,
     MotionState,

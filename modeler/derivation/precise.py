@@ -5,15 +5,18 @@ a ball excludes is excluded for certain: that is a proof, where a small number i
 not. Numbers of the robot file are the decimals that it says, symbols are their own expressions.
 """
 
+import functools
+import itertools
+import math
 import operator
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from modeler.core.expression import FUNCTIONS
+from modeler.core.expression import FUNCTIONS, LAW
 from modeler.core.rounded import precise
-from modeler.derivation.graph import OPERATIONS, Arithmetic, Expr, Graph, Plan
+from modeler.derivation.graph import OPERATIONS, Arithmetic, Expr, Graph, Plan, Table
 from modeler.robot import Robot
 
 Ball = Any
@@ -48,8 +51,39 @@ def _named(name: str) -> Callable[[Ball], Ball]:
     return operator.methodcaller({"sign": "sgn"}.get(name, name))
 
 
+def _law(table: Table, *x: Ball) -> Ball:
+    """A law that was learned: of all cells in which x may lie."""
+    law, places = table.law, []
+    for axis, own in enumerate(x):
+        count, scale = law.cells[axis], exact_ball(law.scales[axis])
+        free = (own - exact_ball(law.low[axis])) * scale
+        u = free.max(exact_ball(0)).min(exact_ball(count))
+        cells = [int(end.floor().unique_fmpz()) for end in (u.lower(), u.upper())]
+        rate = scale if table.along == axis and u.overlaps(free) else exact_ball(0)
+        places.append([
+            (k, _weights((u - k).intersection(flint().arb(0.5, 0.5)), rate, table.along == axis))
+            for k in range(min(cells[0], count - 1), min(cells[1], count - 1) + 1)
+        ])  # fmt: skip
+    found = []
+    for place in itertools.product(*places):
+        total = exact_ball(0)
+        for term in itertools.product(*(list(enumerate(weights, k)) for k, weights in place)):
+            value = exact_ball(float(law.coefficients[tuple(m for m, _ in term)]))
+            total += math.prod((weight for _, weight in term), start=value)
+        found.append(total)
+    return functools.reduce(lambda a, b: a.union(b), found)
+
+
+def _weights(f: Ball, rate: Ball, slope: bool) -> list[Ball]:
+    g = 1 - f
+    if slope:
+        return [rate * w / 2 for w in (-g * g, f * (3 * f - 4), 1 + 2 * f - 3 * f * f, f * f)]
+    return [w / 6 for w in (g**3, 4 - 6 * f**2 + 3 * f**3, 4 - 6 * g**2 + 3 * g**3, f**3)]
+
+
 _CALLS: Mapping[str, Callable[..., Ball]] = {
     **OPERATIONS, "pow": operator.pow, **{name: _named(name) for name in FUNCTIONS}, "abs": abs,
+    LAW: _law,
 }  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,15 +28,16 @@ from modeler.diagnosis.candidates import Candidate, StatedEffects, links_of, pas
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
+from modeler.diagnosis.learn import ANY_LAW, LawAsked, Learned, learn, with_law
 from modeler.diagnosis.plausible import objection
 from modeler.diagnosis.profile import values_of
 from modeler.diagnosis.result import Pick, doubt
 from modeler.diagnosis.score import Residuals, Score, errors_of, no_better, rms_error, scored
 from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
-from modeler.diagnosis.state import SearchData, analysed, state_of
+from modeler.diagnosis.state import SearchData, State, analysed, state_of
 from modeler.diagnosis.timing import instrumental
-from modeler.effects import Acts, Effect, effect_named
+from modeler.effects import MOTION, Acts, Effect, effect_named
 from modeler.estimation import Addition, IdentifiedModel, identify, provenance, with_verdict
 from modeler.robot import listed, near, robot_from_text
 from modeler.runtime import CompiledModel, load
@@ -81,12 +83,13 @@ def requested_effect(model: IdentifiedModel, name: str, joint: str | None) -> Ef
     if effect.hindrance:
         raise DataError(f"{effect.id}: cannot be added ({effect.hindrance})")
     jointed = effect.acts in _JOINTED
-    reads_speeds = effect.acts is not Acts.POSITION and effect.forms[0].names <= {"v", "a"}
-    if model.spec.closure is not None and jointed and not reads_speeds:
-        # the C of a robot with loops reads speeds and accelerations of its joints, nothing else
+    reads_motion = all(name.startswith(MOTION) for name in effect.forms[0].names)
+    reads_motion = reads_motion and effect.acts is not Acts.POSITION
+    if model.spec.closure is not None and jointed and not reads_motion:
+        # the C of a robot with loops reads the motion of its joints, nothing else
         raise DataError(
             f"{effect.id}: cannot be added ({model.spec.robot} has loops, and there effects may "
-            "read speeds and accelerations only; keep it in mind as a finding)"
+            "read positions, speeds and accelerations only; keep it in mind as a finding)"
         )
     if joint is not None:
         _check_joint(model.spec, effect, joint)
@@ -182,6 +185,102 @@ def add_effect(
     return _finished(after.with_history((*steps, last)))
 
 
+@threadpool_limits.wrap(limits=1, user_api="blas")
+def add_learned(
+    model: IdentifiedModel, compiled: CompiledModel, joint: str | None, logs: Logs,
+    asked: LawAsked = ANY_LAW, progress: Callable[[float], None] | None = None,
+) -> IdentifiedModel:  # fmt: skip
+    """The model with a learned law more, fitted together with its parameters.
+
+    Args:
+        model: as it is.
+        compiled: its robot.
+        joint: None: the one on which a law explains most.
+        logs: to fit, and to judge on.
+        asked: of what the law is a function, and its form.
+        progress: called with the share that is done.
+
+    Raises:
+        DataError: no such joint or quantity, or no law that lowers the error by more than chance.
+    """
+    motors = [own.name for own in model.spec.joints if own.actuated]
+    if joint is not None and joint not in motors:
+        raise DataError(f"--joint {joint}: no such joint; expected one of {listed(motors)}")
+    before = _Fitted(model, rows_of(compiled, logs, model.processing))
+    state, every = _state(before), [joint] if joint is not None else motors
+    laws = list[tuple[str, Learned]]()
+    for count, name in enumerate(every):
+        law = learn(state, state.names.index(name), asked)
+        laws += [(name, law)] if law is not None and law.significant else []
+        if progress is not None:
+            progress((count + 1) / len(every))
+    on = where(joint) if joint is not None else "any joint"
+    if not laws:
+        raise DataError(
+            f"learned: nothing is added: no law{asked.told} explains more than chance on {on}"
+        )
+    name, law = max(laws, key=lambda found: float(found[1].drop.sum()))
+    text, pick = with_law(model.robot_text, state, name, law)
+    named = dataclasses.replace(before, model=dataclasses.replace(model, robot_text=text))
+    after, score = _judged(named, pick)
+    if not score.better:
+        raise DataError(
+            f"learned: nothing is added: with a law of {law.coordinates.told} on {where(name)} "
+            f"{no_better(score.errors, score.changed)}"
+        )
+    *steps, last = after.model.history
+    moved = _moved(model, after.model)
+    far = [f"{own} by {moved[own]:.2g}" for own in moved if moved[own] > MOVED]
+    doubt = f"it moves {listed(far)} of their sigmas: the law says what these said" if far else ""
+    return _finished(
+        after.with_history((*steps, dataclasses.replace(last, moved=moved, doubt=doubt)))
+    )
+
+
+def add_laws(
+    model: IdentifiedModel, compiled: CompiledModel, logs: Logs
+) -> tuple[IdentifiedModel, tuple[str, ...]]:
+    """The model with a learned law on every joint where that lowers the error; why not on others.
+
+    One after the other, each judged beside those that were put in before it.
+    """
+    left = []
+    for joint in [own.name for own in model.spec.joints if own.actuated]:
+        try:
+            model = add_learned(model, compiled, joint, logs)
+        except DataError as error:
+            left.append(f"left out: learned, {where(joint)} ({str(error).split(': ', 2)[-1]})")
+        else:
+            compiled = load(model.spec, model.sources)
+    return model, tuple(left)
+
+
+def fall_shares(model: IdentifiedModel) -> tuple[float, float] | None:
+    """Of the fall of the error since the first fit, what physics and what learned laws took.
+
+    Falls of the relative error, in the order in which they were added; None without learned laws.
+    """
+    steps = model.history
+    if not any(step.learned for step in steps):
+        return None
+    falls = [(new.learned, old.error - new.error) for old, new in pairwise(steps)]
+    physics, learned = (sum(fall for own, fall in falls if own is kind) for kind in (False, True))
+    return physics, learned
+
+
+MOVED = 2.0
+"""Sigmas beyond which a law that is learned changes what a parameter means."""
+
+
+def _moved(before: IdentifiedModel, after: IdentifiedModel) -> dict[str, float]:
+    """Of every base parameter of both, how many of its sigmas it moved."""
+    now = {p.name: p.value for p in after.fit.parameters}
+    return {
+        p.name: abs(now[p.name] - p.value) / p.sigma
+        for p in before.fit.parameters if p.sigma and p.name in now
+    }  # fmt: skip
+
+
 def _why_perhaps(pick: Pick, score: Score) -> str:
     """Why an effect that was asked for is no more than a perhaps; empty if it may be named."""
     candidate, whole = pick.candidate, score.whole
@@ -275,20 +374,25 @@ def undone(model: IdentifiedModel, logs: Logs) -> IdentifiedModel:
     return _finished(fitted.with_history(model.history[:-1]))
 
 
-def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
-    """The effect at its best shapes, about the model with it."""
+def _state(before: _Fitted, effect: Effect | None = None) -> State:
+    """What the model leaves of the logs, in the band of a diagnosis."""
     model, rows = before.model, before.rows
     robot = robot_from_text(model.robot_text, "robot of the model")
     observation = analysed(
         rows.compiled, rows.logs.fitted, model.processing, prepared=rows.prepared[0]
     )
     kept = kept_parameters(model, rows.compiled, rows.logs.fitted, observation)
-    if effect.acts is Acts.LINK and kept is None:
+    if effect is not None and effect.acts is Acts.LINK and kept is None:
         kept = model.beta
     data = SearchData(
         rows.compiled, observation, kept, StatedEffects(robot.catalogue, robot.coupling)
     )
-    state = state_of(data, (), model.beta)
+    return state_of(data, (), model.beta)
+
+
+def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
+    """The effect at its best shapes, about the model with it."""
+    state = _state(before, effect)
     place = passive_joints(state.spec).get(joint or "")
     if place is not None and reads_speed_only(effect):
         if state.spec.closure is not None:  # felt by all motors, by the speed that loops give it

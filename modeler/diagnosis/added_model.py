@@ -239,7 +239,17 @@ def added(model: IdentifiedModel) -> list[str]:
             for k, v in last.shapes.items()
         ]
         lines.append("with " + ", ".join(texts))
+    if last.moved:
+        order = sorted(last.moved, key=lambda name: -last.moved[name])
+        said = [f"{name} {last.moved[name]:.2g}" for name in order[:_SHOWN]]
+        if len(order) > _SHOWN:
+            said.append(f"all others less than {last.moved[order[_SHOWN - 1]]:.2g}")
+        lines.append(f"moved by it, in their sigmas: {', '.join(said)}")
     return lines
+
+
+_SHOWN = 8
+"""Parameters of which is told by how much they moved."""
 
 
 def _parameters_of(model: IdentifiedModel, step: Addition) -> list[ParameterEstimate]:

@@ -275,6 +275,11 @@ class Effect(Brief):
         """Of its usual form."""
         return self.forms[0].columns
 
+    @property
+    def learned(self) -> bool:
+        """True of a law that was learned, which is no physics."""
+        return any(column.equation.law is not None for column in self.columns)
+
     def mends(self, value: float) -> bool:
         """True if that value of its first parameter mends the form of a law in the model."""
         return self.negative != "" and value < 0.0

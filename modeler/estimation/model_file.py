@@ -112,6 +112,7 @@ class Addition(Presented):
         changed: joints whose error surely changed.
         falls: True if the error surely falls, and no joint is spoilt (see `diagnosis.score`).
         doubt: why a diagnosis would call it no more than a perhaps; empty if it would name it.
+        moved: by how much each parameter that was there moved, in its sigmas; of learned laws only.
     """
 
     effect: str
@@ -128,6 +129,12 @@ class Addition(Presented):
     changed: tuple[str, ...] = ()
     falls: bool = True
     doubt: str = ""
+    moved: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def learned(self) -> bool:
+        """True of a law that was learned, which is no physics."""
+        return bool(self.moved)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data, without the robot file."""
@@ -137,7 +144,7 @@ class Addition(Presented):
                 self, "joint error training_error shapes shape_sigmas shape_intervals held_out"
             ),
             "joints": {j: {"before": a, "after": b} for j, (a, b) in self.joints.items()},
-            **entries(self, "changed falls doubt"),
+            **entries(self, "changed falls doubt learned moved"),
         }
 
 

@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from modeler.core.figure import Bars, Panel, Picture
-from modeler.core.style import BLUE, GREEN, ORANGE, SKY, Style
+from modeler.core.style import BLUE, GREEN, ORANGE, PINK, SKY, Style
 from modeler.core.table import DIGITS, WORDS, percent, printed
+from modeler.diagnosis import fall_shares
 from modeler.effects import Effect, effect_named
 from modeler.estimation import Addition, IdentifiedModel
 from modeler.report.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
@@ -15,7 +16,7 @@ from modeler.report.page import Origin, Page, Section
 from modeler.report.values import added_names, joints_table, shapes_table, values_table
 from modeler.robot import robot_from_text
 
-HELD, FITTED = Style(BLUE), Style(ORANGE)
+HELD, FITTED, LEARNED = Style(BLUE), Style(ORANGE), Style(PINK)
 SAME, CHANGED = Style(SKY), Style(GREEN)
 _ACROSS = 3  # panels side by side
 
@@ -57,6 +58,9 @@ def _facts(
         if most is not None:
             change = " \u2192 ".join(printed(start.get(most, math.nan), end[most]))
             facts.append(("Gains most", f"joint {most}: {change}"))
+    if (parts := fall_shares(model)) is not None:
+        physics, learned = (f"{100.0 * part:.2g}" for part in parts)
+        facts.append(("Of the fall", f"physics {physics}, learned laws {learned} points"))
     if left_out:
         facts.append(("Refused", f"{len(left_out)}, see below"))
     if model.fit.verdict is not None:
@@ -87,7 +91,7 @@ def _sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[Section]:
     ]))  # fmt: skip
     if len(history) > 1:
         again = [
-            f"modeler add MODEL {step.effect}"
+            f"modeler add MODEL {'learned' if step.learned else step.effect}"
             + (f" --joint {step.joint}" if step.joint else "")
             + " LOG... --out MODEL"
             for step in history[1:]
@@ -136,6 +140,11 @@ def _added(model: IdentifiedModel) -> list[Block]:
             "SI units; sigma is one standard deviation, and knows that shapes were fitted too."
         )
         blocks.append(values_table(own, model.spec.base, caption))
+    blocks += [
+        Paragraph(f"{step_name(step)[2:]} moved, in their sigmas: "
+                  + ", ".join(f"{name} {by:.2g}" for name, by in step.moved.items()) + ".")
+        for step in steps if step.learned
+    ]  # fmt: skip
     shapes = shapes_table([(s, _units(s, found[s.effect], model)) for s in steps])
     return blocks if shapes is None else [*blocks, shapes]
 
@@ -176,9 +185,16 @@ def waterfall_picture(history: Sequence[Addition]) -> Picture:
     first = (
         "held-out logs" if history[-1].held_out else "parts of the fitted logs, left out in turn"
     )
+    learned = np.array([step.learned for step in history])
+
+    def bars(label: str, errors: np.ndarray, style: Style) -> tuple[Bars, ...]:
+        physics = _bars(label, names, np.where(learned, np.nan, errors), style)
+        law = _bars("learned, not physics", names, np.where(learned, errors, np.nan), LEARNED)
+        return (physics, law) if learned.any() else (physics,)
+
     panels = (
-        Panel(f"On {first}", "", "error [%]", (_bars("judged", names, held, HELD),)),
-        Panel("On the fitted logs", "", "error [%]", (_bars("fitted", names, fitted, FITTED),)),
+        Panel(f"On {first}", "", "error [%]", bars("judged", held, HELD)),
+        Panel("On the fitted logs", "", "error [%]", bars("fitted", fitted, FITTED)),
     )
     several = len(history[-1].joints) > 1
     return Picture(
@@ -189,6 +205,7 @@ def waterfall_picture(history: Sequence[Addition]) -> Picture:
             "logs that were fitted. Each joint's error is in parts of its own rms torque or force"
             + (", and the bar is their root mean square: N m and N are not added. " if several
                else ". ")
+            + (f"{LEARNED.named.capitalize()}: a learned law, not physics. " * bool(learned.any()))
             + "`modeler add MODEL undo LOG... --out MODEL` takes the last effect back."
         ),
         panels=(panels,),

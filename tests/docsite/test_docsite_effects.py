@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from docsite import days, effects
 from docsite.effects import SCENES, Portrait, Scene, effects_index, portrait
 from docsite.gallery import exhibit, gallery_front
 from docsite.hooks import on_config
@@ -102,6 +103,37 @@ def test_a_picture_is_what_its_commands_draw(tmp_path: Path, monkeypatch, capsys
     printed = " ".join(capsys.readouterr().out.split())
     for line in " ".join(code_blocks(page, "text")[1].split()).split(": error")[:1]:
         assert line in printed
+
+
+def test_pictures_of_effects_take_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every effect has its page on any day, and its picture on one of so many."""
+    drawn: list[str] = []
+
+    class Pool:
+        def __enter__(self) -> "Pool":
+            return self
+
+        def __exit__(self, *_: object) -> None:
+            pass
+
+        def map(self, _: object, names: list[str]) -> list[Portrait]:
+            drawn.extend(names)
+            return [Portrait(named(name), f"drawn {name}", b"", b"") for name in names]
+
+    monkeypatch.setattr(effects, "ProcessPoolExecutor", Pool)
+    monkeypatch.setenv("EVERY", "3")
+    for day in range(3):
+        monkeypatch.setattr(days.time, "time", lambda day=day: 86400.0 * day + 1)
+        before = len(drawn)
+        found = effects.portraits()
+        assert [item.effect for item in found] == list(CATALOGUE)
+        pages = {item.effect.id: item.page for item in found}
+        for name, page in pages.items():
+            own = name in drawn[before:]
+            assert page == f"drawn {name}" if own else "No picture was made today" in page
+    assert sorted(drawn) == sorted(effect.id for effect in CATALOGUE)
+    monkeypatch.delenv("EVERY")
+    assert all(days.has_its_turn(place) for place in range(3))
 
 
 def test_the_indices_lead_to_all() -> None:

@@ -3,12 +3,14 @@
 #include <math.h>
 
 #include "strangers.h"
+#include "unnamed.h"
 
 #define STEPS 4 /* of a tick */
 static const double TICK = 1e-3, STEP = 1e-3 / STEPS;
 
 typedef struct {
     double link, link_speed, motor, motor_speed, bristle, cable, temperature, torque;
+    Memory memory;
 } Joint;
 typedef struct {
     Joint joint[MAX_JOINTS];
@@ -147,10 +149,11 @@ typedef struct {
 static void follow(const Plant *p, double time, const Joint *x, Input in, const Dynamics *now,
                    Joint *change, double *left, double *pushed)
 {
-    double torque[MAX_JOINTS], angle[MAX_JOINTS];
+    double torque[MAX_JOINTS], angle[MAX_JOINTS], speed[MAX_JOINTS];
     for (int j = 0; j < p->joints; j++) {
         torque[j] = x[j].torque;
         angle[j] = x[j].link;
+        speed[j] = x[j].link_speed;
     }
     for (int j = 0; j < p->joints; j++) {
         int soft = p->flexible[j] > 0.5;
@@ -158,6 +161,8 @@ static void follow(const Plant *p, double time, const Joint *x, Input in, const 
         double load = p->load_static[j] > 0.5 ? now->gravity[j] : in.load[j];
         double rubbed = friction(p, j, q, v, &x[j], load, &change[j].bristle);
         rubbed += strange_friction(p, j, time + p->clock, angle, v, load, now);
+        rubbed += unnamed_torque(p, j, angle, speed, load, &x[j].memory);
+        unnamed_memory(p, j, angle[j], speed[j], &x[j].memory, &change[j].memory);
         left[j] = left_of_drive(p, j, time, delivered(p, j, torque), q, rubbed, in.noise[j]);
         change[j].cable = cable_change(p, j, x[j].link_speed, x[j].cable);
         double stretched = x[j].link - p->spring_rest[j];
@@ -344,6 +349,7 @@ static void begin(const Plant *p, const double *wanted, const double *temperatur
         Joint *x = &state->joint[j];
         *x = (Joint){.link = q[j], .motor = q[j], .temperature = temperature[j]};
         x->torque = c->command[j];
+        unnamed_start(p, j, q[j], &x->memory);
         if (p->flexible[j] > 0.5) x->link -= now.bias[j] / p->gear_stiffness[j];
         if (p->flexible[j] > 1.5) x->link -= 0.5 * p->gap[j] * (now.bias[j] > 0 ? 1 : -1);
         c->integral[j] = c->next[j] = c->command[j];
@@ -379,6 +385,7 @@ int simulate(const Plant *p, int ticks, const double *wanted, const double *want
             Input input = {controller.command, noise, load};
             runge_kutta(p, i * TICK + s * STEP, &state, input, next_load);
             for (int j = 0; j < n; j++) {
+                unnamed_turn(p, j, x[j].link, &state.joint[j].memory);
                 load[j] = next_load[j];
                 noise[j] = keeps * noise[j] + fresh * p->noise_torque[j] * normal(&random);
             }

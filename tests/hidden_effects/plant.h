@@ -54,6 +54,9 @@ typedef struct {
     int strap_link; /* from a point of the base frame to one of this link */
     double strap_stiffness, strap_length, strap_base[3], strap_point[3];
     double slosh_mass, slosh_stiffness, slosh_damping, slosh_point[3]; /* on the last link */
+    /* a law without a name; see unnamed.c */
+    int law, law_joint, law_with;
+    double law_size, law_shape[4], law_turns[8];
     /* controller: speed reference = speed + position_gain error; PI on the speed */
     double position_gain[8], speed_gain[8], integral_gain[8], torque_limit[8];
     double encoder_step[8], speed_filter; /* rad; rad/s */

@@ -42,7 +42,7 @@ def library() -> tuple[cffi.FFI, Any]:
     """The compiled C, once for a process; its file is gone when it is loaded."""
     ffi = cffi.FFI()
     ffi.cdef((HERE / "plant.h").read_text(encoding="utf-8"))
-    sources = [str(HERE / name) for name in ("plant.c", "rigid_body.c", "strangers.c")]
+    sources = [str(HERE / name) for name in ("plant.c", "rigid_body.c", "strangers.c", "unnamed.c")]
     with tempfile.TemporaryDirectory() as folder:
         built = str(Path(folder) / "plant.so")
         subprocess.run([*compiler(), *FLAGS, *sources, "-o", built, "-lm"], check=True)
@@ -83,7 +83,7 @@ class Plant:
             if field.type.kind == "array":
                 shape = tuple(int(k) for k in re.findall(r"\[(\d+)\]", field.type.cname))
                 values = np.frombuffer(ffi.buffer(getattr(struct, name)), float).reshape(shape)
-                arrays[name] = values[:joints] if shape[0] > 3 else values
+                arrays[name] = values[:joints] if shape[0] == 8 else values
         self.__dict__.update(_struct=struct, _arrays=arrays)
 
     def __getattr__(self, name: str) -> Any:

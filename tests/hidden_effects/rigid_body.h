@@ -1,4 +1,5 @@
 /* The links of an arm: inertia matrix, velocity and gravity torques, world frame. */
+#pragma once
 #include <stddef.h>
 #include <stdint.h>
 

@@ -61,6 +61,7 @@ def test_the_notebooks_are_kept_without_outputs(name: str) -> None:
             assert cell["outputs"] == [] and cell["execution_count"] is None
 
 
+@pytest.mark.in_turn
 @pytest.mark.parametrize("name", NOTEBOOKS)
 def test_no_cell_fails_and_each_shows_what_it_says(name: str) -> None:
     shown = cells(name)
@@ -121,6 +122,7 @@ TRUE = {
 def test_the_site_shows_the_last_run_of_the_same_program(tmp_path: Path, monkeypatch: Any) -> None:
     import docsite.notebook as notebook
 
+    monkeypatch.delenv("EVERY", raising=False)
     monkeypatch.setattr(notebook, "KEPT", tmp_path)
     runs: list[Path] = []
     monkeypatch.setattr(notebook, "_run", lambda path: runs.append(path) or f"run {len(runs)}")
@@ -128,4 +130,7 @@ def test_the_site_shows_the_last_run_of_the_same_program(tmp_path: Path, monkeyp
     assert notebook.last_run(path) == notebook.last_run(path) == "run 1"
     assert executed(path) == notebook.last_run(path) == "run 2"
     monkeypatch.setattr(notebook, "program_text", lambda: b"another program")
+    monkeypatch.setenv("EVERY", "3")
+    assert notebook.last_run(path) == path.read_text(encoding="utf-8")
+    monkeypatch.setenv("EVERY", "1")
     assert notebook.last_run(path) == "run 3"

@@ -1,0 +1,456 @@
+"""A law that is learned: a smooth function of what was measured, of what a model leaves.
+
+With e the residual of joint j, W the columns of the model and B splines of one or two coordinates,
+
+    minimise |(y - W beta - B c) / sigma|^2 + s |D c|^2 + r |c|^2
+
+over all joints' rows, beta and c together; D are second differences along each axis (Eilers and
+Marx 1996). The smoothness s, and the coordinates where none are asked for, are those that lose
+least on folds of time that were not fitted. A little r gives to physics what both could explain.
+"""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property, reduce
+from typing import Any
+
+import numpy as np
+from scipy.linalg import LinAlgError, cho_factor, cho_solve
+from scipy.optimize import nnls
+from scipy.sparse import csr_array, eye_array, kron, vstack
+
+from modeler.core.brief import Brief
+from modeler.core.errors import DataError, RobotError
+from modeler.core.law import Law
+from modeler.core.toml_cells import Place
+from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.effect_columns import own_columns
+from modeler.diagnosis.judge import FELT, GATE, NAMED_T_RATIO, NEARLY
+from modeler.diagnosis.orders import order_spectrum
+from modeler.diagnosis.result import Pick
+from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
+from modeler.diagnosis.state import State
+from modeler.diagnosis.timing import smoothed
+from modeler.effects import effect_named, read_definition
+from modeler.numerics.splines import beyond, flat_ends, second_differences, spline_products
+from modeler.robot import robot_from_text, with_own_effect
+
+CELLS = (40, 14)
+"""Of one axis alone, and of each of two."""
+
+_WAVE = 8  # cells for each wave that stands out in the residual
+_MOST_CELLS, _FEW = 240, 5
+_SLIPS = (0.02, 0.2)
+"""Travels after a reversal, of the range of motion, over which z turns."""
+_SMOOTH = tuple(10.0**power for power in range(-5, 4))
+_FIRST = (1e-2, 1.0)  # smoothness in which coordinates are compared
+_RIDGE = 1e-4  # of the mean square of a spline
+_ENDS = 1e-3  # share of the samples beyond either end
+_DIGITS = 6
+_NEAR = 4  # coordinates that are looked at closely
+
+
+@dataclass(frozen=True)
+class Coordinates(Brief):
+    """Of what a law is a function.
+
+    Attributes:
+        arguments: one or two equations in the variables of effects.
+        factor: equation that it is multiplied with; "" none.
+        further: what else its definition needs: shapes of z, lag.
+        cells: along each axis; empty: as is usual.
+    """
+
+    arguments: tuple[str, ...]
+    factor: str = ""
+    further: Mapping[str, Any] = field(default_factory=dict)
+    cells: tuple[int, ...] = ()
+
+    @property
+    def equation(self) -> str:
+        """As it stands in the column of the effect."""
+        law = f"law({', '.join(self.arguments)})"
+        return f"{self.factor}*{law}" if self.factor else law
+
+    @property
+    def told(self) -> str:
+        """For people: "abs(v) and q, odd in v"."""
+        return " and ".join(self.arguments) + (", times " + self.factor if self.factor else "")
+
+    @property
+    def counts(self) -> tuple[int, ...]:
+        """Cells along each axis."""
+        return self.cells or (CELLS[len(self.arguments) - 1],) * len(self.arguments)
+
+    def values(self, state: State, j: int) -> list[np.ndarray]:
+        """(samples, arguments + 1) by stretch: the arguments, then the factor.
+
+        Of the smooth motion: what the noise of positions makes of the columns of the model is in
+        the residual, and the measured motion would seem to predict it.
+
+        Raises:
+            RobotError: an equation that cannot be read.
+        """
+        columns = {f"x{chr(97 + k)}": text for k, text in enumerate(self.arguments)}
+        table = {"columns": columns | {"by": self.factor or "1"}, **self.further}
+        effect = read_definition("law", Place("law").holding(table), {}, joints=state.names)
+        shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
+        candidate = Candidate(effect, effect.forms[0], state.names[j], j, shapes)
+        return [own_columns([candidate], signals) for signals in smoothed(state).signals]
+
+
+@dataclass(frozen=True, eq=False)
+class Learned(Brief):
+    """A law of one joint.
+
+    Attributes:
+        coordinates: of what.
+        law: the table; the rms of its column over the rows is 1.
+        size: N m or N, times which it is the torque.
+        torque: (rows_j,) N m or N, with the columns of the model fitted beside it.
+        drop: (blocks,) fall of the squared residuals, weighted, on folds that were not fitted.
+        sure: fall of the error over its standard error, paired over blocks (see `score.scored`).
+        gain: fall of the squared residual, as a share of that of its joint.
+        felt: rms of what it explains over the rms torque of its joint.
+    """
+
+    coordinates: Coordinates
+    law: Law
+    size: float
+    torque: np.ndarray
+    drop: np.ndarray
+    sure: float
+    gain: float
+    felt: float
+
+    @property
+    def significant(self) -> bool:
+        """True if it is worth a place in a model, as an effect with a name would be."""
+        return self.gain > GATE and self.sure > NAMED_T_RATIO and self.felt > FELT
+
+
+@dataclass(frozen=True)
+class LawAsked(Brief):
+    """What a user asks of a law.
+
+    Attributes:
+        of: one or two variables of equations, such as ("q", "v"); empty: those that predict best.
+        odd: True for a function of |v| times the sign of v.
+        rising: 1 or -1 for a law that never falls, or never rises, along its first variable.
+    """
+
+    of: tuple[str, ...] = ()
+    odd: bool = False
+    rising: int = 0
+
+    @property
+    def told(self) -> str:
+        """Behind "law": " of q and v"; empty where nothing is asked for."""
+        return f" of {' and '.join(self.of)}" if self.of else ""
+
+    def coordinates(self, state: State, j: int) -> list[Coordinates]:
+        """To choose from.
+
+        Raises:
+            DataError: more than two variables.
+        """
+        if not self.of:
+            every = every_coordinates(state, j)
+            return [c for c in every if c.factor or not self.odd]
+        if len(self.of) > 2:
+            raise DataError(f"--of {','.join(self.of)}: expected one or two quantities, as in q,v")
+        if not self.odd:
+            return [Coordinates(self.of)]
+        return [Coordinates(tuple("abs(v)" if x == "v" else x for x in self.of), "sign(v)")]
+
+
+ANY_LAW = LawAsked()
+"""A law of whatever predicts best."""
+
+LEARNED = "learned"
+"""What a law is called where effects have their ids."""
+
+
+def with_law(text: str, state: State, joint: str, learned: Learned) -> tuple[str, Pick]:
+    """The robot file with the definition of a law, and the law as an effect to be put in.
+
+    Args:
+        text: of the robot file.
+        state: in which it was learned.
+        joint: name.
+        learned: it.
+    """
+    effects = robot_from_text(text, "robot of the model").own_effects
+    name = _free(f"{LEARNED}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", [e.id for e in effects])
+    prefix = _free("Lw", [column.prefix for e in effects for column in e.columns])
+    law, j = learned.law, state.names.index(joint)
+    definition = {
+        "title": f"learned, not physics: a law of {learned.coordinates.told}",
+        "columns": {prefix: learned.coordinates.equation},
+        "unit": state.spec.joints[j].effort_unit.replace(" ", "*"),
+        **learned.coordinates.further,
+        "law": {"low": list(law.low), "high": list(law.high), "cells": list(law.cells),
+                "values": list(law.values)},
+    }  # fmt: skip
+    text = with_own_effect(text, name, definition)
+    effect = effect_named(name, robot_from_text(text, "robot with a law").catalogue)
+    assert effect is not None
+    shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
+    candidate = Candidate(effect, effect.forms[0], joint, j, shapes)
+    return text, Pick(candidate, np.array([learned.size]), state, 1.0)
+
+
+def _free(stem: str, taken: Sequence[str]) -> str:
+    """The stem, with a letter behind it if it is taken."""
+    names = (stem, *(f"{stem}{letter}" for letter in "bcdefghijklmnopqrstuvwxyz"))
+    return next(name for name in names if name not in taken)
+
+
+def learn(state: State, j: int, asked: LawAsked = ANY_LAW) -> Learned | None:
+    """The law of joint j that loses least on motion it was not fitted to; None without any.
+
+    Args:
+        state: what is in the model.
+        j: index of the joint.
+        asked: of what, and its form.
+
+    Raises:
+        DataError: a quantity that cannot be read.
+    """
+    try:
+        every = [_splines(state, j, own) for own in asked.coordinates(state, j)]
+    except RobotError as error:
+        raise DataError(f"--of {','.join(asked.of)}: {error}") from None
+    found = [(_Fit(state, j, own).best(_FIRST), own) for own in every if own is not None]
+    found.sort(key=lambda item: -float(item[0].drop.sum()))
+    found = [(_Fit(state, j, own).best(_SMOOTH, asked.rising), own) for _, own in found[:_NEAR]]
+    if not found:
+        return None
+    fit, splines = _simplest(found)
+    return _learned(state, j, splines, fit)
+
+
+def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
+    """Those that make sense on a joint: of every quantity alone, and beside v or q.
+
+    Odd in v, and not.
+    """
+    peaks = [] if (spectrum := order_spectrum(state, j)) is None else spectrum.peaks
+    turns = state.scales[j].range / (2.0 * np.pi)
+    fine = min(_MOST_CELLS, round(_WAVE * max(peaks, default=0.0) * turns))
+    waves = [0] + ([fine] if fine > CELLS[0] else [])
+    quantities = _quantities(state, j)
+    for x, further in quantities:
+        for cells in waves if x == "q" else [0]:
+            yield Coordinates((x,), "", further, (cells,) if cells else ())
+            odd = "abs(v)" if x == "v" else x
+            yield Coordinates((odd,), "sign(v)", further, (cells,) if cells else ())
+        if x != "v":
+            yield Coordinates(("v", x), "", further)
+            yield Coordinates(("abs(v)", x), "sign(v)", further)
+        for cells in waves if x not in ("q", "v") else []:
+            yield Coordinates(("q", x), "", further, (cells, _FEW) if cells else ())
+
+
+def _quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
+    """What a law may depend on, with what else its definition needs."""
+    found, slips = ["q", "v", "a"], list[float]()
+    if state.spec.closure is None:  # in loops laws read the motion of their own joint
+        found += ["load", "since"]
+        slips = [float(f"{share * state.scales[j].range:.3g}") for share in _SLIPS]
+        others = [name for name in state.names if name != state.names[j]]
+        found += [f"{letter}{name}" for name in others for letter in "qv"]
+    if state.names[j] in state.reference.temperature:
+        found.append("T")
+    return [*((name, {}) for name in found), *(("z", {"shapes": {"d": [d]}}) for d in slips)]
+
+
+def _simplest(found: Sequence[tuple["_Solved", "_Splines"]]) -> tuple["_Solved", "_Splines"]:
+    """Of those that the data do not tell from the best, the one with the fewest axes."""
+    best = max(found, key=lambda item: float(item[0].drop.sum()))
+    total = float(best[0].drop.sum())
+    near = [
+        item for item in found
+        if item is best or (item[0].drop.sum() > NEARLY * total
+                            and standard_errors(item[0].after - best[0].after) <= STANDARD_ERRORS)
+    ]  # fmt: skip
+    return min(near, key=lambda item: (len(item[1].counts), -float(item[0].drop.sum())))
+
+
+@dataclass(frozen=True, eq=False)
+class _Splines(Brief):
+    """Splines of some coordinates on the rows of a joint; p coefficients, f of them free.
+
+    Attributes:
+        coordinates: they.
+        ends: (low, high) of each axis.
+        free: (p, f) coefficients of what is free: three are one at each end of each axis.
+        rows: (rows_j, f) the splines through the filter of the rows.
+        rough: (f, f) square of the second differences.
+    """
+
+    coordinates: Coordinates
+    ends: tuple[tuple[float, float], ...]
+    free: csr_array
+    rows: np.ndarray
+    rough: np.ndarray
+
+    @property
+    def counts(self) -> tuple[int, ...]:
+        """Cells along each axis."""
+        return self.coordinates.counts
+
+
+def _splines(state: State, j: int, coordinates: Coordinates) -> _Splines | None:
+    """None where a coordinate has no value, or always the same."""
+    values, rows = coordinates.values(state, j), state.rows
+    used = [v[s.usable[:, j]] for v, s in zip(values, rows.signals, strict=True)]
+    every = np.concatenate(used)[:, :-1]
+    if not len(every) or not np.isfinite(np.concatenate(values)).all():
+        return None
+    ends = []
+    for x, count in zip(every.T, coordinates.counts, strict=True):
+        low, high = np.quantile(x, [_ENDS, 1.0 - _ENDS])
+        if not high > low:
+            return None
+        ends.append(beyond(float(low), float(high), count))
+    flat = [flat_ends(count) for count in coordinates.counts]
+    free = reduce(kron, flat).tocsr()
+    filtered = []
+    for i, blocks in enumerate(rows.blocks):
+        splines = spline_products(values[i], ends, coordinates.counts) @ free
+        filtered += [block.filters[j] @ splines[block.window] for block in blocks]
+    rough = [(d.T @ d) for d in (second_differences(t) for t in flat)]
+    eyes = [eye_array(t.shape[1]) for t in flat]
+    total = rough[0] if len(flat) == 1 else kron(rough[0], eyes[1]) + kron(eyes[0], rough[1])
+    return _Splines(
+        coordinates, tuple(ends), free, vstack(filtered).toarray(), total.toarray()
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class _Solved(Brief):
+    """Coefficients (f,), and squared residuals (blocks,) where they were not fitted."""
+
+    c: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+
+    @property
+    def drop(self) -> np.ndarray:
+        """(blocks,) fall of the squared residuals."""
+        return self.before - self.after
+
+    @property
+    def sure(self) -> float:
+        """Fall of the error over its standard error."""
+        return standard_errors(np.sqrt(self.before) - np.sqrt(self.after))
+
+
+class _Fit:
+    """Normal equations of the splines beside the model, by fold."""
+
+    def __init__(self, state: State, j: int, splines: _Splines) -> None:
+        self.state, self.j, self.splines = state, j, splines
+        base = state.base
+        self.place, self.inverse = base.crossed.place, base.crossed.inverse
+        self.fold = self.place[base.block[j]]
+        B, X, y = splines.rows / state.sigma[j], base.columns[j], base.y[j]
+        folds = range(len(self.inverse))
+        parts = [np.flatnonzero(self.fold == f) for f in folds]
+        self.BB = np.stack([B[r].T @ B[r] for r in parts])
+        self.XB = np.stack([X[r].T @ B[r] for r in parts])
+        self.By = np.stack([B[r].T @ y[r] for r in parts])
+        self.B, self.parts = B, parts
+        mean = float(np.trace(self.BB.sum(axis=0))) / B.shape[1]
+        self.rough = splines.rough * (mean * B.shape[1] / max(float(np.trace(splines.rough)), 1e-9))
+        self.ridge = _RIDGE * mean * np.eye(B.shape[1])
+
+    @cached_property
+    def whole(self) -> tuple[np.ndarray, np.ndarray]:
+        """(r, r) and (r,) inverse of the model's Gram matrix on all rows, and its parameters."""
+        base = self.state.base
+        G = base.G.sum(axis=0) + base.prior[:, :-1]
+        inverse = np.linalg.inv(G + 1e-10 * np.eye(len(G)))
+        return inverse, inverse @ (base.u.sum(axis=0) + base.prior[:, -1])
+
+    def solved(
+        self, f: int | None, smooth: float, rising: int = 0
+    ) -> tuple[np.ndarray, np.ndarray] | None:
+        """Coefficients and parameters (r,) by all folds but f; None: by all."""
+        own = 0.0 if f is None else 1.0
+        BB, XB, By = (
+            x.sum(axis=0) - own * (x[f] if f is not None else 0.0)
+            for x in (self.BB, self.XB, self.By)
+        )
+        crossed = self.state.base.crossed
+        inverse, beta = self.whole if f is None else (crossed.inverse[f], crossed.beta[f])
+        moved = inverse @ XB
+        S = BB - XB.T @ moved + smooth * self.rough + self.ridge
+        side = By - XB.T @ beta
+        try:
+            factor = cho_factor(S, lower=True)
+        except LinAlgError:
+            return None
+        c = cho_solve(factor, side) if not rising else self._monotone(factor[0], side, rising)
+        return c, beta - moved @ c
+
+    def _monotone(self, factor: np.ndarray, side: np.ndarray, rising: int) -> np.ndarray:
+        """The same with coefficients that never fall, or rise, along the first axis."""
+        first, *others = (count - 1 for count in self.splines.counts)
+        steps = np.tril(np.ones((first, first)))
+        steps[:, 1:] *= rising
+        turn = np.kron(steps, np.eye(others[0] if others else 1))
+        rest = others[0] if others else 1
+        turn = np.column_stack([turn, -turn[:, :rest]])  # where it begins may have either sign
+        root = np.tril(factor)
+        found, _ = nnls(root.T @ turn, np.linalg.solve(root, side), maxiter=100 * turn.shape[1])
+        return np.asarray(turn @ found)
+
+    def best(self, grid: Sequence[float], rising: int = 0) -> _Solved:
+        """At the smoothness of the grid that loses least on rows that were not fitted."""
+        every = [(*self._left(smooth, rising), smooth) for smooth in grid]
+        before, after, smooth = min(every, key=lambda item: float(item[1].sum()))
+        found = self.solved(None, smooth, rising)
+        c = np.zeros(self.B.shape[1]) if found is None else found[0]
+        return _Solved(c, before, after)
+
+    def _left(self, smooth: float, rising: int) -> tuple[np.ndarray, np.ndarray]:
+        """(blocks,) squared residuals of all joints, without and with, of folds not fitted."""
+        base = self.state.base
+        after = np.zeros(base.blocks)
+        before = np.zeros(base.blocks)
+        fits = [self.solved(f, smooth, rising) for f in range(len(self.parts))]
+        for k, (X, y, block, left) in enumerate(
+            zip(base.columns, base.y, base.block, base.left_out, strict=True)
+        ):
+            e = left.copy()
+            for f, found in enumerate(fits):
+                if found is None:
+                    continue
+                rows = np.flatnonzero(self.place[block] == f)
+                e[rows] = y[rows] - X[rows] @ found[1]
+                if k == self.j:
+                    e[rows] -= self.B[rows] @ found[0]
+            before += np.bincount(block, left**2, base.blocks)
+            after += np.bincount(block, e**2, base.blocks)
+        return before, after
+
+
+def _learned(state: State, j: int, splines: _Splines, fit: _Solved) -> Learned | None:
+    torque = splines.rows @ fit.c
+    size = float(np.sqrt(np.mean(torque**2)))
+    if not size > 0.0:
+        return None
+    values = splines.free @ fit.c / size
+    low, high = zip(*splines.ends, strict=True)
+    law = Law(low, high, splines.counts, tuple(float(f"{v:.{_DIGITS}g}") for v in values))
+    before = float(np.sum(state.base.left_out[j] ** 2))
+    asked = float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2))
+    fall = float(fit.drop.sum())
+    return Learned(
+        splines.coordinates, law, size, torque, fit.drop, fit.sure,
+        gain=min(1.0, fall / max(before, 1e-300)),
+        felt=float(np.sqrt(max(0.0, fall) / (asked + 1e-300))),
+    )  # fmt: skip

@@ -1,0 +1,190 @@
+"""Laws that were learned, in all emitted code: the tables of Python, and of scipy."""
+
+import subprocess
+import sys
+from functools import cache
+
+import numpy as np
+import pytest
+
+import modeler.runtime.fused as tiling
+from modeler.codegen.control import Control
+from modeler.codegen.emit import emit
+from modeler.codegen.package import write_emitted
+from modeler.core.law import Law
+from modeler.derivation.base_parameters import base_parameters
+from modeler.derivation.derive import derive_model
+from modeler.robot.read import robot_from_text
+from modeler.runtime.bind import tile_library
+from modeler.runtime.gpu import load_gpu
+from modeler.runtime.model import CompiledModel
+from tests.codegen.fitted_library import fitted_of
+from tests.codegen.structured_text import Program
+from tests.compiled.cupy_on_cpu import cupy
+from tests.compiled.test_tiles import CHECK, FLAGS
+from tests.export.test_casadi import far
+from tests.learned import drawn, scipy_value, text_with
+from tests.modules import STRICT, Module, compiler, loaded
+
+RNG = np.random.default_rng(20260)
+LAWS = {
+    "1": ("sign(v)*law(q, abs(v))", drawn(RNG, 2)),
+    "2": ("law(-v)", drawn(RNG, 1)),
+    "3": ("law(1/3, q)*v + law(a, 0)", drawn(RNG, 2, (4, 3))),
+}  # of two quantities, of one, and of constants
+NUMBERS = {"double": np.float64, "single": np.float32}
+ARGUMENTS = {
+    "1": lambda q, v, a: (q, np.abs(v)), "2": lambda q, v, a: (-v,),
+}  # fmt: skip
+
+
+@cache
+def made() -> Module:
+    model = derive_model(robot_from_text(text_with("demo-arm", LAWS), "demo-arm"))
+    base = base_parameters(model)
+    return Module(model, base, emit(model, base))
+
+
+@cache
+def compiled(precision: str) -> CompiledModel:
+    model, base, _ = made()
+    return loaded(emit(model, base, precision=precision))
+
+
+def motion(samples: int = 40) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Within the tables, at their knots and far beyond their ends."""
+    rng = np.random.default_rng()
+    found = rng.uniform(-2.5, 2.5, (3, samples, 3))
+    for k, law in enumerate(law for _, law in LAWS.values()):
+        knots = np.linspace(law.low[0], law.high[0], law.cells[0] + 1)
+        found[0, : len(knots), k] = knots
+        found[1, : len(knots), k] = -knots
+    found[:, -9:] *= 1e4
+    return tuple(found)
+
+
+def expected(joint: str, motion, law_of=scipy_value) -> np.ndarray:
+    q, v, a = (x[:, int(joint) - 1] for x in motion)
+    law = LAWS[joint][1]
+    if joint == "3":
+        same = np.full_like(q, 1 / 3)
+        return law_of(law, same, q) * v + law_of(law, a, 0 * q)
+    value = law_of(law, *ARGUMENTS[joint](q, v, a))
+    return np.sign(v) * value if joint == "1" else value
+
+
+def column(model: CompiledModel, joint: str, phi: np.ndarray) -> np.ndarray:
+    name = f"Law{'abc'[int(joint) - 1]}{joint}"
+    place = [p.column_of for p in model.spec.base].index(name)
+    return phi[:, int(joint) - 1, place]
+
+
+def close(got: np.ndarray, wanted: np.ndarray, joint: str, motion, precision: float) -> None:
+    """To a share of the law's size; in single precision also of what x is rounded by."""
+    law = LAWS[joint][1]
+    size = np.abs(law.values).max()
+    if joint == "3":
+        size = size * (1 + np.abs(motion[1][:, 2]))
+    slope = 4 * max(law.scales) * (2 + max(map(abs, law.low + law.high)))
+    assert (np.abs(got - wanted) <= precision * (10 + slope) * size).all()
+
+
+@pytest.mark.parametrize("joint", LAWS)
+@pytest.mark.parametrize(("precision", "bound"), [("double", 1e-15), ("single", 2e-7)])
+def test_the_c_has_the_values_of_python_and_of_scipy(joint, precision, bound):
+    model, states = compiled(precision), motion(400)
+    got = column(model, joint, model.base_regressor(*states))
+    close(got, expected(joint, states), joint, states, bound)
+    close(got, expected(joint, states, Law.__call__), joint, states, bound)
+
+
+@pytest.mark.parametrize("precision", ["double", "single"])
+def test_what_is_not_finite_gives_no_number_in_any_lane(precision):
+    """As in Python; in the lanes of tiles too, each for itself. What is huge is held."""
+    model, states = compiled(precision), motion()
+    v = states[1][:, 1]
+    v[:4] = np.nan, np.inf, -np.inf, 1e38
+    out = np.empty((40 * 3, len(model.spec.base)))
+    tiles = tile_library(model.spec, model._tile_files, model._library)
+    tiles.fill(list(states), out, True)
+    got = column(model, "2", out.reshape(40, 3, -1))
+    wanted = LAWS["2"][1](-v)
+    assert np.isnan(got[:3]).all() and np.isfinite(got[3:]).all()
+    np.testing.assert_allclose(got, wanted, atol=1e-5)
+
+
+@pytest.mark.parametrize("precision", ["double", "single"])
+def test_tiles_have_the_values_of_one_after_another(precision, monkeypatch):
+    model, states = compiled(precision), motion(37)
+    one = model.nonzeros(*states)
+    monkeypatch.setattr(tiling, "TILED_FROM", 1)
+    many, rest = model.nonzeros(*states), np.abs(one).max(axis=1, keepdims=True)
+    assert (np.abs(one - many) <= 200 * np.finfo(NUMBERS[precision]).eps * rest).all()
+
+
+@pytest.mark.parametrize("flags", [each for each in FLAGS if isinstance(each, list)])
+@pytest.mark.parametrize("cc", ["gcc", "clang"])
+def test_every_instruction_set_and_compiler_gives_the_same(cc, flags, tmp_path):
+    model, base, _ = made()
+    emitted = emit(model, base, fitted_of(made().emitted.spec), control=Control())
+    write_emitted(emitted, tmp_path)
+    (tmp_path / "check.c").write_text(CHECK.format(prefix="demo_arm", prefix_upper="DEMO_ARM"))
+    units = ["check.c", "demo_arm_base_regressor.c", "modeler_tile.c"]
+    command = [compiler(cc), *STRICT, *flags]
+    if flags == ["-O0"]:
+        units += ["demo_arm.c", "demo_arm_control.c", "demo_arm_fitted.c", "demo_arm_regressor.c"]
+    built = subprocess.run(
+        [*command, "-o", "check", *units, "-lm"], cwd=tmp_path, capture_output=True, text=True,
+        check=False,
+    )  # fmt: skip
+    assert built.returncode == 0, built.stderr
+    assert subprocess.run([tmp_path / "check"], check=False).returncode == 0
+
+
+def test_a_law_is_straight_line_code_without_calls(tmp_path):
+    """As it stands in the header: neither a jump nor a call is left of it."""
+    write_emitted(made().emitted, tmp_path)
+    (tmp_path / "one.c").write_text(
+        '#include "modeler_law.h"\n'
+        "double one(const modeler_law *law, double x, double y);\n"
+        "double one(const modeler_law *law, double x, double y)\n"
+        "{\n    return modeler_law_2(law, x, y);\n}\n"
+    )
+    command = [compiler("gcc"), *STRICT, "-O2", "-DMODELER_NO_CLONES", "-S", "one.c"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+    words = [line.split()[0] for line in (tmp_path / "one.s").read_text().splitlines() if line]
+    assert "ret" in words and not [w for w in words if w.startswith(("j", "call"))]
+
+
+def test_casadi_and_every_function_for_controllers_are_the_same(tmp_path):
+    path = tmp_path / "robot.toml"
+    path.write_text(text_with("demo-arm", LAWS))
+    errors = far(str(path), tmp_path, np.random.default_rng(5))
+    assert {"inverse_dynamics", "derivatives", "friction"} <= errors.keys()
+    assert max(errors.values()) < 1e-11, errors
+
+
+def test_structured_text_gives_what_the_c_gives():
+    model, base, _ = made()
+    emitted = emit(model, base, control=Control(structured_text=True))
+    program, states = Program(emitted.files["demo_arm.st"]), motion()
+    q, v, a = states
+    v[7, 1] = np.nan
+    beta = np.random.default_rng(3).normal(size=base.rank)
+    wanted = compiled("double").base_regressor(*(np.nan_to_num(x) for x in states)) @ beta
+    wanted[7, 1] = np.nan
+    for i in range(len(q)):
+        tau = [0.0] * 3
+        program("demo_arm_inverse_dynamics", q=list(q[i]), qd=list(v[i]), qdd=list(a[i]),
+                beta=list(beta), tau=tau)  # fmt: skip
+        assert i == 7 or np.allclose(tau, wanted[i], rtol=1e-11, atol=1e-9)
+        assert i != 7 or np.isnan(tau[1])
+
+
+def test_kernels_compute_what_the_c_computes(tmp_path, monkeypatch):
+    compiler("g++")
+    model, base, _ = made()
+    monkeypatch.setitem(sys.modules, "cupy", cupy(tmp_path))
+    kernels, states = load_gpu(emit(model, base, cuda=True)), motion()
+    wanted = compiled("double").nonzeros(*states)
+    assert np.allclose(kernels.nonzeros(*states).T, wanted, rtol=1e-11, atol=1e-9)

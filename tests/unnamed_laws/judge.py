@@ -1,0 +1,82 @@
+"""What the true form of a law takes of the error on held-out motion."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler import api
+from modeler.diagnosis import SignalReference, analysed
+from modeler.diagnosis.effect_columns import Rows, rows_of
+from modeler.diagnosis.state import again
+from tests.unnamed_laws.laws import Motion, TrueForm
+from tests.unnamed_laws.machines import Machine
+
+PASSES = 3  # of least squares with the deviations of the joints
+
+
+@dataclass(frozen=True)
+class Errors:
+    """(n,) rms error of each joint on held-out motion, in percent of the rms torque.
+
+    Attributes:
+        without, with_form: of the refitted robot file alone, and with the column of the true form.
+    """
+
+    without: np.ndarray
+    with_form: np.ndarray
+
+    @property
+    def taken(self) -> np.ndarray:
+        """(n,) share of the error that the true form takes."""
+        return 1 - self.with_form / self.without
+
+
+def rows_of_machine(own: Machine) -> tuple[Rows, Rows]:
+    """Rows of the training and the held-out logs, in the band of a diagnosis."""
+    model = api.open_model(own.model)
+    compiled = api.recompile(model)
+    train, holdout = (api.read_logs(compiled, logs) for logs in (own.train, own.holdout))
+    seen = analysed(compiled, train, model.processing)
+    held = again(compiled, holdout, seen.report.processing)
+    reference = SignalReference(compiled, model.beta, 0.0, {})
+    return rows_of(seen, reference), rows_of(held, reference)
+
+
+def true_column(rows: Rows, form: TrueForm) -> np.ndarray:
+    """(rows of its joint,) column of the true form, filtered as the rows are."""
+    seen = [Motion(s.q, s.v, s.a, s.load, s.time) for s in rows.signals]
+    return rows.filtered(form.joint, [form.column(motion) for motion in seen])
+
+
+def errors(own: Machine) -> Errors:
+    """Without and with the true form, if there is one; all parameters fitted anew to training."""
+    train, held = rows_of_machine(own)
+    size = [np.sqrt((y**2).mean()) for y in held.y]
+    found = []
+    for form in (None, own.truth):
+        beta = least_squares(train.y, matrices(train, form))
+        left = zip(held.y, matrices(held, form), strict=True)
+        found.append(np.array([np.sqrt(((y - W @ beta) ** 2).mean()) for y, W in left]))
+    return Errors(*(100 * error / size for error in found))
+
+
+def matrices(rows: Rows, form: TrueForm | None) -> list[np.ndarray]:
+    """Base columns by joint, and that of the form."""
+    if form is None:
+        return list(rows.W)
+    column = true_column(rows, form)
+    extra = [column if j == form.joint else np.zeros(len(W)) for j, W in enumerate(rows.W)]
+    return [np.column_stack([W, own]) for W, own in zip(rows.W, extra, strict=True)]
+
+
+def least_squares(y: tuple[np.ndarray, ...], W: list[np.ndarray]) -> np.ndarray:
+    """(c,) joints weighed by their deviations."""
+    sigma = [float(own.std()) for own in y]
+    beta = np.zeros(W[0].shape[1])
+    for _ in range(PASSES):
+        matrix = np.vstack([own / s for own, s in zip(W, sigma, strict=True)])
+        right = np.concatenate([own / s for own, s in zip(y, sigma, strict=True)])
+        scale = np.linalg.norm(matrix, axis=0) + 1e-30
+        beta = np.linalg.lstsq(matrix / scale, right, rcond=1e-10)[0] / scale
+        sigma = [float((own - w @ beta).std()) for own, w in zip(y, W, strict=True)]
+    return beta

@@ -1,0 +1,45 @@
+"""Make the machines of a law and say what its true form explains.
+
+python -m tests.unnamed_laws.study --law load_speed --seeds 3 --encoder fine --out FOLDER
+"""
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from tests.unnamed_laws.judge import errors
+from tests.unnamed_laws.laws import LAWS
+from tests.unnamed_laws.machines import CLEAN, ENCODERS, machine
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Write the machines; a line for each."""
+    parser = argparse.ArgumentParser("python -m tests.unnamed_laws.study", description=__doc__)
+    names = ["all", CLEAN, *LAWS]
+    parser.add_argument("--law", action="append", choices=names, required=True)
+    parser.add_argument("--seeds", type=int, default=3, help="the first so many")
+    parser.add_argument("--first", type=int, default=1, help="seed")
+    parser.add_argument("--encoder", action="append", choices=list(ENCODERS), required=True)
+    parser.add_argument("--out", type=Path, required=True, help="folder that keeps the machines")
+    options = parser.parse_args(arguments)
+    laws = list(LAWS) if "all" in options.law else options.law
+    for law in laws:
+        for seed in range(options.first, options.first + options.seeds):
+            for encoder in options.encoder:
+                print(line(law, seed, encoder, options.out), flush=True)
+
+
+def line(law: str, seed: int, encoder: str, folder: Path) -> str:
+    """Errors on held-out motion by joint."""
+    own = machine(law, seed, encoder, folder)
+    found = errors(own)
+    parts = [
+        f"{'*' if own.joint == str(j + 1) else ''}{j + 1}: {before:.2f} -> {after:.2f} %"
+        for j, (before, after) in enumerate(zip(found.without, found.with_form, strict=True))
+    ]
+    taken = "" if own.truth is None else f"  takes {100 * found.taken[own.truth.joint]:.0f} %"
+    return f"{own.name}{taken}  [{',  '.join(parts)}]"
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,52 @@
+"""Every law acts in the simulated arm as its column says; the true form explains what is left."""
+
+import numpy as np
+import pytest
+
+from tests.hidden_effects.conftest import plant_compiler as plant_compiler
+from tests.hidden_effects.plant import TICK, rate
+from tests.hidden_effects.test_generator import arm
+from tests.unnamed_laws.judge import errors
+from tests.unnamed_laws.laws import LAWS, Motion
+from tests.unnamed_laws.machines import LEAST, MOST, machine, with_law
+
+pytestmark = pytest.mark.usefixtures("plant_compiler")
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_the_simulated_torque_is_the_column(name):
+    plant, path, scales = arm(seconds=3.0)
+    form = with_law(name, plant, scales, path, np.random.default_rng(4))
+    plant.noise_torque, plant.encoder_step = 0, 1e-9
+    run = plant.run(path, np.zeros(plant.joints), 1)
+    q, v = run.link, rate(run.link)
+    a = np.zeros_like(q)
+    a[1:-1] = np.diff(q, 2, axis=0) / TICK**2
+    load = plant.inverse_dynamics(q, v, a)[0]
+    rubbed = plant.viscous * v + plant.coulomb * np.tanh(v / plant.coulomb_width) + plant.offset
+    extra = run.torque[::4] - load - plant.rotor_inertia * a - rubbed
+    expected = np.zeros_like(q)
+    column = form.column(Motion(q, v, a, load, np.arange(len(q)) * TICK))
+    expected[:, form.joint] = form.size * column
+    steady = (np.abs(v) > 0.05).all(1)  # differences over ticks blur where a speed changes sign
+    steady[:50] = steady[-50:] = False
+    scale = run.torque.std(0)
+    jumps = np.abs(np.diff(expected, axis=0, prepend=0)).max(1) > 0.01 * scale[form.joint]
+    steady[np.convolve(jumps, np.ones(9), "same") > 0] = False
+    assert steady.mean() > 0.3
+    error = ((extra - expected)[steady].std(0) / scale).max()
+    assert error < 5e-3
+    share = np.sqrt((expected[:, form.joint] ** 2).mean()) / scales.motors[form.joint]
+    assert max(0.6 * LEAST, 5 * error) < share < 1.6 * MOST
+
+
+@pytest.mark.parametrize(("name", "encoder"), [("load_speed", "fine"), ("dither", "4096")])
+def test_the_true_form_explains_what_is_left(name, encoder, tmp_path):
+    own = machine(name, 1, encoder, tmp_path)
+    found, j = errors(own), own.truth.joint
+    assert found.taken[j] > 0.5
+    assert found.without[j] > 2 * np.delete(found.without, j).max()
+    assert np.allclose(np.delete(found.taken, j), 0, atol=0.1)
+    written = own.train[0].stat().st_mtime_ns
+    assert machine(name, 1, encoder, tmp_path) == own  # and it is not made again
+    assert own.train[0].stat().st_mtime_ns == written
