@@ -39,7 +39,8 @@ def signature_lines(effect: Effect) -> list[str]:
     if effect.acts not in (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE):
         return []
     order = ("T", "t", "since", "load", "z", "q", "torque", "a", "v")
-    axis = next((name for name in order if name in form.names), "v")
+    late = {"z"} if form.memory is not None and form.memory.kind == "lag" else set()
+    axis = next((name for name in order if name in form.names - late), "v")
     points = 6 * _WIDTH
     x = [2.0 * k / (points - 1) - 1.0 for k in range(points)]
     y = [_torque(form, axis, at) for at in x]

@@ -19,7 +19,9 @@ from modeler.derivation import (
     Signal,
     SymbolicModel,
     combination,
+    followed,
     relation_text,
+    signal_symbol,
 )
 from modeler.effects import Acts
 from modeler.robot import Joint
@@ -334,12 +336,13 @@ def _advance(model: SymbolicModel, given: Arguments) -> list[CFunction]:
     values = dict[Signal, Expr]()
     for signal in model.signals:
         values[signal] = _stepped(model, signal, values)
+    motion = (given.q, given.qd, given.qdd) if any(s.follows for s in model.signals) else ()
     after = ArgumentSpec("after", (len(values),), "see above", "signals now")
     return [
         CFunction(
             "", "advance", "The signals one sample later; write temperatures yourself.",
             "z = sign(dq) + (z - sign(dq)) exp(-|dq|/d) for bristles",
-            (travel, step, *given.signals), after, entries_of(list(values.values())),
+            (travel, step, *given.signals, *motion), after, entries_of(list(values.values())),
         )
     ]  # fmt: skip
 
@@ -348,14 +351,19 @@ def _stepped(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -
     """A signal one sample later, from those before it now."""
     graph = model.graph
 
-    def then(signal: Signal) -> Expr:
-        return graph.symbol(f"s[{model.signals.index(signal)}]")
-
-    s, dt = then(signal), graph.symbol("dt[0]")
+    s, dt = signal_symbol(model, signal), graph.symbol("dt[0]")
+    one, two = graph.constant(1), graph.constant(2)
     if signal.kind == "time":
         return s + dt
     if signal.kind == "temperature":
         return s
+    if signal.kind == "followed":
+        return followed(model, signal, now)
+    if signal.kind == "lag":  # the mean of what it follows at both ends of the step
+        (other,) = signal.before
+        mean = (signal_symbol(model, other) + now[other]) / two
+        tau = graph.constant(Fraction(repr(signal.value)))
+        return mean + (s - mean) * graph.call("exp", -(dt / tau))
     index = model.geometry.rows[signal.row].index
     assert index is not None
     way = combination(graph, model.geometry.forms[index], model.inputs("dq"))
@@ -363,8 +371,8 @@ def _stepped(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -
     if signal.kind == "slip":  # Dahl's bristle, exact where the direction is constant
         toward = graph.call("sign", way)
         return toward + (s - toward) * graph.call("exp", -graph.call("abs", share))
-    told = s if signal.kind == "direction" else then(signal.before[0])
-    one, two, moved = graph.constant(1), graph.constant(2), told + share
+    told = s if signal.kind == "direction" else signal_symbol(model, signal.before[0])
+    moved = told + share
     both = graph.call("sign", told) * graph.call("sign", moved)
     turned = (graph.call("abs", both) - both) / two  # 1 where it has come back far enough, else 0
     if signal.kind == "direction":
@@ -524,6 +532,8 @@ def signal_lines(spec: ModuleSpec) -> list[str]:
         "temperature": "temperature of joint {joint}",
         "slip": "bristle of joint {joint}, which turns over {value:g}; start with 0",
         "direction": "direction of joint {joint}, which turns after {value:g}; start with 0",
+        "followed": "what the lag in the next entry follows; start both with it",
+        "lag": "lag of joint {joint}, {value:g} s",
         "since": "time since joint {joint} turned back, by the entry before; start with 0",
     }
     return [

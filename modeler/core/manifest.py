@@ -170,6 +170,8 @@ SIGNALS = {
     "slip": "1",  # bristle of a joint, z' = (v/d)(1 - z sign v)
     "direction": "1",  # sign: which way a joint goes; size: 1 less the share of the way back
     "since": "s",  # time since it last turned back, by the direction before it
+    "followed": "SI",  # what the lag after it follows
+    "lag": "SI",  # z' = (x - z)/tau of the entry before it
 }  # fmt: skip
 """Kind of a signal -> its unit."""
 
@@ -181,7 +183,9 @@ class SignalSpec:
     kind: str  # of `SIGNALS`
     joint: str  # whose temperature or inner state; "" for the time
     unit: str
-    value: float  # rad or m: travel over which the bristle turns, way back that is a reversal
+    value: (
+        float  # rad or m: travel over which the bristle turns, way back that is a reversal; tau, s
+    )
 
     @property
     def inner(self) -> bool:

@@ -88,6 +88,8 @@ from .model import (
     SymbolicModel as SymbolicModel,
     along as along,
     effect_entries as effect_entries,
+    followed as followed,
+    signal_symbol as signal_symbol,
 )
 from .momenta import (
     coriolis_matrix as coriolis_matrix,

@@ -1,6 +1,6 @@
 """The standard parameters of a robot: which columns the regressor has, and in which order."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Self, TypeAlias, TypeGuard
@@ -172,36 +172,67 @@ class Signal:
         kind: one of `modeler.core.manifest.SIGNALS`.
         row: of the joint whose temperature or inner state it is; -1 for the time.
         value: as of a `SignalSpec`.
+        follows: of a lag and of what it follows, that.
+        shapes: values of the shapes in it.
     """
 
     kind: str
     row: int
     value: float = 0.0
+    follows: Expression | None = None
+    shapes: tuple[tuple[str, float], ...] = ()
 
     @property
     def before(self) -> tuple["Signal", ...]:
-        """Those that it is stepped with, which stand before it."""
-        return (Signal("direction", self.row, self.value),) if self.kind == "since" else ()
+        """Those that it is stepped with; they stand before it, the last of them next to it."""
+        if self.kind == "since":
+            return (Signal("direction", self.row, self.value),)
+        if self.kind == "lag":
+            return (replace(self, kind="followed", value=0.0),)
+        return tuple(self.read.values())
+
+    @property
+    def read(self) -> dict[str, "Signal"]:
+        """Those that what it follows reads, by the variable."""
+        if self.kind != "followed" or self.follows is None:
+            return {}
+        return _variables(self.follows.names, self.row)
+
+
+def _variables(names: Collection[str], row: int) -> dict[str, Signal]:
+    """Signals that an equation reads, by the variable; not its inner state."""
+    found = {
+        "t": Signal("time", -1), "T": Signal("temperature", row),
+        "since": Signal("since", row, TURN),
+    }  # fmt: skip
+    return {name: signal for name, signal in found.items() if name in names}
 
 
 def signals_of(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
     """The signals that any column reads, each once, in the order of the columns."""
     found: dict[Signal, None] = {}
+
+    def add(signal: Signal) -> None:
+        for needed in signal.before:
+            add(needed)
+        found.setdefault(signal)
+
     for column in columns:
         if isinstance(column, ShaftColumn):
             for part in column.parts:
                 for signal in signals_read(part).values():
-                    found |= dict.fromkeys((*signal.before, signal))
+                    add(signal)
     return tuple(found)
 
 
 def signals_read(column: ShaftColumn) -> dict[str, Signal]:
     """Those that one column reads, by the variable of its equation."""
-    names, row = column.equation.names, column.row
-    found = {"t": Signal("time", -1), "T": Signal("temperature", row)}
-    found["since"] = Signal("since", row, TURN)
+    names, memory = column.equation.names, column.memory
+    found = _variables(names, column.row)
     if "z" in names:
-        if column.memory is None or column.memory.kind != "slip":
+        if memory is None or memory.kind == "resonance":
             raise DerivationError(f"{column.name}: its inner state has no form in C")
-        found["z"] = Signal("slip", row, column.shapes[column.memory.shape])
-    return {name: signal for name, signal in found.items() if name in names}
+        shapes, follows = column.shapes, memory.follows
+        own = () if follows is None else tuple(sorted(shapes.items()))
+        found["z"] = Signal(memory.kind, column.row, shapes[memory.shape], follows, own)
+    return found

@@ -45,20 +45,29 @@ def own_columns(
         name: np.array([candidate.shapes[name] for candidate in candidates])
         for name in first.shapes
     }
+    span = window if memory is None else EVERY  # what remembers reads the stretch from its start
     read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate", "since"}))
-    values |= {name: getattr(signals, name)[window, j, None] for name in read}
-    values |= {name: signals.of_other(name)[window, None] for name in first.form.others}
+    values |= {name: getattr(signals, name)[span, j, None] for name in read}
+    values |= {name: signals.of_other(name)[span, None] for name in first.form.others}
     if "t" in names:
-        values["t"] = signals.time[window, None]
+        values["t"] = signals.time[span, None]
     if "T" in names and (warmth := signals.temperature(first.joint or "")) is not None:
-        values["T"] = warmth[window, None]
-    if memory is not None:
-        states = [signals.state(memory, j, candidate.shapes) for candidate in candidates]
-        values["z"] = np.column_stack(states)[window]
-    found = np.empty((len(signals.q[window]), len(candidates), len(first.form.columns)))
+        values["T"] = warmth[span, None]
     with np.errstate(all="ignore"):  # columns that are not finite are not looked at
+        if memory is not None:
+            x = np.zeros(1)
+            if memory.follows is not None:
+                x = memory.follows.fold(values, FUNCTIONS, np.pi, float)
+            followed = np.broadcast_to(x, (len(signals.q), len(candidates))).T
+            states = [
+                signals.state(memory, j, candidate.shapes, own)
+                for candidate, own in zip(candidates, followed, strict=True)
+            ]
+            values["z"] = np.column_stack(states)
+        found = np.empty((len(signals.q[span]), len(candidates), len(first.form.columns)))
         for k, column in enumerate(first.form.columns):
             found[:, :, k] = column.equation.fold(values, FUNCTIONS, np.pi, float)
+    found = found if memory is None else found[window]
     return found.reshape(len(found), -1)
 
 

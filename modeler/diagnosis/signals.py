@@ -11,7 +11,7 @@ from scipy.linalg import expm
 from modeler.core.brief import Brief
 from modeler.effects import TURN, Memory
 from modeler.numerics.filters import recursion
-from modeler.observation import Segment, bristle, nearest_closed, signals_of, since_reversal
+from modeler.observation import Segment, bristle, lag, nearest_closed, signals_of, since_reversal
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -172,8 +172,12 @@ class Signals(Brief):
                 return self.segment.extra[name] - self.reference.temperature[joint]
         return np.zeros(len(self.q))
 
-    def state(self, memory: Memory, j: int, shapes: Mapping[str, float]) -> np.ndarray:
-        """(n,) inner state z on joint j, for shape parameters by name."""
+    def state(
+        self, memory: Memory, j: int, shapes: Mapping[str, float], followed: np.ndarray
+    ) -> np.ndarray:
+        """(n,) inner state z on joint j, for shape parameters by name; what a lag follows, (n,)."""
+        if memory.kind == "lag":
+            return lag(followed, self.step, shapes[memory.shape])
         if memory.kind == "slip":
             return bristle(self.q[:, j], shapes[memory.shape])
         return resonance(self.load[:, j], self.step, shapes[memory.shape], shapes[memory.damping])

@@ -109,14 +109,17 @@ class Memory:
 
     Attributes:
         kind: "slip": z' = (v/d)(1 - z sign v), the bristle of Dahl's friction; "resonance": the
-            load through the oscillator z'' = w^2 (load - z) - 2 zeta w z', w = 2 pi f.
-        shape: name of the shape parameter that sets it (d or f).
+            load through the oscillator z'' = w^2 (load - z) - 2 zeta w z', w = 2 pi f; "lag":
+            z' = (x - z)/tau.
+        shape: name of the shape parameter that sets it (d, f or tau).
         damping: of a resonance, name of the shape parameter that is zeta.
+        follows: of a lag, x.
     """
 
-    kind: Literal["slip", "resonance"]
+    kind: Literal["slip", "resonance", "lag"]
     shape: str
     damping: str = ""
+    follows: Expression | None = None
 
 
 @dataclass(frozen=True)
@@ -188,7 +191,10 @@ class Form(Brief):
     @cached_property
     def names(self) -> frozenset[str]:
         """Variables that its equations use: of `VARIABLES`, and as `v3` of other joints."""
-        used = frozenset().union(*(column.equation.names for column in self.columns))
+        equations = [column.equation for column in self.columns]
+        if self.memory is not None and self.memory.follows is not None:
+            equations.append(self.memory.follows)
+        used = frozenset().union(*(equation.names for equation in equations))
         return used - {shape.name for shape in self.shapes}
 
     @cached_property
@@ -288,9 +294,8 @@ class Effect(Brief):
         """True if a robot file may name it: its columns are functions of the joints' motion."""
         acts = self.acts in (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
         names = frozenset().union(*(form.names for form in self.forms))
-        remembers = any(form.memory and form.memory.kind != "slip" for form in self.forms)
         moved = self.acts is Acts.POSITION and not names.isdisjoint({"load", "z"})
-        return acts and not remembers and not moved and "rate" not in names
+        return acts and not self.rings and not moved and "rate" not in names
 
     @property
     def coupled(self) -> bool:

@@ -27,6 +27,7 @@ from .log import (
 )
 from .low_speed import (
     bristle as bristle,
+    lag as lag,
     shafts as shafts,
     signals_along as signals_along,
     signals_of as signals_of,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
+from modeler.numerics.filters import recursion
 from modeler.observation.motion import Segment, near
 from modeler.observation.motion_noise import MotionNoise
 from modeler.observation.settings import ChosenProcessing
@@ -228,6 +229,13 @@ def since_reversal(q: np.ndarray, step: float, back: float) -> tuple[np.ndarray,
     return way, since
 
 
+def lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
+    """(n,) z of z' = (x - z)/tau along x (n,) at even steps, s; at rest under the first x."""
+    kept = math.exp(-step / tau)
+    driven = np.append(0.0, (1.0 - kept) * (0.5 * (x[1:] + x[:-1]) - x[0]))
+    return np.asarray(x[0] + recursion(driven, np.array([1.0, 0, 0]), np.array([1.0, -kept, 0])))
+
+
 def _carried(direction: np.ndarray) -> np.ndarray:
     """Zeros replaced by the last direction before them, at the start by the first after."""
     known = np.flatnonzero(direction)
@@ -268,12 +276,15 @@ def signals_along(
             read[:, k] = time
         elif signal.kind == "temperature":
             read[:, k] = temperature(signal.joint)
-        else:
+        elif signal.kind == "slip":
+            read[:, k] = bristle(motion[0][:, names.index(signal.joint)], signal.value)
+        elif signal.kind == "direction":  # the time since it changed stands after it
             q = motion[0][:, names.index(signal.joint)]
-            if signal.kind == "slip":
-                read[:, k] = bristle(q, signal.value)
-            elif signal.kind == "direction":  # the time since it changed stands after it
-                read[:, [k, k + 1]] = np.stack(since_reversal(q, step, signal.value), axis=1)
+            read[:, [k, k + 1]] = np.stack(since_reversal(q, step, signal.value), axis=1)
+        elif signal.kind == "followed":  # a step of no length gives it
+            read[:, k] = model.advance(0.0 * motion[0], 0.0, read, *motion)[:, k]
+        elif signal.kind == "lag":
+            read[:, k] = lag(read[:, k - 1], step, signal.value)
     return read
 
 

@@ -205,17 +205,26 @@ class CompiledModel(Batches, Presented):
         self._library.base_parameters(function, given, beta)
         return beta
 
-    def advance(self, dq: Any, dt: float, s: Any) -> np.ndarray:
+    def advance(
+        self, dq: Any, dt: float, s: Any, q: Any = None, qd: Any = None, qdd: Any = None
+    ) -> np.ndarray:
         """The signals of effects one sample later, as s: time and inner states; see the header.
 
         Args:
             dq: (joints,) or (n, joints) travel since the last sample.
             dt: s since then.
             s: (m,) or (n, m) signals then.
+            q: (joints,) or (n, joints) positions now; lags follow the motion.
+            qd: the same of velocities.
+            qdd: the same of accelerations.
         """
         if "advance" not in self._functions:
             raise ManifestError(f"{self.spec.robot} has no effects that read signals")
-        after = self.evaluate("advance", dq=dq, dt=[dt], s=s)
+        given = {"dq": dq, "dt": [dt], "s": s, "q": q, "qd": qd, "qdd": qdd}
+        wanted = [argument.name for argument in self._functions["advance"].inputs]
+        if missing := [name for name in wanted if given[name] is None]:
+            raise ShapeError(f"{self.spec.robot}: its effects lag; give {', '.join(missing)}")
+        after = self.evaluate("advance", **{name: given[name] for name in wanted})
         return after if np.ndim(s) == 2 else after[0]
 
     def evaluate(self, role: str, **arrays: Any) -> np.ndarray:

@@ -6,6 +6,7 @@ found by evaluating the C at both sides of standstill. They are apart because at
 friction is no function of the speed: it takes any value between its bounds that holds the shaft.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -134,9 +135,11 @@ class FittedPlant:
             return np.broadcast_to(self._rows, (len(q), *self._rows.shape))
         return self.model.coupling(q)[:, self._places]
 
-    def stepped(self, s: np.ndarray, step: np.ndarray, dt: float) -> np.ndarray:
-        """(b, m) signals dt s later, after the joints have moved by `step` (b, n)."""
-        return self.model.advance(step, dt, s) if self.inner else s
+    def stepped(
+        self, s: np.ndarray, step: np.ndarray, dt: float, motion: Sequence[np.ndarray]
+    ) -> np.ndarray:
+        """(b, m) signals dt s later: joints have moved by `step`, q, qd, qdd are now `motion`."""
+        return self.model.advance(step, dt, s, *motion) if self.inner else s
 
     def _rest(
         self, M: np.ndarray, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None

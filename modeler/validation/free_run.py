@@ -218,7 +218,8 @@ class _State:
         self.smooth[live], self.qdd[live] = smooth, (speed - qd) / h
         self.q[live], self.qd[live] = q + moved, speed
         if self.s is not None:
-            self.s[live] = plant.stepped(self.s[live], moved, h)
+            now = (self.q[live], self.qd[live], self.qdd[live])
+            self.s[live] = plant.stepped(self.s[live], moved, h, now)
         return forces.dry
 
 

@@ -41,6 +41,11 @@ OWN: dict[str, tuple[dict, dict[str, float], Columns]] = {
         {"w": 0.4},
         lambda q, v, a, s: [np.tanh(9.0 * v) * np.exp(-s / 0.4)],
     ),
+    "warming": (
+        {"columns": {"Kz": "v*z**p"}, "lag": "abs(v)", "shapes": {"p": 2, "tau": [0.1, 1]}},
+        {"tau": 0.4},
+        lambda q, v, a, s: [v * s**2],
+    ),
     "fading": (
         {"columns": {"Kf": "v*exp(-t/tau)"}, "shapes": {"tau": [5, 50]}},
         {"tau": 20.0, "t0": 0.5},

@@ -196,7 +196,7 @@ def test_bristles_turn_as_in_the_c(slide) -> None:
         way = np.sign(moved)
         expected = way + (s - way) * np.exp(-abs(moved) / 0.01)
         assert compiled.advance([moved], 0.002, s) == pytest.approx(expected, abs=1e-14)
-        s = plant.stepped(s[None], np.array([[moved]]), 0.002)[0]
+        s = plant.stepped(s[None], np.array([[moved]]), 0.002, np.zeros((3, 1, 1)))[0]
         assert s == pytest.approx(expected, abs=1e-14)
 
 
