@@ -261,14 +261,14 @@ class Proposal(Brief):
     @property
     def text(self) -> str:
         """To be pasted into a robot file."""
-        return "\n".join([f"[own_effects.{self.finding.effect}]",
-                          *(f"{key} = {_toml(value)}" for key, value in self.definition.items())])  # fmt: skip
+        lines = (f"{key} = {toml_text(value)}" for key, value in self.definition.items())
+        return "\n".join([f"[own_effects.{self.finding.effect}]", *lines])
 
     def lines(self) -> list[str]:
         """What people read, the text to paste at the end."""
         f = self.finding
         values = ", ".join(
-            f"{name} = {value:.4g} +- {f.sigmas.get(name, float('nan')):.2g} {f.units.get(name, '')}"
+            f"{name} = {value:.4g} +- {f.sigmas.get(name, math.nan):.2g} {f.units.get(name, '')}"
             for name, value in f.parameters.items()
         )
         change = " -> ".join(printed(f.error_before, f.error_after))
@@ -321,10 +321,12 @@ class Discovery(Brief):
                 "proposals": [p.to_json() for p in self.proposals]}  # fmt: skip
 
 
-def _toml(value: Any) -> str:
+def toml_text(value: Any) -> str:
     """As it stands in a robot file."""
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key} = {_toml(entry)}" for key, entry in value.items()) + "}"
+        return "{" + ", ".join(f"{key} = {toml_text(entry)}" for key, entry in value.items()) + "}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(toml_text, value))}]"
     return json.dumps(value, ensure_ascii=False)
 
 
