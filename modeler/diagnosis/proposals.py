@@ -169,14 +169,16 @@ def _proposal(
     )  # fmt: skip
     relative, likeness, differs = _relative(state, formula, candidate, values)
     stated = {"joint": joint, **{key: float(f"{x:.6g}") for key, x in candidate.shapes.items()}}
-    alone = dataclasses.replace(found, start=state, steps=(Step(own.judged, (), state),), end=later)
+    judged = dataclasses.replace(own.judged, candidate=candidate)
+    steps = (*(s for s in found.steps if s.pick in state.picks), Step(judged, (), state))
     return Proposal(
         finding=finding, definition=definition,
         equation=" + ".join(f"{c.prefix}{joint} {c.equation.text}" for c in effect.columns),
         effects_line=f"{name} = {toml_text([stated if candidate.shapes else joint])}",
         explained=min(1.0, own.judged.gain / share), symbols=formula.symbols,
         instead=tuple(p.effect.id for p in found.end.picks if p not in state.picks),
-        relative=relative, likeness=likeness, differs=differs, drawn=alone,
+        relative=relative, likeness=likeness, differs=differs,
+        drawn=dataclasses.replace(found, steps=steps, end=later),
     )  # fmt: skip
 
 

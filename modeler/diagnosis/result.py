@@ -239,9 +239,9 @@ class Proposal(Brief):
         relative: id of the nearest effect with a name.
         likeness: share of its torque that this explains.
         differs: what differs, in plain words.
+        drawn: the search with it as its last step, for pictures.
         apart: the command that looks for a motion which tells it from the next.
         where: the state of the joint in these logs in which they differ most.
-        drawn: the search with it as its only step, for pictures.
     """
 
     finding: Finding
@@ -254,18 +254,20 @@ class Proposal(Brief):
     relative: str
     likeness: float
     differs: str
+    drawn: Search = field(repr=False)
     apart: str = ""
     where: str = ""
-    drawn: Search | None = field(default=None, repr=False)
 
     @property
     def text(self) -> str:
-        """To be pasted into a robot file."""
+        """To be pasted into a robot file; the line of `[effects]` is behind it, as a comment."""
         lines = (f"{key} = {toml_text(value)}" for key, value in self.definition.items())
-        return "\n".join([f"[own_effects.{self.finding.effect}]", *lines])
+        line = f"# [effects] {self.effects_line}"
+        return "\n".join([f"[own_effects.{self.finding.effect}]", *lines, line])
 
-    def lines(self) -> list[str]:
-        """What people read, the text to paste at the end."""
+    @property
+    def told(self) -> list[str]:
+        """What people read."""
         f = self.finding
         values = ", ".join(
             f"{name} = {value:.4g} +- {f.sigmas.get(name, math.nan):.2g} {f.units.get(name, '')}"
@@ -278,8 +280,11 @@ class Proposal(Brief):
                  f"  {self.differs}"]  # fmt: skip
         if self.apart:
             found += [f"  told from the next by: {self.apart}", f"  {self.where}"]
-        return [*found, *(f"    {line}" for line in self.text.splitlines()),
-                f"    [effects] {self.effects_line}"]  # fmt: skip
+        return found
+
+    def lines(self) -> list[str]:
+        """The same, and the text to paste."""
+        return [*self.told, *(f"    {line}" for line in self.text.splitlines())]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
