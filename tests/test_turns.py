@@ -52,8 +52,8 @@ class Told:
     def get_closest_marker(self, name: str) -> pytest.Mark | None:
         slow, turn = (mark.name for mark in IN_TURN)
         group = GROUPS.get(self.nodeid, "")
-        # Every second case beside a quick one is slow, and that is all that is said of it.
-        told = (slow, turn)[: 1 if group in QUICK and int(self.nodeid[-2]) % 2 else 2]
+        # Of every second case it is said that it is slow, and no more.
+        told = (slow, turn)[: 1 if "::" in group and int(self.nodeid[:-1].split("[")[1]) % 2 else 2]
         if not group or name not in told:
             return None
         return pytest.Mark(

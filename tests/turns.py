@@ -9,10 +9,7 @@ from zlib import crc32
 import pytest
 
 IN_TURN = (pytest.mark.slow, pytest.mark.in_turn)
-"""Marks of a case of `parametrize`, where one of these runs each day.
-
-Where the function has quick cases, `slow` alone says the same.
-"""
+"""Marks of a case of `parametrize`; the function has quick cases, or one of these runs each day."""
 
 
 def in_turn(group: str) -> Any:
@@ -32,17 +29,14 @@ def today() -> int:
 def turns(items: Collection[pytest.Item]) -> dict[str, str]:
     """Test -> its group, of those that take turns: what its mark says, else its function.
 
-    A slow case of a function that has quick ones takes turns without a mark.
+    A slow case of `parametrize` takes turns without a mark.
     """
-    quick = {_function(i.nodeid) for i in items if i.get_closest_marker("slow") is None}
     found: dict[str, str] = {}
     for item in items:
         mark = item.get_closest_marker("in_turn")
         if mark is not None and mark.args:
             found[item.nodeid] = mark.args[0]
-        elif mark is not None or (
-            item.get_closest_marker("slow") and _function(item.nodeid) in quick
-        ):
+        elif mark is not None or ("[" in item.nodeid and item.get_closest_marker("slow")):
             found[item.nodeid] = _function(item.nodeid)
     return found
 

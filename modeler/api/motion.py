@@ -78,7 +78,7 @@ class Subject:
         spec, moves = self.compiled.spec, motion.sampled(rate)
         names = [joint.name for joint in spec.joints]
         q, qd, qdd = (np.column_stack([moves[p + j] for j in names]) for p in ("q", "qd", "qdd"))
-        read = excitation.signals(spec, q, moves["time"])
+        read = excitation.signals(self.compiled, (q, qd, qdd), moves["time"])
         rng = np.random.default_rng(int(motion.wish["seed"]))
         # White noise that leaves sigma behind the filter.
         power = 0.5 * rate / (BANDWIDTH * self.cutoff) if self.cutoff else 1.0

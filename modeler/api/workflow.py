@@ -74,7 +74,8 @@ def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
     Args:
         robot: as it is.
         name: id of the effect.
-        definition: title, columns, shapes, unit, nonnegative, acts; docs/reference/robot-file.md.
+        definition: title, columns, shapes, unit, nonnegative, acts, lag;
+            docs/reference/robot-file.md.
 
     Raises:
         RobotError: a mistake in the definition, or an id that the robot has already.

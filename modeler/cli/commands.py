@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Sequence
+from functools import cache
 from itertools import takewhile
 from typing import Any, NoReturn
 
@@ -127,8 +128,9 @@ class _Version(argparse.Action):
         parser.exit()
 
 
+@cache
 def parser() -> argparse.ArgumentParser:
-    """The parser of all commands."""
+    """The parser of all commands, the same each time; nothing may be added to it."""
     top: argparse.ArgumentParser = _Parser(
         prog="modeler",
         description="From the MDH table of a robot to exact base parameters, C, a fit and a "

@@ -29,6 +29,7 @@ _AXES = {
     "v": "speed, in top speeds", "q": "position, half a turn each way", "a": "acceleration",
     "load": "load times direction of motion", "t": "time", "T": "temperature above its mean",
     "torque": "predicted torque", "z": "position, back and forth",
+    "since": "time since the last reversal",
 }  # fmt: skip
 
 
@@ -37,8 +38,9 @@ def signature_lines(effect: Effect) -> list[str]:
     form = effect.forms[0]
     if effect.acts not in (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE):
         return []
-    order = ("T", "t", "load", "z", "q", "torque", "a", "v")
-    axis = next((name for name in order if name in form.names), "v")
+    order = ("T", "t", "since", "load", "z", "q", "torque", "a", "v")
+    late = {"z"} if form.memory is not None and form.memory.kind == "lag" else set()
+    axis = next((name for name in order if name in form.names - late), "v")
     points = 6 * _WIDTH
     x = [2.0 * k / (points - 1) - 1.0 for k in range(points)]
     y = [_torque(form, axis, at) for at in x]
@@ -68,6 +70,8 @@ def _torque(form: Form, axis: str, x: float) -> float:
         values["v"] = 1.0 if back else -1.0
     elif axis == "q":
         values["q"] = math.pi * x
+    elif axis == "since":
+        values["since"] = x + 1.0
     else:
         values[axis] = x
     column = form.columns[-1] if axis == "q" else form.columns[0]

@@ -250,8 +250,9 @@ def _choose(args: argparse.Namespace, subject: motions.Subject) -> Json:
     with working("building the rows of the motions"):
         for place in args.candidates:
             motion = simulation.read_motion(place, names)
-            s = excitation.signals(compiled.spec, motion.q, motion.time)
-            phi = compiled.base_regressor(motion.q, motion.qd, motion.qdd, s)[:, :, kept]
+            states = (motion.q, motion.qd, motion.qdd)
+            s = excitation.signals(compiled, states, motion.time)
+            phi = compiled.base_regressor(*states, s)[:, :, kept]
             rows.append((phi * weights).reshape(-1, phi.shape[2]))
         choice = excitation.choose(rows, args.choose)
     for k, place in enumerate(args.candidates):

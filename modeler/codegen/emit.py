@@ -84,7 +84,6 @@ def module_spec(
         )
         for column in model.columns
     )
-    units = {"time": "s", "temperature": "K or degC", "slip": "1"}
     measured = [robot.joints[s.row].name if s.row >= 0 else "" for s in model.signals]
     return ModuleSpec(
         robot=robot.name,
@@ -99,7 +98,7 @@ def module_spec(
         functions=function_specs(prefix, list(blocks)),
         closure=closing,
         signals=tuple(
-            manifest.SignalSpec(signal.kind, joint, units[signal.kind], signal.value)
+            manifest.SignalSpec(signal.kind, joint, manifest.SIGNALS[signal.kind], signal.value)
             for signal, joint in zip(model.signals, measured, strict=True)
         ),
         inertial_uncertainty=robot.uncertainty.get("inertial"),

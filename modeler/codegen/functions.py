@@ -16,8 +16,12 @@ from modeler.derivation import (
     BaseParameters,
     Expr,
     ShaftColumn,
+    Signal,
     SymbolicModel,
+    combination,
+    followed,
     relation_text,
+    signal_symbol,
 )
 from modeler.effects import Acts
 from modeler.robot import Joint
@@ -321,37 +325,63 @@ _TORQUES = ("load", "static", "torque")
 
 
 def _advance(model: SymbolicModel, given: Arguments) -> list[CFunction]:
-    """The signals one sample later: time goes on, bristles turn; temperatures are measured."""
+    """The signals one sample later: inner states are stepped; temperatures are measured."""
     if not model.signals:
         return []
-    graph, n = model.graph, model.geometry.coordinates
+    n = model.geometry.coordinates
     travel = ArgumentSpec(
         "dq", (n,), given.q.unit, "joint positions, less those of the last sample"
     )
     step = ArgumentSpec("dt", (1,), "s", "time since the last sample")
-    values = []
-    for k, signal in enumerate(model.signals):
-        s = graph.symbol(f"s[{k}]")
-        if signal.kind == "time":
-            s = s + graph.symbol("dt[0]")
-        elif signal.kind == "slip":  # Dahl's bristle, exact where the direction is constant
-            index = model.geometry.rows[signal.row].index
-            assert index is not None
-            moved = graph.constant(0)
-            for j, coefficient in model.geometry.forms[index].items():
-                moved = moved + graph.symbol(f"dq[{j}]") * coefficient
-            way = graph.call("sign", moved)
-            share = graph.call("abs", moved) / graph.constant(Fraction(repr(signal.value)))
-            s = way + (s - way) * graph.call("exp", -share)
-        values.append(s)
+    values = dict[Signal, Expr]()
+    for signal in model.signals:
+        values[signal] = _stepped(model, signal, values)
+    motion = (given.q, given.qd, given.qdd) if any(s.follows for s in model.signals) else ()
     after = ArgumentSpec("after", (len(values),), "see above", "signals now")
     return [
         CFunction(
             "", "advance", "The signals one sample later; write temperatures yourself.",
             "z = sign(dq) + (z - sign(dq)) exp(-|dq|/d) for bristles",
-            (travel, step, *given.signals), after, entries_of(values),
+            (travel, step, *given.signals, *motion), after, entries_of(list(values.values())),
         )
     ]  # fmt: skip
+
+
+def _stepped(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -> Expr:
+    """A signal one sample later, from those before it now."""
+    graph = model.graph
+
+    s, dt = signal_symbol(model, signal), graph.symbol("dt[0]")
+    one, two = graph.constant(1), graph.constant(2)
+    if signal.kind == "time":
+        return s + dt
+    if signal.kind == "temperature":
+        return s
+    if signal.kind == "followed":
+        return followed(model, signal, now)
+    if signal.kind == "lag":  # the mean of what it follows at both ends of the step
+        (other,) = signal.before
+        mean = (signal_symbol(model, other) + now[other]) / two
+        tau = graph.constant(Fraction(repr(signal.value)))
+        return mean + (s - mean) * graph.call("exp", -(dt / tau))
+    index = model.geometry.rows[signal.row].index
+    assert index is not None
+    way = combination(graph, model.geometry.forms[index], model.inputs("dq"))
+    share = way / graph.constant(Fraction(repr(signal.value)))
+    if signal.kind == "slip":  # Dahl's bristle, exact where the direction is constant
+        toward = graph.call("sign", way)
+        return toward + (s - toward) * graph.call("exp", -graph.call("abs", share))
+    told = s if signal.kind == "direction" else signal_symbol(model, signal.before[0])
+    moved = told + share
+    both = graph.call("sign", told) * graph.call("sign", moved)
+    turned = (graph.call("abs", both) - both) / two  # 1 where it has come back far enough, else 0
+    if signal.kind == "direction":
+        held = (graph.call("abs", moved + one) - graph.call("abs", moved - one)) / two
+        return held + turned * (graph.call("sign", moved) - held)
+    # That way took twice as long, at constant acceleration, as at the speed that it ended with.
+    size = graph.call("abs", share) + graph.constant(Fraction(1, 10**30))  # it may be 0
+    longer = s + dt - two * (one + graph.call("abs", moved)) * dt / size
+    return s + dt - turned * (longer + graph.call("abs", longer)) / two
 
 
 def grouping_function(model: SymbolicModel, base: BaseParameters, given: Arguments) -> CFunction:
@@ -501,6 +531,10 @@ def signal_lines(spec: ModuleSpec) -> list[str]:
         "time": "time since the start",
         "temperature": "temperature of joint {joint}",
         "slip": "bristle of joint {joint}, which turns over {value:g}; start with 0",
+        "direction": "direction of joint {joint}, which turns after {value:g}; start with 0",
+        "followed": "what the lag in the next entry follows; start both with it",
+        "lag": "lag of joint {joint}, {value:g} s",
+        "since": "time since joint {joint} turned back, by the entry before; start with 0",
     }
     return [
         f"{k:4d}  {meaning[s.kind].format(joint=s.joint, value=s.value)} [{s.unit}]"

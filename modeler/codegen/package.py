@@ -431,6 +431,9 @@ def example_values(spec: ModuleSpec, name: str) -> dict[str, Any]:
         return call_head(roles[role], {"q": "now->q", "qd": "now->qd", "s": "own->s", **named})
 
     values: dict[str, Any] = {"temperatures": measured}
+    if spec.signals:
+        values["advance"] = call("advance", dt="&dt", qdd="a") + ", after)"
+        values["lags"] = [k for k, signal in enumerate(spec.signals) if signal.kind == "lag"]
     values["line"] = f"{line}, temperatures" if measured else line
     if name == "example_adaptive":
         return {

@@ -165,14 +165,32 @@ class SymbolSpec:
     value: float
 
 
+SIGNALS = {
+    "time": "s", "temperature": "K or degC",
+    "slip": "1",  # bristle of a joint, z' = (v/d)(1 - z sign v)
+    "direction": "1",  # sign: which way a joint goes; size: 1 less the share of the way back
+    "since": "s",  # time since it last turned back, by the direction before it
+    "followed": "SI",  # what the lag after it follows
+    "lag": "SI",  # z' = (x - z)/tau of the entry before it
+}  # fmt: skip
+"""Kind of a signal -> its unit."""
+
+
 @dataclass(frozen=True)
 class SignalSpec:
     """One entry of the input `s`: what effects read besides the motion."""
 
-    kind: str  # "time" | "temperature" | "slip"
-    joint: str  # whose temperature or bristle; "" for the time
+    kind: str  # of `SIGNALS`
+    joint: str  # whose temperature or inner state; "" for the time
     unit: str
-    value: float  # travel over which the bristle turns, rad or m; 0 for the others
+    value: (
+        float  # rad or m: travel over which the bristle turns, way back that is a reversal; tau, s
+    )
+
+    @property
+    def inner(self) -> bool:
+        """True of a state that is stepped along the motion."""
+        return self.kind not in ("time", "temperature")
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from .closure import (
 from .columns import (
     LinkColumn as LinkColumn,
     ShaftColumn as ShaftColumn,
+    Signal as Signal,
     StandardColumn as StandardColumn,
     in_block as in_block,
 )
@@ -62,6 +63,7 @@ from .graph import (
     Plan as Plan,
     Table as Table,
     Vector as Vector,
+    combination as combination,
 )
 from .kinematics import (
     Composite as Composite,
@@ -86,6 +88,8 @@ from .model import (
     SymbolicModel as SymbolicModel,
     along as along,
     effect_entries as effect_entries,
+    followed as followed,
+    signal_symbol as signal_symbol,
 )
 from .momenta import (
     coriolis_matrix as coriolis_matrix,

@@ -1,6 +1,6 @@
 """The standard parameters of a robot: which columns the regressor has, and in which order."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Self, TypeAlias, TypeGuard
@@ -9,7 +9,7 @@ from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
 from modeler.derivation.geometry import Geometry
-from modeler.effects import Acts, EnergyBlock, Memory
+from modeler.effects import NOISE, TURN, Acts, EnergyBlock, Memory
 from modeler.robot import Joint, Robot
 
 _INERTIAL_UNITS = dict.fromkeys(("XX", "XY", "XZ", "YY", "YZ", "ZZ"), "kg m2") | dict.fromkeys(
@@ -169,36 +169,70 @@ class Signal:
     """One entry of the input `s`.
 
     Attributes:
-        kind: "time" [s], "temperature" [K or degC], or "slip", the bristle of a joint [1].
-        row: of the joint whose temperature or bristle it is; -1 for the time.
-        value: travel over which the bristle turns, rad or m; 0 for the others.
+        kind: one of `modeler.core.manifest.SIGNALS`.
+        row: of the joint whose temperature or inner state it is; -1 for the time.
+        value: as of a `SignalSpec`.
+        follows: of a lag and of what it follows, that.
+        shapes: values of the shapes in it.
     """
 
     kind: str
     row: int
     value: float = 0.0
+    follows: Expression | None = None
+    shapes: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def before(self) -> tuple["Signal", ...]:
+        """Those that it is stepped with; they stand before it, the last of them next to it."""
+        if self.kind == "since":
+            return (Signal("direction", self.row, self.value),)
+        if self.kind == "lag":
+            return (replace(self, kind="followed", value=0.0),)
+        return tuple(self.read.values())
+
+    @property
+    def read(self) -> dict[str, "Signal"]:
+        """Those that what it follows reads, by the variable."""
+        if self.kind != "followed" or self.follows is None:
+            return {}
+        return _variables(self.follows.names, self.row, dict(self.shapes))
+
+
+def _variables(names: Collection[str], row: int, shapes: Mapping[str, float]) -> dict[str, Signal]:
+    """Signals that an equation reads, by the variable; not its inner state."""
+    found = {
+        "t": Signal("time", -1), "T": Signal("temperature", row),
+        "since": Signal("since", row, shapes.get(TURN, NOISE)),
+    }  # fmt: skip
+    return {name: signal for name, signal in found.items() if name in names}
 
 
 def signals_of(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
     """The signals that any column reads, each once, in the order of the columns."""
     found: dict[Signal, None] = {}
+
+    def add(signal: Signal) -> None:
+        for needed in signal.before:
+            add(needed)
+        found.setdefault(signal)
+
     for column in columns:
         if isinstance(column, ShaftColumn):
             for part in column.parts:
-                found |= dict.fromkeys(signals_read(part))
+                for signal in signals_read(part).values():
+                    add(signal)
     return tuple(found)
 
 
-def signals_read(column: ShaftColumn) -> list[Signal]:
-    """Those that one column reads."""
-    names = column.equation.names
-    found = []
-    if "t" in names:
-        found.append(Signal("time", -1))
-    if "T" in names:
-        found.append(Signal("temperature", column.row))
+def signals_read(column: ShaftColumn) -> dict[str, Signal]:
+    """Those that one column reads, by the variable of its equation."""
+    names, memory = column.equation.names, column.memory
+    found = _variables(names, column.row, column.shapes)
     if "z" in names:
-        if column.memory is None or column.memory.kind != "slip":
+        if memory is None or memory.kind == "resonance":
             raise DerivationError(f"{column.name}: its inner state has no form in C")
-        found.append(Signal("slip", column.row, column.shapes[column.memory.shape]))
+        shapes, follows = column.shapes, memory.follows
+        own = () if follows is None else tuple(sorted(shapes.items()))
+        found["z"] = Signal(memory.kind, column.row, shapes[memory.shape], follows, own)
     return found

@@ -9,7 +9,7 @@ from functools import cached_property, partial
 
 from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
-from modeler.core.expression import FUNCTIONS, LAW
+from modeler.core.expression import FUNCTIONS, LAW, Expression
 from modeler.derivation.closure import Closure, closure_of
 from modeler.derivation.columns import (
     LinkColumn,
@@ -323,31 +323,47 @@ def effect_entries(
 
 def _equation(model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED) -> Expr:
     """The equation of the column on its shaft."""
-    graph = model.graph
+    read = {name: signal_symbol(model, signal) for name, signal in signals_read(column).items()}
+    return _evaluated(model, column.equation, column.shaft, column.shapes, read, motion)
+
+
+def signal_symbol(model: SymbolicModel, signal: Signal) -> Expr:
+    """The entry of `s` that it is."""
+    return model.graph.symbol(f"s[{model.signals.index(signal)}]")
+
+
+def followed(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -> Expr:
+    """What a lag follows, with the signals that it reads as they are now."""
+    index = model.geometry.rows[signal.row].index
+    assert index is not None and signal.follows is not None
+    read = {name: now[other] for name, other in signal.read.items()}
+    shaft = model.geometry.forms[index]
+    return _evaluated(model, signal.follows, shaft, dict(signal.shapes), read, _MEASURED)
+
+
+def _evaluated(
+    model: SymbolicModel, equation: Expression, shaft: Mapping[int, Fraction],
+    shapes: Mapping[str, float], read: Mapping[str, Expr], motion: Sequence[str],
+) -> Expr:  # fmt: skip
+    """An equation on a shaft; `read` are the signals by variable."""
+    graph, names = model.graph, equation.names
     values: dict[str, Expr] = {
-        name: graph.constant(Fraction(repr(float(value)))) for name, value in column.shapes.items()
+        name: graph.constant(Fraction(repr(float(value)))) for name, value in shapes.items()
     }
-    names = column.equation.names
     for name, kind in zip(MOTION, motion, strict=True):
-        values[name] = along(model, column.shaft, kind)
+        values[name] = along(model, shaft, kind)
         for joint, form in zip(model.robot.moving, model.geometry.forms, strict=True):
             if name + joint.name in names - values.keys():
                 values[name + joint.name] = combination(graph, form, model.inputs(kind))
     for name in ("load", "static", "torque"):
         if name in names:
-            values[name] = _on_shaft(graph, column.shaft, model.reference_torque(name))
+            values[name] = _on_shaft(graph, shaft, model.reference_torque(name))
     zero = graph.constant(0)
-    for signal in signals_read(column):
-        read = graph.symbol(f"s[{model.signals.index(signal)}]")
-        if signal.kind == "time":
-            values["t"] = read - values.get("t0", zero)
-        elif signal.kind == "temperature":
-            values["T"] = read - values.get("T0", zero)
-        else:
-            values["z"] = read
+    for name, value in read.items():
+        values[name] = value - values.get(f"{name}0", zero) if name in ("t", "T") else value
     functions = {name: partial(graph.call, name) for name in FUNCTIONS} | {LAW: graph.law}
     pi = graph.constant(Fraction(repr(math.pi)))
-    return graph.lift(column.equation.fold(values, functions, pi, graph.constant))
+    return graph.lift(equation.fold(values, functions, pi, graph.constant))
 
 
 def along(model: SymbolicModel, shaft: Mapping[int, Fraction], kind: str) -> Expr:

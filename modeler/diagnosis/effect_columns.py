@@ -13,7 +13,7 @@ from modeler.core.brief import Brief
 from modeler.core.manifest import ParameterSpec
 from modeler.diagnosis.candidates import Candidate, links_of
 from modeler.diagnosis.signals import EVERY, WINDOW, SignalReference, Signals, tilt_columns
-from modeler.effects import Acts
+from modeler.effects import NOISE, TURN, Acts
 from modeler.numerics.filters import SPREAD, only
 from modeler.observation import Observation, Stretch, observed_alike, signals_of
 
@@ -45,20 +45,32 @@ def own_columns(
         name: np.array([candidate.shapes[name] for candidate in candidates])
         for name in first.shapes
     }
+    span = window if memory is None else EVERY  # what remembers reads the stretch from its start
     read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
-    values |= {name: getattr(signals, name)[window, j, None] for name in read}
-    values |= {name: signals.of_other(name)[window, None] for name in first.form.others}
+    values |= {name: getattr(signals, name)[span, j, None] for name in read}
+    values |= {name: signals.of_other(name)[span, None] for name in first.form.others}
     if "t" in names:
-        values["t"] = signals.time[window, None]
+        values["t"] = signals.time[span, None]
+    if "since" in names:
+        backs = [candidate.shapes.get(TURN, NOISE) for candidate in candidates]
+        values["since"] = np.column_stack([signals.since(j, back)[span] for back in backs])
     if "T" in names and (warmth := signals.temperature(first.joint or "")) is not None:
-        values["T"] = warmth[window, None]
-    if memory is not None:
-        states = [signals.state(memory, j, candidate.shapes) for candidate in candidates]
-        values["z"] = np.column_stack(states)[window]
-    found = np.empty((len(signals.q[window]), len(candidates), len(first.form.columns)))
+        values["T"] = warmth[span, None]
     with np.errstate(all="ignore"):  # columns that are not finite are not looked at
+        if memory is not None:
+            x = np.zeros(1)
+            if memory.follows is not None:
+                x = memory.follows.fold(values, FUNCTIONS, np.pi, float)
+            followed = np.broadcast_to(x, (len(signals.q), len(candidates))).T
+            states = [
+                signals.state(memory, j, candidate.shapes, own)
+                for candidate, own in zip(candidates, followed, strict=True)
+            ]
+            values["z"] = np.column_stack(states)
+        found = np.empty((len(signals.q[span]), len(candidates), len(first.form.columns)))
         for k, column in enumerate(first.form.columns):
             found[:, :, k] = column.equation.fold(values, FUNCTIONS, np.pi, float)
+    found = found if memory is None else found[window]
     return found.reshape(len(found), -1)
 
 
@@ -281,7 +293,7 @@ def coarser(observation: Observation, compiled: "CompiledModel") -> Observation:
     parts = list[Stretch]()
     for part in observation.stretches:
         every = max(1, int(SPREAD / (cutoff * part.segment.step))) if cutoff > 0.0 else 1
-        read = signals_of(compiled.spec, part.segment)
+        read = signals_of(compiled, part.segment)
         parts.append(part.thinned(every, read) if every > 1 else part)
     return observed_alike(compiled, dataclasses.replace(observation, stretches=tuple(parts)))
 

@@ -9,6 +9,7 @@ Marx 1996). The smoothness s, and the coordinates where none are asked for, are 
 least on folds of time that were not fitted. A little r gives to physics what both could explain.
 """
 
+import dataclasses
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -32,7 +33,7 @@ from modeler.diagnosis.result import Pick
 from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
 from modeler.diagnosis.state import State
 from modeler.diagnosis.timing import smoothed
-from modeler.effects import effect_named, read_definition
+from modeler.effects import TURN, effect_named, read_definition
 from modeler.numerics.splines import beyond, flat_ends, second_differences, spline_products
 from modeler.robot import robot_from_text, with_own_effect
 
@@ -41,8 +42,14 @@ CELLS = (40, 14)
 
 _WAVE = 8  # cells for each wave that stands out in the residual
 _MOST_CELLS, _FEW = 240, 5
+_TRAVELS = (0.003, 0.03)
+"""After a reversal, of the range of motion: over which z turns, and what is a reversal at all."""
+
+_LAGS = (0.1, 0.4, 1.6)  # s
+_FACTOR = 1.1  # steps of these that are not worth a look
+
 _SMOOTH = tuple(10.0**power for power in range(-5, 4))
-_FIRST = (1e-2,)  # smoothness in which coordinates are compared
+_FIRST = (1e-2, 1.0)  # smoothness in which coordinates are compared
 _RIDGE = 1e-4  # of the mean square of a spline
 _ENDS = 1e-3  # share of the samples beyond either end
 _DIGITS = 6
@@ -81,6 +88,12 @@ class Coordinates(Brief):
         """Cells along each axis."""
         return self.cells or (CELLS[len(self.arguments) - 1],) * len(self.arguments)
 
+    def scaled(self, name: str, factor: float) -> "Coordinates":
+        """The same with another value of a shape of what it reads."""
+        (value,) = self.further["shapes"][name]
+        shapes = self.further["shapes"] | {name: [float(f"{value * factor:.4g}")]}
+        return dataclasses.replace(self, further=dict(self.further) | {"shapes": shapes})
+
     def values(self, state: State, j: int) -> list[np.ndarray]:
         """(samples, arguments + 1) by stretch: the arguments, then the factor.
 
@@ -108,7 +121,8 @@ class Learned(Brief):
         size: N m or N, times which it is the torque.
         torque: (rows_j,) N m or N, with the columns of the model fitted beside it.
         drop: (blocks,) fall of the squared residuals, weighted, on folds that were not fitted.
-        gain: the same as a share of the residual of its joint.
+        sure: fall of the error over its standard error, paired over blocks (see `score.scored`).
+        gain: fall of the squared residual, as a share of that of its joint.
         felt: rms of what it explains over the rms torque of its joint.
     """
 
@@ -117,13 +131,9 @@ class Learned(Brief):
     size: float
     torque: np.ndarray
     drop: np.ndarray
+    sure: float
     gain: float
     felt: float
-
-    @property
-    def sure(self) -> float:
-        """Fall over its standard error."""
-        return standard_errors(self.drop)
 
     @property
     def significant(self) -> bool:
@@ -228,43 +238,67 @@ def learn(state: State, j: int, asked: LawAsked = ANY_LAW) -> Learned | None:
     found = [(_Fit(state, j, own).best(_SMOOTH, asked.rising), own) for _, own in found[:_NEAR]]
     if not found:
         return None
-    fit, splines = _simplest(found)
+    fit, splines = _refined(state, j, *_simplest(found), asked.rising)
     return _learned(state, j, splines, fit)
 
 
+def _refined(
+    state: State, j: int, fit: "_Solved", splines: "_Splines", rising: int
+) -> tuple["_Solved", "_Splines"]:
+    """At a travel or a time of what remembers that loses less: steps by factors, ever smaller."""
+    for name in splines.coordinates.further.get("shapes", {}):
+        factor = 2.0
+        while factor > _FACTOR:
+            for times in (factor, 1.0 / factor):
+                tried = _splines(state, j, splines.coordinates.scaled(name, times))
+                if tried is not None:
+                    other = _Fit(state, j, tried).best(_SMOOTH, rising)
+                    if other.after.sum() < fit.after.sum():
+                        fit, splines = other, tried
+                        break
+            else:
+                factor = factor**0.5
+    return fit, splines
+
+
 def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
-    """Those that make sense on a joint: own, of others, and what is odd in v; simple ones first."""
-    odd, loads = "sign(v)", state.spec.closure is None
+    """Those that make sense on a joint: of every quantity alone, and beside v or q.
+
+    Odd in v, and not.
+    """
     peaks = [] if (spectrum := order_spectrum(state, j)) is None else spectrum.peaks
-    fine = min(_MOST_CELLS, round(_WAVE * max(peaks, default=0.0) * state.scales[j].range / 6.28))
-    waves: list[tuple[int, ...]] = [()] + ([(fine,)] if fine > CELLS[0] else [])
-    warm = state.names[j] in state.reference.temperature
-    others = [n for n in state.names if n != state.names[j]] if loads else []
-    for cells in waves:
-        yield Coordinates(("q",), cells=cells)
-        yield Coordinates(("q",), odd, cells=cells)
-    singles = ["v", "a", *(["load"] if loads else []), *(["T"] if warm else [])]
-    for name in singles:
-        yield Coordinates((name,))
-    yield Coordinates(("abs(v)",), odd)
-    if loads:
-        yield Coordinates(("load",), odd)
-    for name in others:
-        yield Coordinates((f"q{name}",))
-        yield Coordinates((f"q{name}",), odd)
-        yield Coordinates((f"v{name}",))
-    for name in ["q", *(["load"] if loads else []), *(["T"] if warm else [])]:
-        yield Coordinates(("abs(v)", name), odd)
-    yield Coordinates(("q", "v"))
-    if loads:
-        for cells in waves:
-            pair = (*cells, _FEW) if cells else ()
-            yield Coordinates(("q", "load"), cells=pair)
-        yield Coordinates(("v", "load"))
-    for name in others:
-        yield Coordinates(("abs(v)", f"q{name}"), odd)
-        yield Coordinates(("q", f"q{name}"))
-        yield Coordinates(("v", f"v{name}"))
+    turns = state.scales[j].range / (2.0 * np.pi)
+    fine = min(_MOST_CELLS, round(_WAVE * max(peaks, default=0.0) * turns))
+    waves = [0] + ([fine] if fine > CELLS[0] else [])
+    quantities = _quantities(state, j)
+    for x, further in quantities:
+        for cells in waves if x == "q" else [0]:
+            yield Coordinates((x,), "", further, (cells,) if cells else ())
+            odd = "abs(v)" if x == "v" else x
+            yield Coordinates((odd,), "sign(v)", further, (cells,) if cells else ())
+        if x != "v":
+            yield Coordinates(("v", x), "", further)
+            yield Coordinates(("abs(v)", x), "sign(v)", further)
+        for cells in waves if x not in ("q", "v") else []:
+            yield Coordinates(("q", x), "", further, (cells, _FEW) if cells else ())
+
+
+def _quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
+    """What a law may depend on, with what else its definition needs."""
+    found: list[tuple[str, Mapping[str, Any]]] = [("q", {}), ("v", {}), ("a", {})]
+    if state.names[j] in state.reference.temperature:
+        found.append(("T", {}))
+    if state.spec.closure is not None:  # in loops laws read the motion of their own joint
+        return found
+    others = [name for name in state.names if name != state.names[j]]
+    found += [("load", {}), *((f"{letter}{name}", {}) for name in others for letter in "qv")]
+    for share in _TRAVELS:
+        travel = float(f"{share * state.scales[j].range:.3g}")
+        found.append(("z", {"shapes": {"d": [travel]}}))
+        found.append(("sqrt(since)", {"shapes": {TURN: [travel]}}))
+    for tau in _LAGS:
+        found += [("z", {"lag": x, "shapes": {"tau": [tau]}}) for x in ("v", "abs(v)")]
+    return found
 
 
 def _simplest(found: Sequence[tuple["_Solved", "_Splines"]]) -> tuple["_Solved", "_Splines"]:
@@ -274,7 +308,7 @@ def _simplest(found: Sequence[tuple["_Solved", "_Splines"]]) -> tuple["_Solved",
     near = [
         item for item in found
         if item is best or (item[0].drop.sum() > NEARLY * total
-                            and standard_errors(best[0].drop - item[0].drop) <= STANDARD_ERRORS)
+                            and standard_errors(item[0].after - best[0].after) <= STANDARD_ERRORS)
     ]  # fmt: skip
     return min(near, key=lambda item: (len(item[1].counts), -float(item[0].drop.sum())))
 
@@ -332,12 +366,21 @@ def _splines(state: State, j: int, coordinates: Coordinates) -> _Splines | None:
 
 @dataclass(frozen=True, eq=False)
 class _Solved(Brief):
-    """Coefficients (f,) at a smoothness, and what they are worth where they were not fitted."""
+    """Coefficients (f,), and squared residuals (blocks,) where they were not fitted."""
 
     c: np.ndarray
-    beta: np.ndarray
-    drop: np.ndarray
-    smooth: float
+    before: np.ndarray
+    after: np.ndarray
+
+    @property
+    def drop(self) -> np.ndarray:
+        """(blocks,) fall of the squared residuals."""
+        return self.before - self.after
+
+    @property
+    def sure(self) -> float:
+        """Fall of the error over its standard error."""
+        return standard_errors(np.sqrt(self.before) - np.sqrt(self.after))
 
 
 class _Fit:
@@ -402,15 +445,14 @@ class _Fit:
 
     def best(self, grid: Sequence[float], rising: int = 0) -> _Solved:
         """At the smoothness of the grid that loses least on rows that were not fitted."""
-        drops = [(self._drop(smooth, rising), smooth) for smooth in grid]
-        drop, smooth = max(drops, key=lambda item: float(item[0].sum()))
+        every = [(*self._left(smooth, rising), smooth) for smooth in grid]
+        before, after, smooth = min(every, key=lambda item: float(item[1].sum()))
         found = self.solved(None, smooth, rising)
-        if found is None:
-            return _Solved(np.zeros(self.B.shape[1]), self.whole[1], np.zeros_like(drop), smooth)
-        return _Solved(*found, drop, smooth)
+        c = np.zeros(self.B.shape[1]) if found is None else found[0]
+        return _Solved(c, before, after)
 
-    def _drop(self, smooth: float, rising: int) -> np.ndarray:
-        """(blocks,) fall of the squared residuals of all joints where they were not fitted."""
+    def _left(self, smooth: float, rising: int) -> tuple[np.ndarray, np.ndarray]:
+        """(blocks,) squared residuals of all joints, without and with, of folds not fitted."""
         base = self.state.base
         after = np.zeros(base.blocks)
         before = np.zeros(base.blocks)
@@ -428,7 +470,7 @@ class _Fit:
                     e[rows] -= self.B[rows] @ found[0]
             before += np.bincount(block, left**2, base.blocks)
             after += np.bincount(block, e**2, base.blocks)
-        return before - after
+        return before, after
 
 
 def _learned(state: State, j: int, splines: _Splines, fit: _Solved) -> Learned | None:
@@ -443,7 +485,7 @@ def _learned(state: State, j: int, splines: _Splines, fit: _Solved) -> Learned |
     asked = float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2))
     fall = float(fit.drop.sum())
     return Learned(
-        splines.coordinates, law, size, torque, fit.drop,
+        splines.coordinates, law, size, torque, fit.drop, fit.sure,
         gain=min(1.0, fall / max(before, 1e-300)),
         felt=float(np.sqrt(max(0.0, fall) / (asked + 1e-300))),
     )  # fmt: skip

@@ -11,7 +11,7 @@ from scipy.linalg import expm
 from modeler.core.brief import Brief
 from modeler.effects import Memory
 from modeler.numerics.filters import recursion
-from modeler.observation import Segment, bristle, nearest_closed, signals_of
+from modeler.observation import Segment, bristle, lag, nearest_closed, signals_of, since_reversal
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -93,7 +93,7 @@ class Signals(Brief):
     @cached_property
     def read(self) -> np.ndarray | None:
         """(n, m) what effects of the model read besides the motion."""
-        return signals_of(self.reference.compiled.spec, self.segment)
+        return signals_of(self.reference.compiled, self.segment)
 
     def base_regressor(self, window: slice) -> np.ndarray:
         """(n, J, c) of the model, over a window of the samples."""
@@ -137,6 +137,16 @@ class Signals(Brief):
         """(n, J) time derivative of `torque`."""
         return np.gradient(self.torque, self.step, axis=0)
 
+    def since(self, j: int, back: float) -> np.ndarray:
+        """(n,) s since joint j last turned back, by more than `back`."""
+        if (j, back) not in self._since:
+            self._since[j, back] = since_reversal(self.q[:, j], self.step, back)[1]
+        return self._since[j, back]
+
+    @cached_property
+    def _since(self) -> dict[tuple[int, float], np.ndarray]:
+        return {}
+
     @cached_property
     def coupling(self) -> np.ndarray:
         """(n, variables, J) G of ud = G qd; only for robots with loops."""
@@ -167,8 +177,12 @@ class Signals(Brief):
                 return self.segment.extra[name] - self.reference.temperature[joint]
         return np.zeros(len(self.q))
 
-    def state(self, memory: Memory, j: int, shapes: Mapping[str, float]) -> np.ndarray:
-        """(n,) inner state z on joint j, for shape parameters by name."""
+    def state(
+        self, memory: Memory, j: int, shapes: Mapping[str, float], followed: np.ndarray
+    ) -> np.ndarray:
+        """(n,) inner state z on joint j, for shape parameters by name; what a lag follows, (n,)."""
+        if memory.kind == "lag":
+            return lag(followed, self.step, shapes[memory.shape])
         if memory.kind == "slip":
             return bristle(self.q[:, j], shapes[memory.shape])
         return resonance(self.load[:, j], self.step, shapes[memory.shape], shapes[memory.damping])

@@ -394,7 +394,7 @@ def _fixed(candidate: Candidate) -> bool:
     return (
         candidate.form.names.isdisjoint({"load", "static", "torque", "rate"})
         and candidate.effect.acts in _FIXED
-        and (memory is None or memory.kind == "slip")
+        and (memory is None or memory.kind != "resonance")
     )
 
 

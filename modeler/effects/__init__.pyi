@@ -12,6 +12,9 @@ from .definition import (
 )
 from .effect import (
     MOTION as MOTION,
+    NOISE as NOISE,
+    TURN as TURN,
+    VARIABLES as VARIABLES,
     Acts as Acts,
     Effect as Effect,
     EffectColumn as EffectColumn,

@@ -13,6 +13,7 @@ from modeler.core.law import BESIDE, MOST as MOST_VALUES, Law
 from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 from modeler.effects.effect import (
     MOTION,
+    TURN,
     VARIABLES,
     Acts,
     Effect,
@@ -29,8 +30,13 @@ EXAMPLE = '[own_effects.brake] columns = {Keb = "v*abs(v)"}'
 MOST = 100
 """Combinations of the first values of shapes: a diagnosis tries each on each joint."""
 
-_KEYS = ("title", "columns", "shapes", "unit", "nonnegative", "acts", "law")
+_KEYS = ("title", "columns", "shapes", "unit", "nonnegative", "acts", "lag", "law")
 _LAW = "law = {low = [-1], high = [1], cells = [2], values = [0, 0, 0, 1, 1]}"
+_SLIPS = (
+    "turns over a travel of the joint, which has no positive values here; add it, as in shapes = "
+    "{d = [0.002, 0.02"
+)
+_LAGS = "lags by a time, which has no positive values here; add it, as in shapes = {tau = [0.1, 1"
 _CATALOGUE_KEYS = (
     *_KEYS, "scale", "limits", "meaning", "prismatic_unit", "kind", "energy", "largest",
     "resonance", "forms", "needs",
@@ -45,11 +51,12 @@ _STATES = 12  # of a joint, in which equations are tried, besides rest
 
 _PLAIN = {
     "q": "position", "v": "speed", "a": "acceleration", "load": "load", "static": "load",
-    "torque": "torque", "t": "time", "T": "temperature", "z": "travel since the last reversal",
+    "torque": "torque", "t": "time", "T": "temperature", "since": "time since the last reversal",
+    "z": "travel since the last reversal",
 }  # fmt: skip
 _AXES: dict[str, Shows] = {
-    "T": "T", "t": "t", "load": "load", "static": "load", "torque": "torque", "z": "travel",
-    "q": "q", "a": "a",
+    "T": "T", "t": "t", "load": "load", "static": "load", "torque": "torque", "since": "since",
+    "z": "travel", "q": "q", "a": "a",
 }  # fmt: skip
 """Variable -> axis; the first that an equation uses shows it: friction that also depends on
 something else shows itself there, turned with the motion."""
@@ -63,8 +70,8 @@ def read_definition(
 
     Args:
         name: its id.
-        place: the table: title, columns, shapes, unit, nonnegative, acts, law; in the catalogue
-            also what else an `Effect` says of itself.
+        place: the table: title, columns, shapes, unit, nonnegative, acts, lag, law; in the
+            catalogue also what else an `Effect` says of itself.
         taken: names of parameters that it must not have -> whose they are.
         own: of a robot file: it has the first keys only, and its equations are tried.
         joints: whose motion its equations may read, as `v3`; None: they were checked before.
@@ -83,13 +90,18 @@ def read_definition(
         _check_form(forms[0], acts, place)
     columns, used = forms[0].columns, forms[0].names
     told = [_PLAIN[v] for v in _PLAIN if v in used]
+    late = ""
+    if (memory := forms[0].memory) is not None and memory.follows is not None:
+        late = f", z' = ({memory.follows.text} - z)/tau"
+        told[told.index(_PLAIN["z"])] = f"{memory.follows.text} of a while ago"
     told += [f"{_PLAIN[other[0]]} of joint {other[1:]}" for other in sorted(forms[0].others)]
     quantities = " and ".join(dict.fromkeys(told)) or "time"
     axis = next((axis for variable, axis in _AXES.items() if variable in used), "v")
+    axis = "itself" if late else axis
     title = place.at("title", table.get("title", f"{name} of the robot file"))
     stated: dict[str, Any] = {
         "aliases": (),
-        "equation": " + ".join(f"{c.prefix} * ({c.equation.text})" for c in columns),
+        "equation": " + ".join(f"{c.prefix} * ({c.equation.text})" for c in columns) + late,
         "family": name,
         "signature": f"residual against {quantities}: the curve of its equation",
         "shows": "itself" if acts is Acts.POSITION else axis,
@@ -132,6 +144,7 @@ class _Names:
     variables: Sequence[str]
     joints: Collection[str] | None
     shapes: Sequence[str] = ()
+    law: Law | None = None
 
     def is_motion(self, name: str) -> bool:
         """True of `v3`, if there is a joint 3, or nobody knows."""
@@ -139,8 +152,9 @@ class _Names:
         known = joint != "" if self.joints is None else joint in self.joints
         return head in MOTION and known
 
-    def check(self, equation: Expression, place: Place) -> None:
-        """Refuses a name that is none of them."""
+    def equation(self, place: Place) -> Expression:
+        """The equation at a place, which reads nothing else."""
+        equation = place.expression(self.law)
         every = (*self.variables, *self.shapes)
         for name in sorted(equation.names):
             if name not in every and not self.is_motion(name):
@@ -150,23 +164,31 @@ class _Names:
                     f"names among {listed(every)}{joints * bool(self.joints)}; list others under "
                     "shapes"
                 )
+        return equation
 
 
 def _form(table: Mapping[str, Any], known: _Names, taken: Mapping[str, str], place: Place) -> Form:
     shapes = _shapes(table, known, place.at("shapes", table.get("shapes", {})))
-    known = dataclasses.replace(known, shapes=[shape.name for shape in shapes])
     law = _law(place.at("law", table["law"])) if "law" in table else None
-    columns = _columns(table, known, taken, place, law)
-    memory = None
+    known = dataclasses.replace(known, shapes=[shape.name for shape in shapes], law=law)
+    columns = _columns(table, known, taken, place)
+    memory, remembers = None, any("z" in column.equation.names for column in columns)
     if "resonance" in table:
         memory = Memory("resonance", *table["resonance"])
-    elif any("z" in column.equation.names for column in columns):
+    elif "lag" in table:
+        plain = [name for name in known.variables if name != "z"]
+        follows = dataclasses.replace(known, variables=plain).equation(
+            place.at("lag", table["lag"])
+        )
+        memory = Memory("lag", "tau", follows=follows)
+        if not remembers:
+            raise place.at("lag").error("no equation uses z, which lags; use it, or take lag out")
+    elif remembers:
         memory = Memory("slip", "d")
-        if not any(shape.name == "d" and shape.grid[0] > 0.0 for shape in shapes):
-            raise place.at("shapes").error(
-                "z turns over a travel of the joint, which has no positive values here; add it, "
-                "as in shapes = {d = [0.002, 0.02]}"
-            )
+    for kind, name, turns in (("slip", "d", _SLIPS), ("lag", "tau", _LAGS)):
+        known_shape = any(shape.name == name and shape.grid[0] > 0.0 for shape in shapes)
+        if memory is not None and memory.kind == kind and not known_shape:
+            raise place.at("shapes").error(f"z {turns}]}}")
     return Form(columns, shapes, memory)
 
 
@@ -215,9 +237,8 @@ def _limits(grid: Sequence[float]) -> tuple[float, float]:
 
 
 def _columns(
-    table: Mapping[str, Any], known: _Names, taken: Mapping[str, str], place: Place,
-    law: Law | None,
-) -> tuple[EffectColumn, ...]:  # fmt: skip
+    table: Mapping[str, Any], known: _Names, taken: Mapping[str, str], place: Place
+) -> tuple[EffectColumn, ...]:
     here = place.at("columns", table.get("columns"))
     if not here.value:
         raise here.error(f"is missing; expected parameters and their equations, as in {EXAMPLE}")
@@ -240,8 +261,7 @@ def _columns(
                 f"the parameter {shown(prefix)} is that of {taken[prefix]} already; choose "
                 "another name"
             )
-        equation = here.at(prefix, cell).expression(law)
-        known.check(equation, here.at(prefix))
+        equation = known.equation(here.at(prefix, cell))
         block = EnergyBlock[(energy[prefix] if isinstance(energy, dict) else energy).upper()]
         kind, largest = table.get("kind", "other"), table.get("largest", math.inf)
         unit, other = units[prefix], prismatic[prefix]
@@ -301,7 +321,10 @@ def _units(value: Any, prefixes: Sequence[str], place: Place) -> dict[str, str]:
 def _check_form(form: Form, acts: Acts, place: Place) -> None:
     """Every shape is used, and every equation has a value wherever a joint may be."""
     memory = {form.memory.shape} if form.memory else set()
-    used = frozenset().union(memory, *(column.equation.names for column in form.columns))
+    follows = form.memory and form.memory.follows
+    equations = [column.equation for column in form.columns] + ([follows] if follows else [])
+    used = frozenset().union(memory, *(equation.names for equation in equations))
+    used |= {TURN} if "since" in used else set()
     for shape in form.shapes:
         if shape.name not in used:
             raise place.at("shapes").error(f"no equation uses {shape.name}; use it or take it out")
@@ -332,16 +355,24 @@ def check_finite(form: Form, place: Place, given: Mapping[str, float] | None = N
     grid = itertools.product(*(shape.grid for shape in form.shapes))
     every = (dict(zip(names, values, strict=True)) for values in grid)
     states = list(_states(form))
+    named = [(column.prefix, column.equation) for column in form.columns]
+    follows = form.memory and form.memory.follows
+    named = [*([("lag", follows)] if follows else []), *named]
     for shapes in every if given is None else [given]:
-        for column, state in itertools.product(form.columns, states):
-            if not _is_finite(column, {**state, **shapes}):
-                used = column.equation.names
-                values = {**{n: v for n, v in state.items() if n in used}, **shapes}
-                raise place.error(
-                    f"{column.prefix} = {shown(column.equation.text)} has no finite value at "
-                    f"{listed(f'{name} = {value:.3g}' for name, value in values.items())}; "
-                    f"expected one of at most {LARGEST:g} in every state of the joint, at rest too"
-                )
+        for state in states:
+            values = {**state, **shapes}
+            for name, equation in named:
+                result = _number(equation, values)
+                if result is None:
+                    used = equation.names
+                    told = {**{n: v for n, v in values.items() if n in used}, **shapes}
+                    raise place.error(
+                        f"{name} = {shown(equation.text)} has no finite value at "
+                        f"{listed(f'{name} = {value:.3g}' for name, value in told.items())}; "
+                        f"expected one of at most {LARGEST:g} in every state of the joint, at rest "
+                        "too"
+                    )
+                values |= {"z": result} if name == "lag" else {}  # z lies among such values
 
 
 def _states(form: Form) -> Iterator[Mapping[str, float]]:
@@ -352,11 +383,14 @@ def _states(form: Form) -> Iterator[Mapping[str, float]]:
     yield dict.fromkeys(names, 0.0)
     draw = random.Random(0)
     for _ in range(_STATES):
-        yield {name: draw.uniform(-3.0, 3.0) for name in names}
+        values = {name: draw.uniform(-3.0, 3.0) for name in names}
+        yield values | {"since": abs(values["since"])}
 
 
-def _is_finite(column: EffectColumn, values: Mapping[str, float]) -> bool:
+def _number(equation: Expression, values: Mapping[str, float]) -> float | None:
+    """Its value; None where it has none, or one that is too large."""
     try:
-        return abs(column.equation.number(values)) <= LARGEST
+        result = equation.number(values)
     except (ArithmeticError, ValueError, TypeError):  # a root of a negative number is complex
-        return False
+        return None
+    return result if abs(result) <= LARGEST else None

@@ -50,7 +50,9 @@ class Needs(enum.Enum):
     FRICTION = "it is a part of the friction of its joint, never larger than all of it"
 
 
-Shows = Literal["q", "v", "a", "load", "torque", "rate", "t", "T", "travel", "waves", "itself"]
+Shows = Literal[
+    "q", "v", "a", "load", "torque", "rate", "t", "T", "since", "travel", "waves", "itself"
+]
 """The axis against which a residual shows an effect: a variable of `VARIABLES`; the travel since
 the joint last turned back; waves per turn; or the torque of the effect itself, where it is a
 function of no single quantity."""
@@ -107,14 +109,17 @@ class Memory:
 
     Attributes:
         kind: "slip": z' = (v/d)(1 - z sign v), the bristle of Dahl's friction; "resonance": the
-            load through the oscillator z'' = w^2 (load - z) - 2 zeta w z', w = 2 pi f.
-        shape: name of the shape parameter that sets it (d or f).
+            load through the oscillator z'' = w^2 (load - z) - 2 zeta w z', w = 2 pi f; "lag":
+            z' = (x - z)/tau.
+        shape: name of the shape parameter that sets it (d, f or tau).
         damping: of a resonance, name of the shape parameter that is zeta.
+        follows: of a lag, x.
     """
 
-    kind: Literal["slip", "resonance"]
+    kind: Literal["slip", "resonance", "lag"]
     shape: str
     damping: str = ""
+    follows: Expression | None = None
 
 
 @dataclass(frozen=True)
@@ -152,9 +157,16 @@ VARIABLES = {
     "rate": "d torque / dt",
     "t": "time of the log, s",
     "T": "temperature of the joint less its mean over the logs, K",
+    "since": "time since the joint last turned back, s; before, since the start of the stretch",
     "z": "inner state of the effect",
 }
 """What the equation of a column may use; SI units."""
+
+TURN = "back"
+"""Shape of an effect that reads `since`: a joint that has come back by more has turned back."""
+
+NOISE = 3e-3
+"""rad or m of `TURN` where an effect does not say it: two counts of 2**12 in a turn."""
 
 MOTION = ("q", "v", "a")
 """Those that it may read of another joint too, whose name follows: `v3`."""
@@ -182,7 +194,10 @@ class Form(Brief):
     @cached_property
     def names(self) -> frozenset[str]:
         """Variables that its equations use: of `VARIABLES`, and as `v3` of other joints."""
-        used = frozenset().union(*(column.equation.names for column in self.columns))
+        equations = [column.equation for column in self.columns]
+        if self.memory is not None and self.memory.follows is not None:
+            equations.append(self.memory.follows)
+        used = frozenset().union(*(equation.names for equation in equations))
         return used - {shape.name for shape in self.shapes}
 
     @cached_property
@@ -282,9 +297,8 @@ class Effect(Brief):
         """True if a robot file may name it: its columns are functions of the joints' motion."""
         acts = self.acts in (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
         names = frozenset().union(*(form.names for form in self.forms))
-        remembers = any(form.memory and form.memory.kind != "slip" for form in self.forms)
         moved = self.acts is Acts.POSITION and not names.isdisjoint({"load", "z"})
-        return acts and not remembers and not moved and "rate" not in names
+        return acts and not self.rings and not moved and "rate" not in names
 
     @property
     def coupled(self) -> bool:

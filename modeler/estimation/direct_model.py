@@ -89,7 +89,7 @@ class DirectModel:
         self.commanded = all(segment.commanded is not None for segment in self.segments)
         self.cutoff = observation.report.processing.position_cutoff
         self.references = [self._reference(segment) for segment in self.segments]
-        self.signals = [signals_of(model.spec, segment) for segment in self.segments]
+        self.signals = [signals_of(model, segment) for segment in self.segments]
         self.raised = 0.0  # share of samples whose inertia matrix was not positive definite
         self.lightest = 0  # the joint that moves most along its lowest eigenvalue
 

@@ -177,7 +177,7 @@ def _rows(
 ) -> tuple[np.ndarray, ...]:
     """W, y, balance, spread and times of the windows of one segment."""
     w = weights(windows.shape[1] - 1, s.step, rule)
-    signals = signals_of(model.spec, s)
+    signals = signals_of(model, s)
     per_block = max(1, _BLOCK // len(w))
     blocks = []
     for first in range(0, len(windows), per_block):

@@ -185,7 +185,7 @@ def all_rows(
     Raises:
         DataError: as `stream`.
     """
-    if any(signal.kind == "slip" for signal in model.spec.signals):
+    if any(signal.inner for signal in model.spec.signals):
         raise WholeLogNeeded(
             f"{sources[0].name}: an effect of {model.spec.robot} remembers its motion without end, "
             "and long logs are read in chunks; fit a part of it, FILE@START:END"

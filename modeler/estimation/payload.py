@@ -129,7 +129,7 @@ def _with_load(
     units = [model.spec.standard[i].unit for i in places]
 
     def evaluate(s: Segment, w: slice) -> np.ndarray:
-        read = signals_of(model.spec, s)
+        read = signals_of(model, s)
         part = None if read is None else read[w]
         return model.regressor(s.q[w], s.qd[w], s.qdd[w], part)[:, :, places]
 

@@ -1,13 +1,11 @@
 """The columns of a model along a motion, smooth where speeds change sign, and their slopes."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.errors import DataError
-from modeler.core.manifest import ModuleSpec
-from modeler.observation import bristle
+from modeler.observation import signals_along
 from modeler.runtime import CompiledModel
 
 NEAR_REST = 1e-7
@@ -36,9 +34,9 @@ class MotionColumns:
     flips: np.ndarray
     soft: float = 0.03
 
-    def read(self, q: np.ndarray, time: np.ndarray) -> np.ndarray | None:
-        """(n, m) what effects of the model read besides the motion."""
-        return signals(self.compiled.spec, q, time)
+    def read(self, motion: Sequence[np.ndarray], time: np.ndarray) -> np.ndarray | None:
+        """(n, m) what effects of the model read besides q, qd, qdd."""
+        return signals(self.compiled, motion, time)
 
     def exact(
         self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None
@@ -106,7 +104,7 @@ def columns_of(
     rng = np.random.default_rng(0)
     near = middle + 0.1 * half * rng.uniform(-1, 1, (_STATES, joints))
     flips = np.zeros((joints, joints, wide))
-    read = signals(compiled.spec, near, np.zeros(_STATES))
+    read = signals(compiled, (near, 0.0 * near, 0.0 * near), np.zeros(_STATES))
     for j in range(joints):
         qd = 0.5 * speed * rng.uniform(0.2, 1.0, (_STATES, joints))
         sides = []
@@ -120,28 +118,11 @@ def columns_of(
     return MotionColumns(compiled, half, speed, flips)
 
 
-def signals(spec: ModuleSpec, q: np.ndarray, time: np.ndarray) -> np.ndarray | None:
-    """(n, m) what effects read besides the motion, at the temperature of their reference.
-
-    Raises:
-        DataError: one reads what no motion tells.
-    """
-    if not spec.signals:
-        return None
-    names = [joint.name for joint in spec.joints]
-    found = []
-    for signal in spec.signals:
-        if signal.kind == "time":
-            found.append(time)
-        elif signal.kind == "slip":
-            found.append(bristle(q[:, names.index(signal.joint)], signal.value))
-        elif signal.kind == "temperature":
-            found.append(np.zeros(len(q)))
-        else:
-            raise DataError(
-                f"{spec.robot}: an effect reads {signal.kind}; expected what a motion tells"
-            )
-    return np.column_stack(found)
+def signals(
+    compiled: CompiledModel, motion: Sequence[np.ndarray], time: np.ndarray
+) -> np.ndarray | None:
+    """(n, m) what effects read besides the motion, at the temperature of their reference."""
+    return signals_along(compiled, motion, time, lambda joint: np.zeros(len(time)))
 
 
 # What makes an observation matrix good, as a number to minimise, and its slope by the matrix.

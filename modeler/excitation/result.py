@@ -330,7 +330,7 @@ def _panels(motion: Exciting, compiled: CompiledModel) -> list[tuple[str, np.nda
         ("acceleration, share of its limit", qdd / b.acceleration),
     ]
     if motion.beta is not None:
-        read = signals(compiled.spec, q, time)
+        read = signals(compiled, (q, qd, qdd), time)
         torque = compiled.inverse_dynamics(q, qd, qdd, motion.beta, read)
         largest = np.abs(torque).max(axis=0)
         most = np.where(np.isfinite(b.torque), b.torque, np.where(largest > 0.0, largest, 1.0))

@@ -281,7 +281,7 @@ def used(task: Task, x: np.ndarray) -> Used:
     q, qd, qdd = fine.series.motion(x)
     loads = None
     if task.beta is not None:
-        s = fine.columns.read(q, fine.series.time)
+        s = fine.columns.read((q, qd, qdd), fine.series.time)
         loads = np.abs(fine.columns.exact(q, qd, qdd, s) @ task.beta).max(axis=0)
     posture = fine.posture.shares(q)
     return Used(

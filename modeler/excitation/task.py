@@ -64,7 +64,7 @@ class Task:
 
     def phi(self, motion: Motion) -> np.ndarray:
         """(n, J, c) the columns of the model, with dry friction as it is."""
-        s = self.columns.read(motion[0], self.series.time)
+        s = self.columns.read(motion, self.series.time)
         return self.columns.exact(*motion, s)
 
     def weighted(self, phi: np.ndarray) -> np.ndarray:
@@ -138,7 +138,7 @@ class Task:
         ends = (0.0, self.series.duration) if self.columns.compiled.spec.signals else (0.0,)
         try:
             share = float(np.abs(self.posture.shares(q[:1])).max(initial=0.0))
-            read = [self.columns.read(q, np.full(len(q), time)) for time in ends]
+            read = [self.columns.read((q, qd, 0.0 * q), np.full(len(q), time)) for time in ends]
             loads = [self.torques(self.columns.exact(q, qd, 0.0 * q, s)) for s in read]
         except LoopError:
             return np.inf
@@ -193,7 +193,7 @@ class Walled:
             posture = task.posture.shares(motion[0]) / task.share
             if not np.abs(posture).max(initial=0.0) < 1.0:
                 return np.inf
-            s = task.columns.read(motion[0], task.series.time)
+            s = task.columns.read(motion, task.series.time)
             phi = task.columns.smooth(*motion, s)
         except LoopError:
             return np.inf

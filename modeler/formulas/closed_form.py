@@ -91,7 +91,15 @@ def written_symbols(model: SymbolicModel, parameters: Mapping[int, str]) -> dict
 
 def signal_symbols(model: SymbolicModel) -> list[str]:
     """How the signals are written that effects read besides the motion: t1, T2, z3."""
-    kinds = {"time": "t", "temperature": "T", "slip": "z"}
+    kinds = {
+        "time": "t",
+        "temperature": "T",
+        "slip": "z",
+        "direction": "w",
+        "since": "r",
+        "followed": "x",
+        "lag": "z",
+    }
     return [f"{kinds[signal.kind]}{k + 1}" for k, signal in enumerate(model.signals)]
 
 

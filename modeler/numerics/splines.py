@@ -2,12 +2,13 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 from itertools import combinations_with_replacement
 
 import numpy as np
 from scipy.linalg.lapack import sposv
 from scipy.optimize import nnls
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import csr_array, diags_array, kron
 
 from modeler.core.law import BESIDE, Law
 
@@ -182,12 +183,24 @@ def spline_products(
 
 def curve(x: np.ndarray, count: int = 16) -> np.ndarray:
     """(n, count) splines over x (n,), which sum to one: any smooth function of it."""
-    low, high = float(x.min()), float(x.max())
-    if not high > low:
-        return np.ones((x.size, 1))
-    axis, cells = np.column_stack([x, np.ones(x.size)]), count + 1
-    splines = spline_products(axis, [beyond(low, high, cells)], [cells]) @ flat_ends(cells)
-    return np.asarray(splines.toarray())
+    return _of_all(x[:, None], count)
+
+
+def surface(x: np.ndarray, y: np.ndarray, count: int = 7) -> np.ndarray:
+    """(n, count**2) products of splines over x (n,) and y (n,): any smooth function of both."""
+    return _of_all(np.column_stack([x, y]), count)
+
+
+def _of_all(x: np.ndarray, count: int) -> np.ndarray:
+    """Splines over the columns of x (n, d) that are not constant."""
+    moving = x[:, np.ptp(x, axis=0) > 0.0]
+    if not moving.size:
+        return np.ones((len(x), 1))
+    cells = [count + 1] * moving.shape[1]
+    ends = [beyond(float(a.min()), float(a.max()), count + 1) for a in moving.T]
+    values = np.column_stack([moving, np.ones(len(x))])
+    free = reduce(kron, [flat_ends(count + 1) for _ in cells])
+    return np.asarray((spline_products(values, ends, cells) @ free).toarray())
 
 
 def friction_curve(v: np.ndarray) -> np.ndarray:
@@ -213,7 +226,7 @@ OWN = ("own", "surface")
 _SPLINES = {"q": 16, "v": 20, "a": 10, "load": 12, "torque": 12}
 _OTHER = {"q": 14, "v": 12, "a": 6}
 _SUM = 7  # splines
-_OWN, _BENT, _PAIR, _WIDE, _PAIRS = 60, 30, 30, 60, 150  # random features
+_OWN, _WIDE, _PAIRS = 60, 60, 150  # random features
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,19 +258,19 @@ def functions(measured: Measurements) -> Iterator[tuple[str, np.ndarray]]:
     """Sets of functions with names: "own", "surface" of the joint, "0", ... of others, "wide".
 
     Curves are sums of splines of one coordinate, with and without the direction of the joint:
-    friction and other torques of any shape. Surfaces are random Fourier features (Rahimi and Recht
-    2007) of several coordinates.
+    friction and other torques of any shape; surfaces are products of these of two coordinates, and
+    of more random Fourier features (Rahimi and Recht 2007).
     """
     generator = np.random.default_rng(5)
     m, j = measured, measured.joint
     way = m.direction[:, None]
     own = np.column_stack([x[:, j] for x in (m.q, m.v, m.a, m.load)])
     yield "own", _of_joint(m, way)
-    bent = _fourier(own, _OWN, generator), _fourier(own[:, :2], _BENT, generator) * way
+    bent = _fourier(own, _OWN, generator), surface(*own[:, :2].T) * way
     yield "surface", np.column_stack(bent)
     for k in range(m.q.shape[1]):
         if k != j:
-            yield str(k), _of_other(m, k, way, generator)
+            yield str(k), _of_other(m, k, way)
     near = np.column_stack([m.q, m.v])
     yield "sum", np.hstack([curve(x, _SUM) for x in (*m.q.T, *m.v.T)])
     yield "wide", np.column_stack([near, m.a, m.load, m.torque, _fourier(near, _WIDE, generator)])
@@ -273,14 +286,11 @@ def _of_joint(m: Measurements, way: np.ndarray) -> np.ndarray:
     return np.hstack(parts)
 
 
-def _of_other(
-    m: Measurements, k: int, way: np.ndarray, generator: np.random.Generator
-) -> np.ndarray:
+def _of_other(m: Measurements, k: int, way: np.ndarray) -> np.ndarray:
     curves = [curve(getattr(m, name)[:, k], count) for name, count in _OTHER.items()]
     plain = np.column_stack([x[:, k] for x in (m.v, m.a, m.load, m.torque)])
-    both = np.column_stack([m.q[:, k], m.v[:, k]])
     return np.hstack([*curves, curves[0][:, ::2] * way, plain, np.abs(plain) * way,
-                      np.sign(m.v[:, [k]]), _fourier(both, _PAIR, generator)])  # fmt: skip
+                      np.sign(m.v[:, [k]]), surface(m.q[:, k], m.v[:, k])])  # fmt: skip
 
 
 def _fourier(x: np.ndarray, count: int, generator: np.random.Generator, few: int = 0) -> np.ndarray:

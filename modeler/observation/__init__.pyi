@@ -25,7 +25,14 @@ from .log import (
     check_apart as check_apart,
     shared_rows as shared_rows,
 )
-from .low_speed import bristle as bristle, shafts as shafts, signals_of as signals_of
+from .low_speed import (
+    bristle as bristle,
+    lag as lag,
+    shafts as shafts,
+    signals_along as signals_along,
+    signals_of as signals_of,
+    since_reversal as since_reversal,
+)
 from .motion import (
     HIGHEST as HIGHEST,
     Segment as Segment,

@@ -139,7 +139,7 @@ def thinned(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
             total = masked.sum(axis=1)
             own.append(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ masked)
         samples.append((part.segment, reached))
-        signals = signals_of(compiled.spec, part.segment)
+        signals = signals_of(compiled, part.segment)
         read += [] if signals is None else [signals[reached]]
     place = np.concatenate(chosen)
     return ThinnedRows(

@@ -1,12 +1,13 @@
 """Shafts with dry friction that all but stand still; inner states of bristles; signals."""
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from modeler.core.errors import DataError, LoopError
-from modeler.core.manifest import ModuleSpec, SignalSpec
+from modeler.numerics.filters import recursion
 from modeler.observation.motion import Segment, near
 from modeler.observation.motion_noise import MotionNoise
 from modeler.observation.settings import ChosenProcessing
@@ -179,11 +180,11 @@ def moving(
     return fast
 
 
-# The bristle of Dahl's friction along measured positions.
+# Inner states along measured positions, as `advance` of the C steps them.
 
 
 def bristle(q: np.ndarray, distance: float) -> np.ndarray:
-    """(n,) the state z along positions q (n,), from z = sign v at the start.
+    """(n,) the state z of Dahl's friction along positions q (n,), from z = sign v at the start.
 
     z' = (v/d)(1 - z sign v): between reversals z = s + (z0 - s) exp(-travel/d), s = sign v.
     """
@@ -204,6 +205,37 @@ def bristle(q: np.ndarray, distance: float) -> np.ndarray:
     return np.concatenate([direction[:1], direction + np.repeat(apart, lengths) * left])
 
 
+def since_reversal(q: np.ndarray, step: float, back: float) -> tuple[np.ndarray, np.ndarray]:
+    """Direction and s since the joint last turned back, along positions q (n,); each (n,).
+
+    It has turned once it has come back by more than `back`, which takes twice as long at constant
+    acceleration as at the speed that it has then; before the first time, s since the start. The
+    sign of the direction is the way it goes; its size is 1 less the share of `back` come back.
+    """
+    way, since = np.zeros(len(q)), step * np.arange(len(q))
+    far = np.flatnonzero(np.abs(q - q[0]) > back)
+    if not len(far):
+        return way, since
+    way[0] = told = float(np.sign(q[far[0]] - q[0]))
+    ago = 0.0
+    for k, share in enumerate((np.diff(q) / back).tolist(), start=1):
+        moved, ago = told + share, ago + step
+        if moved * told < 0.0:
+            ago = min(ago, 2.0 * (1.0 + abs(moved)) * step / abs(share))
+            told = math.copysign(1.0, moved)
+        else:
+            told = min(1.0, max(-1.0, moved))
+        way[k], since[k] = told, ago
+    return way, since
+
+
+def lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
+    """(n,) z of z' = (x - z)/tau along x (n,) at even steps, s; at rest under the first x."""
+    kept = math.exp(-step / tau)
+    driven = np.append(0.0, (1.0 - kept) * (0.5 * (x[1:] + x[:-1]) - x[0]))
+    return np.asarray(x[0] + recursion(driven, np.array([1.0, 0, 0]), np.array([1.0, -kept, 0])))
+
+
 def _carried(direction: np.ndarray) -> np.ndarray:
     """Zeros replaced by the last direction before them, at the start by the first after."""
     known = np.flatnonzero(direction)
@@ -214,27 +246,53 @@ def _carried(direction: np.ndarray) -> np.ndarray:
 # What effects of a model read besides the motion, over the samples of a segment.
 
 
-def signals_of(spec: ModuleSpec, segment: Segment) -> np.ndarray | None:
+Temperature = Callable[[str], np.ndarray]
+"""(n,) of the joint of that name."""
+
+
+def signals_of(model: CompiledModel, segment: Segment) -> np.ndarray | None:
     """(n, m) the input `s` of the model's functions; None if it has none.
 
     Raises:
         DataError: a temperature that an effect reads was not logged.
     """
-    if not spec.signals or segment.read is not None:
+    if segment.read is not None:
         return segment.read
-    names = [joint.name for joint in spec.joints]
-    return np.column_stack([_signal(signal, segment, names) for signal in spec.signals])
+    motion = segment.q, segment.qd, segment.qdd
+    return signals_along(model, motion, segment.time, lambda joint: _temperature(segment, joint))
 
 
-def _signal(signal: SignalSpec, segment: Segment, names: list[str]) -> np.ndarray:
-    if signal.kind == "time":
-        return segment.time
-    if signal.kind == "slip":
-        return bristle(segment.q[:, names.index(signal.joint)], signal.value)
-    for name in (f"temperature{signal.joint}", "temperature"):
+def signals_along(
+    model: CompiledModel, motion: Sequence[np.ndarray], time: np.ndarray, temperature: Temperature
+) -> np.ndarray | None:
+    """(n, m) the same along q, qd, qdd (n, joints) at even times (n,)."""
+    spec = model.spec
+    if not spec.signals:
+        return None
+    names, read = [joint.name for joint in spec.joints], np.zeros((len(time), len(spec.signals)))
+    step = (time[-1] - time[0]) / max(1, len(time) - 1)
+    for k, signal in enumerate(spec.signals):
+        if signal.kind == "time":
+            read[:, k] = time
+        elif signal.kind == "temperature":
+            read[:, k] = temperature(signal.joint)
+        elif signal.kind == "slip":
+            read[:, k] = bristle(motion[0][:, names.index(signal.joint)], signal.value)
+        elif signal.kind == "direction":  # the time since it changed stands after it
+            q = motion[0][:, names.index(signal.joint)]
+            read[:, [k, k + 1]] = np.stack(since_reversal(q, step, signal.value), axis=1)
+        elif signal.kind == "followed":  # a step of no length gives it
+            read[:, k] = model.advance(0.0 * motion[0], 0.0, read, *motion)[:, k]
+        elif signal.kind == "lag":
+            read[:, k] = lag(read[:, k - 1], step, signal.value)
+    return read
+
+
+def _temperature(segment: Segment, joint: str) -> np.ndarray:
+    for name in (f"temperature{joint}", "temperature"):
         if name in segment.extra:
             return segment.extra[name]
     raise DataError(
-        f"no column temperature{signal.joint} or temperature: an effect of the model on joint "
-        f"{signal.joint} depends on it; log it, or take that effect out of the robot file"
+        f"no column temperature{joint} or temperature: an effect of the model on joint {joint} "
+        "depends on it; log it, or take that effect out of the robot file"
     )

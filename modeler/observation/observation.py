@@ -163,7 +163,7 @@ class Evaluated:
 
     def __init__(self, model: CompiledModel, stretches: Sequence[Stretch]) -> None:
         self._model = model
-        self._signals = {part.segment: signals_of(model.spec, part.segment) for part in stretches}
+        self._signals = {part.segment: signals_of(model, part.segment) for part in stretches}
 
     def __call__(self, s: Segment, w: slice | np.ndarray) -> np.ndarray:
         """(b, n, c) for the b samples of a window, or of indices."""

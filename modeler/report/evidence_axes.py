@@ -7,7 +7,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from modeler.diagnosis import Candidate, Signals, State
-from modeler.effects import Acts, Shows
+from modeler.effects import NOISE, TURN, Acts, Shows
 from modeler.observation import travel_since_reversal
 
 
@@ -98,6 +98,7 @@ _VALUES: dict[Shows, Callable[[Candidate, Signals, int], np.ndarray]] = {
     "rate": lambda pick, s, j: s.rate[:, j],
     "t": lambda pick, s, j: s.time,
     "T": _temperature,
+    "since": lambda pick, s, j: s.since(j, pick.shapes.get(TURN, NOISE)),
     "travel": lambda pick, s, j: travel_since_reversal(s.q[:, j]),
     "waves": lambda pick, s, j: np.degrees((pick.shapes["m"] * s.q[:, j]) % (2.0 * np.pi)),
 }
@@ -114,6 +115,7 @@ def _label(shows: Shows, pick: Candidate, unit: str, effort: str, turns: bool) -
         "rate": f"rate of the predicted torque [{effort}/s]",
         "t": "time [s]",
         "T": "temperature less its mean [K]",
+        "since": "time since the last reversal [s]",
         "travel": f"travel since the last reversal [{unit}]",
         "waves": "place within one wave [deg]",
         "itself": "",

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from modeler.core.checks import as_samples, as_vector
+from modeler.core.checks import as_vector
 from modeler.core.errors import LoopError, ManifestError, ShapeError, SolutionError
 from modeler.core.files import read_file
 from modeler.core.manifest import MANIFEST, Emitted, FunctionSpec, ModuleSpec, module_from_json
@@ -205,25 +205,27 @@ class CompiledModel(Batches, Presented):
         self._library.base_parameters(function, given, beta)
         return beta
 
-    def advance(self, dq: Any, dt: float, s: Any) -> np.ndarray:
-        """The signals of effects one sample later, (m,): time and bristles; see the header.
+    def advance(
+        self, dq: Any, dt: float, s: Any, q: Any = None, qd: Any = None, qdd: Any = None
+    ) -> np.ndarray:
+        """The signals of effects one sample later, as s: time and inner states; see the header.
 
         Args:
-            dq: (joints,) travel since the last sample.
+            dq: (joints,) or (n, joints) travel since the last sample.
             dt: s since then.
-            s: (m,) signals then.
+            s: (m,) or (n, m) signals then.
+            q: (joints,) or (n, joints) positions now; lags follow the motion.
+            qd: the same of velocities.
+            qdd: the same of accelerations.
         """
-        function = self._functions.get("advance")
-        if function is None:
+        if "advance" not in self._functions:
             raise ManifestError(f"{self.spec.robot} has no effects that read signals")
-        given = [
-            as_samples([dq], "dq", self._joints),
-            as_samples([[dt]], "dt", 1),
-            as_samples([s], "s", len(self.spec.signals)),
-        ]
-        out = np.empty((1, len(self.spec.signals)))
-        self._library.batch(function, given, out)
-        return out[0]
+        given = {"dq": dq, "dt": [dt], "s": s, "q": q, "qd": qd, "qdd": qdd}
+        wanted = [argument.name for argument in self._functions["advance"].inputs]
+        if missing := [name for name in wanted if given[name] is None]:
+            raise ShapeError(f"{self.spec.robot}: its effects lag; give {', '.join(missing)}")
+        after = self.evaluate("advance", **{name: given[name] for name in wanted})
+        return after if np.ndim(s) == 2 else after[0]
 
     def evaluate(self, role: str, **arrays: Any) -> np.ndarray:
         """What an emitted function gives, (n, ...) by its output's shape.

@@ -6,6 +6,7 @@ found by evaluating the C at both sides of standstill. They are apart because at
 friction is no function of the speed: it takes any value between its bounds that holds the shaft.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,11 +64,8 @@ class FittedPlant:
         else:
             self._places = [i for i, name in enumerate(closure.variables) if name in rubbing]
             self.shafts = len(self._places)
-        self._slips = [
-            (i, [joint.name for joint in model.spec.joints].index(signal.joint), signal.value)
-            for i, signal in enumerate(model.spec.signals)
-            if signal.kind == "slip"
-        ]
+        self.inner = [i for i, signal in enumerate(model.spec.signals) if signal.inner]
+        """Places in s of what is part of the state."""
 
     def reaches(self, q: np.ndarray) -> np.ndarray:
         """(b,) True where the loops close; everywhere without loops."""
@@ -137,22 +135,11 @@ class FittedPlant:
             return np.broadcast_to(self._rows, (len(q), *self._rows.shape))
         return self.model.coupling(q)[:, self._places]
 
-    def turned(self, s: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """(b, m) signals after the joints have moved by `step` (b, n): bristles turn."""
-        if not self._slips:
-            return s
-        s = s.copy()
-        for place, joint, distance in self._slips:
-            # bristles z after a travel `step`: s + (z - s) exp(-|step|/distance), s its sign
-            way = np.sign(step[:, joint])
-            left = np.exp(-np.abs(step[:, joint]) / distance)
-            s[:, place] = way + (s[:, place] - way) * left
-        return s
-
-    @property
-    def slipping(self) -> list[int]:
-        """Places in s of what is part of the state."""
-        return [place for place, _, _ in self._slips]
+    def stepped(
+        self, s: np.ndarray, step: np.ndarray, dt: float, motion: Sequence[np.ndarray]
+    ) -> np.ndarray:
+        """(b, m) signals dt s later: joints have moved by `step`, q, qd, qdd are now `motion`."""
+        return self.model.advance(step, dt, s, *motion) if self.inner else s
 
     def _rest(
         self, M: np.ndarray, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, s: np.ndarray | None

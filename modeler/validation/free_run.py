@@ -191,11 +191,11 @@ class _State:
     s: np.ndarray | None
 
     def read(self, plant: FittedPlant, signals: np.ndarray | None, k: int) -> None:
-        """Signals of sample k; bristles are part of the state and stay."""
+        """Signals of sample k; inner states are part of the state and stay."""
         if self.s is not None and signals is not None:
-            held = self.s[:, plant.slipping].copy()
+            held = self.s[:, plant.inner].copy()
             self.s = signals[k].copy()
-            self.s[:, plant.slipping] = held
+            self.s[:, plant.inner] = held
 
     def step(
         self,
@@ -218,7 +218,8 @@ class _State:
         self.smooth[live], self.qdd[live] = smooth, (speed - qd) / h
         self.q[live], self.qd[live] = q + moved, speed
         if self.s is not None:
-            self.s[live] = plant.turned(self.s[live], moved)
+            now = (self.q[live], self.qd[live], self.qdd[live])
+            self.s[live] = plant.stepped(self.s[live], moved, h, now)
         return forces.dry
 
 
@@ -345,7 +346,7 @@ def free_run(
     plant = FittedPlant(compiled, model.beta)
     every = np.concatenate([segment.q[segment.whole] for segment in segments])
     plant.check_inertia(every[:: max(1, len(every) // 500)])
-    signals = [signals_of(compiled.spec, segment) for segment in segments]
+    signals = [signals_of(compiled, segment) for segment in segments]
     nature = stability(plant, _along(observation, segments, signals))
     ranges = ranges_of(every, [joint.unit for joint in observation.joints])
     finest = min(_LONGEST, _STABLE / nature.fastest if nature.fastest > 0.0 else _LONGEST)

@@ -83,7 +83,7 @@ def at_every_row(
     torque, sure = np.full(log.q.shape, np.nan), np.zeros(log.rows, dtype=bool)
     at = log.time + model.processing.delay  # the torque of a row belongs to the motion there
     for s in segments:
-        tau = compiled.inverse_dynamics(s.q, s.qd, s.qdd, model.beta, signals_of(compiled.spec, s))
+        tau = compiled.inverse_dynamics(s.q, s.qd, s.qdd, model.beta, signals_of(compiled, s))
         rows = np.flatnonzero((at >= s.time[0] - 0.5 * s.step) & (at <= s.time[-1] + 0.5 * s.step))
         torque[rows] = np.column_stack([np.interp(at[rows], s.time, own) for own in tau.T])
         sure[rows] = np.interp(at[rows], s.time, s.whole) > 1.0 - 1e-9
@@ -161,7 +161,7 @@ def full_rate(observation: Observation, compiled: CompiledModel, beta: np.ndarra
 def _left(part: Stretch, compiled: CompiledModel, beta: np.ndarray) -> np.ndarray:
     """(samples, joints) measured minus predicted torque, NaN where a sample does not count."""
     s = part.segment
-    model = compiled.inverse_dynamics(s.q, s.qd, s.qdd, beta, signals_of(compiled.spec, s))
+    model = compiled.inverse_dynamics(s.q, s.qd, s.qdd, beta, signals_of(compiled, s))
     return np.where(part.usable, s.tau - model, np.nan)
 
 

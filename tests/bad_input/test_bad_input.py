@@ -21,7 +21,9 @@ def ground(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ground]:
 
 
 def _marks(row: Row) -> list[pytest.MarkDecorator]:
-    return [pytest.mark.slow] * (row.process is not None and row.process.slow)
+    """All take turns, quick ones too: `make test` runs them all, with --every a share a day."""
+    slow = row.process is not None and row.process.slow
+    return [pytest.mark.in_turn, *[pytest.mark.slow] * slow]
 
 
 @pytest.mark.parametrize("row", [pytest.param(row, id=row.id, marks=_marks(row)) for row in ROWS])

@@ -49,6 +49,7 @@ def test_what_is_not_asked_for_is_not_told(capsys) -> None:
     assert told(capsys) == []
 
 
+@pytest.mark.in_turn
 @pytest.mark.parametrize(
     "words", ["--progress lines", "--progress=lines -q", "-q --progress lines"]
 )

@@ -34,7 +34,7 @@ def written(folder: Path, files) -> list[str]:
         ("two-link", "double"),
         ("five-bar", "single"),
         pytest.param("slow-arm", "single", marks=pytest.mark.slow),
-        pytest.param("stewart", "double", marks=pytest.mark.slow),
+        pytest.param("3rrr", "double", marks=pytest.mark.slow),
     ],
 )
 def test_no_emitted_or_runtime_file_breaks_the_three_rules(name, precision, tmp_path) -> None:

@@ -19,7 +19,7 @@ JOINT = 1  # joint "2"
 REFERENCE = {"ZZ1": 1.2, "ZZ2": 3.0, "MX2": 3.0, "MX3": 1.1, "ZZ3": 0.4}
 Columns = Callable[[np.ndarray, np.ndarray, np.ndarray, np.ndarray], list[np.ndarray]]
 
-# definition, its shapes on the joint, the same in numpy (of q, v, a and the signal)
+# definition, its shapes on the joint, the same in numpy (of q, v, a and the last signal)
 OWN: dict[str, tuple[dict, dict[str, float], Columns]] = {
     "eddy_brake": (
         {"columns": {"Keb": "v*exp(-((q - c)/w)**2)"}, "shapes": {"c": [-1, 1], "w": [0.1, 0.3]}},
@@ -35,6 +35,16 @@ OWN: dict[str, tuple[dict, dict[str, float], Columns]] = {
         {"columns": {"Kh": "z*tanh(q)"}, "shapes": {"d": [0.01, 0.1]}},
         {"d": 0.03},
         lambda q, v, a, s: [s * np.tanh(q)],
+    ),
+    "tiring": (
+        {"columns": {"Kt": "tanh(9*v)*exp(-since/w)"}, "shapes": {"w": [0.1, 1]}},
+        {"w": 0.4},
+        lambda q, v, a, s: [np.tanh(9.0 * v) * np.exp(-s / 0.4)],
+    ),
+    "warming": (
+        {"columns": {"Kz": "v*z**p"}, "lag": "abs(v)", "shapes": {"p": 2, "tau": [0.1, 1]}},
+        {"tau": 0.4},
+        lambda q, v, a, s: [v * s**2],
     ),
     "fading": (
         {"columns": {"Kf": "v*exp(-t/tau)"}, "shapes": {"tau": [5, 50]}},
@@ -71,7 +81,7 @@ def test_c_computes_the_equation_of_the_robot_file(name: str) -> None:
     signals = s if s.size else None
     phi = compiled.regressor(q, v, a, signals)
     got = columns_of(robot, name, compiled, phi)
-    wanted = expected(q[:, JOINT], v[:, JOINT], a[:, JOINT], s[:, 0] if s.size else np.zeros(0))
+    wanted = expected(q[:, JOINT], v[:, JOINT], a[:, JOINT], s[:, -1] if s.size else np.zeros(0))
     np.testing.assert_allclose(got[:, JOINT], np.column_stack(wanted), rtol=1e-12, atol=1e-14)
     assert not np.delete(got, JOINT, axis=1).any()
     # Torques: base parameters by the grouping relations against standard parameters.

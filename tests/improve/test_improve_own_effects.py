@@ -37,6 +37,18 @@ MEMORIES = """
 title = "drag that grows with the reach of joint 3"
 columns = {Kl = "v*(1 - cos(q3))"}
 unit = "N*m*s/rad"
+
+[own_effects.settling]
+title = "friction that is higher after a reversal"
+columns = {Kt = "sign(v)*exp(-since/w)"}
+shapes = {w = [0.05, 0.2, 0.8]}
+unit = "N*m"
+
+[own_effects.churning]
+title = "drag that builds up while the joint moves"
+columns = {Kc = "v*z"}
+lag = "abs(v)"
+shapes = {tau = [0.1, 0.4, 1.6]}
 """
 
 
@@ -106,6 +118,45 @@ def test_one_that_reads_another_joint_is_added_where_it_acts(remembering: Case) 
     assert better.history[1].error < 0.2 * better.history[0].error
     with pytest.raises(DataError, match="--joint 3: leaning reads q3 of it as of another joint"):
         add_effect(model, remembering.compiled, "leaning", "3", logs)
+
+
+def test_one_that_reads_the_time_since_a_reversal_is_found_with_its_shape(
+    remembering: Case,
+) -> None:
+    def settling(log: Log) -> np.ndarray:
+        _, v = motion(log)
+        way = np.sign(np.convolve(v[:, 0], np.ones(31), mode="same"))  # commands have steps too
+        turned = np.append(log.time[0], log.time[1:][way[1:] * way[:-1] < 0.0])
+        since = log.time - turned[np.searchsorted(turned, log.time, side="right") - 1]
+        return on_joint(log, 0, 3.0 * np.tanh(v[:, 0] / 0.002) * np.exp(-since / 0.33))
+
+    model, train, holdout = remembering.hidden(settling)
+    logs = Logs([train], [holdout])
+    better = add_effect(model, remembering.compiled, "settling", "1", logs)
+    found, last = {p.name: p for p in better.fit.parameters}["Kt1"], better.history[1]
+    assert found.sigma is not None and abs(found.value - 3.0) < 3.0 * found.sigma
+    assert abs(last.shapes["w"] - 0.33) < 3.0 * last.shape_sigmas["w"]
+    assert last.error < 0.2 * better.history[0].error
+    assert [s.kind for s in better.spec.signals] == ["direction", "since"]
+
+
+def test_a_lag_is_found_with_its_time(remembering: Case) -> None:
+    def churning(log: Log) -> np.ndarray:
+        v = motion(log)[1][:, 1]
+        z = np.full(len(v), abs(v[0]))
+        for k, x in enumerate(0.5 * (np.abs(v[1:]) + np.abs(v[:-1]))):
+            z[k + 1] = z[k] + (x - z[k]) * 0.002 / (0.7 + 0.001)
+        return on_joint(log, 1, 4.0 * v * z)
+
+    model, train, holdout = remembering.hidden(churning)
+    logs = Logs([train], [holdout])
+    better = add_effect(model, remembering.compiled, "churning", "2", logs)
+    found, last = {p.name: p for p in better.fit.parameters}["Kc2"], better.history[1]
+    assert found.sigma is not None and abs(found.value - 4.0) < 3.0 * found.sigma
+    assert abs(last.shapes["tau"] - 0.7) < 3.0 * last.shape_sigmas["tau"] < 0.15
+    assert last.error < 0.2 * better.history[0].error
+    (effect,) = [e for e in remembering.derivation.robot.own_effects if e.id == "churning"]
+    assert effect.equation == "Kc * (v*z), z' = (abs(v) - z)/tau"
 
 
 def test_without_the_definition_the_catalogue_is_all_there_is(own: Case) -> None:

@@ -13,7 +13,8 @@ from modeler.core.builtin import builtin_text
 from modeler.robot.read import robot_from_text
 from modeler.simulation import SimulationSettings, simulate, write_log
 
-pytestmark = pytest.mark.slow
+# `test_methods.py` reproduces them too.
+pytestmark = [pytest.mark.slow, pytest.mark.in_turn("identifications of papers")]
 
 NAME = "orthoglide-2003-similar-legs"
 RUNS, SECONDS, RATE = 10, 4.0, 400.0

@@ -13,7 +13,6 @@ from modeler.core.errors import RobotError
 from modeler.papers.methods import MethodTable, Outcome, Row, figures, quoted, recovered
 from modeler.papers.paper import read_paper
 from tests.json_schemas import check_schema
-from tests.turns import IN_TURN
 
 TITLES = {
     "guegan-2003": [
@@ -29,6 +28,7 @@ TITLES = {
     "hanssen-2000": ["Eq. (3)", "Persistent excitation", "Two steps", "Figure 2", "Physical"],
 }
 QUICK = "hanssen-2000"
+TURN = (pytest.mark.slow, pytest.mark.in_turn("identifications of papers"))
 
 
 def test_every_paper_has_its_method():
@@ -36,7 +36,7 @@ def test_every_paper_has_its_method():
 
 
 @pytest.mark.parametrize(
-    "name", [n if n == QUICK else pytest.param(n, marks=IN_TURN) for n in paper_names()]
+    "name", [n if n == QUICK else pytest.param(n, marks=TURN) for n in paper_names()]
 )
 def test_every_identification_is_reproduced(name, capsys, tmp_path):
     place = tmp_path / "methods.json"

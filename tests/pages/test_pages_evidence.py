@@ -75,6 +75,7 @@ def series(panel: Panel, kind: type, label: str):
     return next(s for s in panel.series if isinstance(s, kind) and s.label.startswith(label))
 
 
+@pytest.mark.in_turn
 @pytest.mark.parametrize(
     "effect", [pytest.param(e, marks=IN_TURN * (e in ("drift", "presliding"))) for e in HIDDEN]
 )

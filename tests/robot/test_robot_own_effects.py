@@ -49,6 +49,7 @@ Kh1 = 1.0
 M1 = 2.0
 """
 EDDY = 'columns = {Keb = "v*exp(-((q - c)/w)**2)"}'
+HOOK = 'columns = {Kh = "z*cos(q)"}'
 FIRST = "[own_effects.eddy_brake]"
 WAVE = 'columns = {Wc = "cos(k*q)", Ws = "sin(k*q)"}'
 
@@ -98,6 +99,16 @@ MISTAKES = [
     ("root of negative", "v*exp", "sqrt(q) + exp", ["columns: Keb =", "no finite value at q = -"]),
     ("complex", "v*exp", "v**0.5 + exp", ["columns: Keb =", "no finite value at"]),
     ("shape 0", "[0.1, 0.3]", "[0, 0.3]", ["no finite value at", "w = 0;", "at rest too"]),
+    ("lag unknown", HOOK, f'{HOOK}\nlag = "abs(u)"', ["lag: got", "u is unknown", "among q, v, a"]),
+    ("lag of itself", HOOK, f'{HOOK}\nlag = "abs(z)"', ["lag: got", "z is unknown"]),
+    ("lag no text", HOOK, f"{HOOK}\nlag = [1]", ["hook], lag: got [1]", "expression"]),
+    ("lag without tau", HOOK, f'{HOOK}\nlag = "v*d"', ["shapes: z lags by a time", "{tau ="]),
+    ("lag of no time", HOOK + "\nshapes = {d = [0.01, 0.1]}",
+     f'{HOOK}\nlag = "v"\nshapes = {{tau = [0, 1]}}', ["shapes: z lags", "no positive values"]),
+    ("lag unused", EDDY, f'{EDDY}\nlag = "v"', ["lag: no equation uses z, which lags"]),
+    ("lag infinite", HOOK + "\nshapes = {d = [0.01, 0.1]}",
+     f'{HOOK}\nlag = "1/v"\nshapes = {{tau = [0.1, 1]}}', ["lag = ", "no finite value at v = 0"]),
+    ("lag of a position", WAVE, f'{WAVE}\nlag = "q"', ["wave], lag: no equation uses z"]),
     ("unit no text", '"N*m*s/rad"', "3", ["unit: got 3; expected text"]),
     ("unit ends comment", '"N*m*s/rad"', '"N */ x"', ["unit: got", "expected text such as"]),
     ("unit of another", "{Ws =", "{Wx =", ['unit: got "Wx"', "no parameter of this", "Wc, Ws"]),

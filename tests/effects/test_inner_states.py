@@ -1,0 +1,147 @@
+"""Inner states of effects along a motion: few lines of another kind, and the C step by step."""
+
+import math
+from typing import Literal
+
+import numpy as np
+import pytest
+
+from modeler.api import derive, generate, load, own_effect
+from modeler.core.errors import ShapeError
+from modeler.observation.low_speed import lag, signals_along, since_reversal
+from modeler.robot.edit import with_effect, with_reference
+from modeler.robot.read import robot_from_text
+from modeler.runtime.model import CompiledModel
+from tests.modules import loaded
+
+STEP = 0.002
+TIME = STEP * np.arange(6000)
+NOISE = 2e-5  # rad, of the positions
+
+
+def moves(seed: int) -> tuple[np.ndarray, list[float]]:
+    """A joint that goes forth, forth, back, forth, rests between and before; when it turned back.
+
+    Rests between two ways forth are no reversal.
+    """
+    ways, q, at = [0.0, 0.5, 0.4, -0.7, 0.3], np.zeros(len(TIME)), 0.0
+    turned, before = [], 0.0
+    for k, way in enumerate(ways):
+        begin, end = 2.3 * k, 2.3 * k + 1.6  # rests of 0.7 s
+        x = np.clip((TIME - begin) / (end - begin), 0.0, 1.0)
+        q = q + way * (x - np.sin(2.0 * np.pi * x) / (2.0 * np.pi))
+        if way * before < 0.0:
+            turned.append(begin)
+        before, at = way or before, end
+    assert at < TIME[-1]
+    return q + NOISE * np.random.default_rng(seed).normal(size=len(q)), turned
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_since_counts_from_the_last_reversal_and_from_nothing_else(seed: int) -> None:
+    q, turned = moves(seed)
+    _, since = since_reversal(q, STEP, 3e-4)
+    past = [max([0.0, *(at for at in turned if at <= t)]) for t in TIME]
+    expected = TIME - past
+    # it shows once the joint has come back by 0.2 mrad; the noise of its speed is then told from
+    sure = expected > 0.1
+    late = since[sure] - expected[sure]
+    assert np.abs(late).max() < 0.06  # of a start that is slower than at constant acceleration
+    assert since[0] == 0.0 and (since >= 0.0).all() and (since <= TIME + 1e-9).all()
+    assert np.count_nonzero(np.diff(since) < 0.0) == len(turned)
+
+
+def test_since_is_right_at_constant_acceleration() -> None:
+    """Whatever the travel that shows it: q = a t |t| / 2."""
+    t = np.arange(-500, 500) * 0.001 + 0.0004
+    for acceleration, distance in ((1.0, 3e-4), (4.0, 1e-3), (0.3, 1e-4)):
+        q = -0.5 * acceleration * t**2
+        _, since = since_reversal(q, 0.001, distance)
+        shown = t > math.sqrt(2.0 * distance / acceleration) + 0.002
+        np.testing.assert_allclose(since[shown], t[shown], atol=0.002)
+
+
+def test_a_joint_that_never_moves_has_not_turned() -> None:
+    q = NOISE * np.random.default_rng(5).normal(size=len(TIME))
+    np.testing.assert_allclose(since_reversal(q, STEP, 3e-4)[1], TIME)
+
+
+def arm_with(name: str, shapes: dict[str, float], **definition: object) -> CompiledModel:
+    """The demonstration arm with an effect on joint 2."""
+    text = own_effect(load("demo-arm"), name, **definition).text
+    return loaded(generate(derive(robot_from_text(with_effect(text, name, "2", shapes), name))))
+
+
+def test_the_c_steps_what_logs_are_read_with() -> None:
+    """From the state after the first reversal on: how a bristle starts is forgotten then."""
+    compiled = arm_with("tired", {}, columns={"Kt": "v*exp(-since)"})
+    assert [(s.kind, s.joint, s.unit) for s in compiled.spec.signals] == [
+        ("direction", "2", "1"), ("since", "2", "s"),
+    ]  # fmt: skip
+    motion = np.zeros((3, len(TIME), 3))
+    motion[0, :, 1] = moves(1)[0]
+    read = signals_along(compiled, motion, TIME, lambda joint: TIME)
+    assert read is not None
+    s = np.zeros(2)
+    stepped = [s]
+    for dq in np.diff(motion[0], axis=0):
+        stepped.append(s := compiled.advance(dq, STEP, s))
+    later = TIME > 7.5
+    np.testing.assert_allclose(np.array(stepped)[later], read[later], rtol=0, atol=1e-9)
+
+
+def test_a_lag_is_the_solution_of_its_equation() -> None:
+    """Of sin(w t), in closed form; a constant stays."""
+    w, tau = 3.0, 0.7
+    x = np.sin(w * TIME)
+    left = w * tau * (np.exp(-TIME / tau) - np.cos(w * TIME))
+    expected = (x + left) / (1.0 + (w * tau) ** 2)
+    np.testing.assert_allclose(lag(x, STEP, tau), expected, atol=2e-6)
+    np.testing.assert_allclose(lag(np.full(9, 2.5), STEP, tau), 2.5, rtol=1e-14)
+
+
+FOLLOWED = "abs(v)**p + load*q3 - since + t*a1"
+SHAPES = {"p": 1.5, "tau": 0.3, "t0": 0.5}
+REFERENCE = {"ZZ1": 1.2, "ZZ2": 3.0, "MX2": 3.0, "MX3": 1.1, "ZZ3": 0.4}
+
+
+@pytest.mark.parametrize("precision", ["double", "single"])
+def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "single"]) -> None:
+    """At random states, what is followed by numpy from the columns of the same C."""
+    definition = {"columns": {"Kz": "z"}, "lag": FOLLOWED, "shapes": {"p": [1, 2], "tau": [0.1, 1]}}
+    text = with_effect(own_effect(load("demo-arm"), "late", **definition).text, "late", "2", SHAPES)
+    robot = robot_from_text(with_reference(text, REFERENCE), "late")
+    compiled = loaded(generate(derive(robot), precision=precision))
+    kinds = ["time", "direction", "since", "followed", "lag"]
+    assert [s.kind for s in compiled.spec.signals] == kinds
+    rng = np.random.default_rng(17)
+    q, v, a, dq = rng.uniform(-1.0, 1.0, (4, 30, 3))
+    s = rng.uniform(0.1, 0.9, (30, 5))
+    after = compiled.advance(dq, 0.02, s, q, v, a)
+    chi = np.array([REFERENCE.get(p.name, 0.0) for p in compiled.spec.standard])
+    pull = (compiled.regressor(q, v, a, s) @ chi)[:, 1]
+    clock, since = s[:, 0] + 0.02, after[:, 2]
+    x = np.abs(v[:, 1]) ** 1.5 + pull * q[:, 2] - since + (clock - 0.5) * a[:, 0]
+    z = s[:, 4] + (1.0 - np.exp(-0.02 / 0.3)) * (0.5 * (x + s[:, 3]) - s[:, 4])
+    exact = 1e-12 if precision == "double" else 2e-5
+    np.testing.assert_allclose(after[:, [0, 3, 4]], np.column_stack([clock, x, z]), rtol=exact,
+                               atol=exact)  # fmt: skip
+    way = np.sign(s[:, 1] + dq[:, 1] / 3e-4)  # each of these steps is far longer than a reversal
+    np.testing.assert_allclose(after[:, 1], way)
+    ago = np.minimum(s[:, 2] + 0.02, 0.04 * (1.0 + np.abs(dq[:, 1] / 3e-4 + s[:, 1]))
+                     / np.abs(dq[:, 1] / 3e-4))  # fmt: skip
+    np.testing.assert_allclose(since, np.where(way < 0.0, ago, s[:, 2] + 0.02), rtol=1e-4)
+    with pytest.raises(ShapeError, match="its effects lag; give q, qd, qdd"):
+        compiled.advance(dq[0], 0.02, s[0])
+
+    # Along a motion: the log as it is read, and the C one sample after the other.
+    time = 0.02 * np.arange(200)
+    motion = np.stack([np.sin(time[:, None] * [1.0, 2.0, 3.0] + 0.1 * k) for k in range(3)])
+    read = signals_along(compiled, motion, time, lambda joint: time)
+    assert read is not None
+    state = read[0]
+    assert state[3] == state[4]  # steady at the start
+    for k in range(1, len(time)):
+        now = motion[:, k]
+        state = compiled.advance(now[0] - motion[0, k - 1], 0.02, state, *now)
+        np.testing.assert_allclose(state, read[k], rtol=10 * exact, atol=10 * exact)
