@@ -9,6 +9,7 @@ Marx 1996). The smoothness s, and the coordinates where none are asked for, are 
 least on folds of time that were not fitted. A little r gives to physics what both could explain.
 """
 
+import dataclasses
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -32,7 +33,7 @@ from modeler.diagnosis.result import Pick
 from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
 from modeler.diagnosis.state import State
 from modeler.diagnosis.timing import smoothed
-from modeler.effects import effect_named, read_definition
+from modeler.effects import TURN, effect_named, read_definition
 from modeler.numerics.splines import beyond, flat_ends, second_differences, spline_products
 from modeler.robot import robot_from_text, with_own_effect
 
@@ -41,8 +42,12 @@ CELLS = (40, 14)
 
 _WAVE = 8  # cells for each wave that stands out in the residual
 _MOST_CELLS, _FEW = 240, 5
-_SLIPS = (0.02, 0.2)
-"""Travels after a reversal, of the range of motion, over which z turns."""
+_TRAVELS = (0.003, 0.03)
+"""After a reversal, of the range of motion: over which z turns, and what is a reversal at all."""
+
+_LAGS = (0.1, 0.4, 1.6)  # s
+_FACTOR = 1.1  # steps of these that are not worth a look
+
 _SMOOTH = tuple(10.0**power for power in range(-5, 4))
 _FIRST = (1e-2, 1.0)  # smoothness in which coordinates are compared
 _RIDGE = 1e-4  # of the mean square of a spline
@@ -82,6 +87,12 @@ class Coordinates(Brief):
     def counts(self) -> tuple[int, ...]:
         """Cells along each axis."""
         return self.cells or (CELLS[len(self.arguments) - 1],) * len(self.arguments)
+
+    def scaled(self, name: str, factor: float) -> "Coordinates":
+        """The same with another value of a shape of what it reads."""
+        (value,) = self.further["shapes"][name]
+        shapes = self.further["shapes"] | {name: [float(f"{value * factor:.4g}")]}
+        return dataclasses.replace(self, further=dict(self.further) | {"shapes": shapes})
 
     def values(self, state: State, j: int) -> list[np.ndarray]:
         """(samples, arguments + 1) by stretch: the arguments, then the factor.
@@ -227,8 +238,27 @@ def learn(state: State, j: int, asked: LawAsked = ANY_LAW) -> Learned | None:
     found = [(_Fit(state, j, own).best(_SMOOTH, asked.rising), own) for _, own in found[:_NEAR]]
     if not found:
         return None
-    fit, splines = _simplest(found)
+    fit, splines = _refined(state, j, *_simplest(found), asked.rising)
     return _learned(state, j, splines, fit)
+
+
+def _refined(
+    state: State, j: int, fit: "_Solved", splines: "_Splines", rising: int
+) -> tuple["_Solved", "_Splines"]:
+    """At a travel or a time of what remembers that loses less: steps by factors, ever smaller."""
+    for name in splines.coordinates.further.get("shapes", {}):
+        factor = 2.0
+        while factor > _FACTOR:
+            for times in (factor, 1.0 / factor):
+                tried = _splines(state, j, splines.coordinates.scaled(name, times))
+                if tried is not None:
+                    other = _Fit(state, j, tried).best(_SMOOTH, rising)
+                    if other.after.sum() < fit.after.sum():
+                        fit, splines = other, tried
+                        break
+            else:
+                factor = factor**0.5
+    return fit, splines
 
 
 def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
@@ -255,15 +285,20 @@ def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
 
 def _quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
     """What a law may depend on, with what else its definition needs."""
-    found, slips = ["q", "v", "a"], list[float]()
-    if state.spec.closure is None:  # in loops laws read the motion of their own joint
-        found += ["load", "since"]
-        slips = [float(f"{share * state.scales[j].range:.3g}") for share in _SLIPS]
-        others = [name for name in state.names if name != state.names[j]]
-        found += [f"{letter}{name}" for name in others for letter in "qv"]
+    found: list[tuple[str, Mapping[str, Any]]] = [("q", {}), ("v", {}), ("a", {})]
     if state.names[j] in state.reference.temperature:
-        found.append("T")
-    return [*((name, {}) for name in found), *(("z", {"shapes": {"d": [d]}}) for d in slips)]
+        found.append(("T", {}))
+    if state.spec.closure is not None:  # in loops laws read the motion of their own joint
+        return found
+    others = [name for name in state.names if name != state.names[j]]
+    found += [("load", {}), *((f"{letter}{name}", {}) for name in others for letter in "qv")]
+    for share in _TRAVELS:
+        travel = float(f"{share * state.scales[j].range:.3g}")
+        found.append(("z", {"shapes": {"d": [travel]}}))
+        found.append(("sqrt(since)", {"shapes": {TURN: [travel]}}))
+    for tau in _LAGS:
+        found += [("z", {"lag": x, "shapes": {"tau": [tau]}}) for x in ("v", "abs(v)")]
+    return found
 
 
 def _simplest(found: Sequence[tuple["_Solved", "_Splines"]]) -> tuple["_Solved", "_Splines"]:
