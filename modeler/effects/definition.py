@@ -284,7 +284,7 @@ def _law(place: Place) -> Law:
             "expected one of each for every argument of the law, which has one or two"
         )
     for a, b, count in zip(low, high, cells, strict=True):
-        if not a < b or count < 1 or count != int(count):
+        if not a < b or count < 1 or count != int(count) or math.isinf(count / (b - a)):
             raise place.error(
                 f"got an axis from {a:g} to {b:g} of {count:g} cells; expected low < high, and a "
                 "whole number above 0"
