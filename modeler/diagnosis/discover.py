@@ -21,7 +21,7 @@ from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import dense
 from modeler.diagnosis.expressions import Formula, Term, parts
-from modeler.diagnosis.judge import judged_at, tried
+from modeler.diagnosis.judge import Judged, decide, judged_at, tried
 from modeler.diagnosis.orders import order_spectrum
 from modeler.diagnosis.state import State, all_columns_of, columns_of, state_of, visible
 from modeler.estimation import remembered
@@ -46,6 +46,7 @@ NEAR = 0.97
 _AT_ONCE = 16  # columns, each with all factors
 _MANY = 512  # columns
 _BEAM = 30  # products of two that get a third factor
+_HINTS = 4  # products that are judged before all else
 _EXACT = 40  # columns that are made anew
 _REFINED = 12
 _FIRSTS = 4  # columns that get a second one beside them
@@ -253,7 +254,7 @@ class JointSearch:
             own = own @ _root((own.T @ own).real)
             shared = (float(np.linalg.norm((own.T @ x).real) ** 2 / min(len(own.T), len(x.T)))
                       for x, _ in found)  # fmt: skip
-            if all(share < alike**2 for share in shared):
+            if own.size and all(share < alike**2 for share in shared):
                 found.append((own, column))
             if len(found) == keep:
                 break
@@ -300,6 +301,18 @@ class JointSearch:
         self._tick()
         again = self.scored([at(found.x)])
         return again[0] if again and again[0].cost < item.cost else item
+
+    def hinted(self) -> bool:
+        """True if a product surely explains something: laws resolve no waves, and forget."""
+        every = [*self.singles(self.columns), *self.products(self.columns, self.atoms, _EXACT)]
+        ranked = sorted(every, key=lambda item: item[0])
+        few = self.scored([Formula((c.term,)) for c in self.distinct(ranked, _HINTS)])
+        return any(self.judged(item.candidate) is not None for item in few)
+
+    def judged(self, candidate: Candidate) -> Judged | None:
+        """It as an effect of the catalogue is judged; None if it is worth no name."""
+        pair = candidate, columns_of(self.state.rows, candidate)
+        return decide(self.state, judged_at(self.state, [pair])).best
 
     def found(self) -> list[Scored]:
         """Formulas that say more than they cost, the cheapest first; no two are alike."""

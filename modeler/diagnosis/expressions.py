@@ -20,7 +20,7 @@ from modeler.core.toml_cells import Place
 from modeler.diagnosis.candidates import Candidate, JointScale
 from modeler.effects import Effect, Shape, read_definition
 
-_SYMBOL = re.compile(r"[A-Za-z_]\w*|[0-9.]+")
+_SYMBOL = re.compile(r"sign\(\w+\)|[A-Za-z_]\w*|[0-9.]+")  # a direction is one
 _SPEEDS = {"v", "a"}  # what equations of robots with loops may read
 _MOST_SHAPES = 4
 _LARGER = 1.37
@@ -186,7 +186,7 @@ class Formula(Brief):
 
 
 def symbols_of(text: str) -> int:
-    """Names and numbers in a column, and its parameter."""
+    """Names, directions and numbers in a column, and its parameter."""
     return 1 + len(_SYMBOL.findall(text))
 
 

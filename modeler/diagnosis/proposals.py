@@ -1,6 +1,7 @@
 """Equations proposed for what a diagnosis leaves: as text to paste, with what they are near to."""
 
 import dataclasses
+import math
 import re
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
@@ -13,15 +14,7 @@ from modeler.diagnosis.candidates import Candidate, over_grid
 from modeler.diagnosis.discover import JointSearch, Scored
 from modeler.diagnosis.effect_columns import dense
 from modeler.diagnosis.expressions import Formula, parameter_unit, symbols_of
-from modeler.diagnosis.judge import (
-    GATE,
-    Judged,
-    compared,
-    decide,
-    holdout_residuals,
-    judged_at,
-    vetoing,
-)
+from modeler.diagnosis.judge import GATE, Judged, compared, holdout_residuals, vetoing
 from modeler.diagnosis.learn import learn
 from modeler.diagnosis.orders import rival
 from modeler.diagnosis.profile import profile_of, values_of
@@ -70,14 +63,16 @@ def _on_joint(
     end, name = found.end, found.end.names[j]
     kept = tuple(p for p in end.picks if p.index != j or not p.local or p.key in stated)
     states = [end] + ([state_of(end.data, kept, end.beta)] if len(kept) < len(end.picks) else [])
-    said = [(_said(state, j), state) for state in states]
+    said = [_said(state, j) for state in states]
     tick()
-    states = [state for (share, _), state in said if share > 0.0]
-    if not states:
-        why = "nothing to find: a learned law says nothing of what is left beyond chance"
+    searches = [JointSearch(state, j, tick) for state in states]
+    searches = [search for search, (share, _) in zip(searches, said, strict=True)
+                if share > 0.0 or search.hinted()]  # fmt: skip
+    if not searches:
+        why = "nothing to find: neither a learned law nor a product says more than chance of it"
         return Discovery(name, 0.0, "", (), why)
-    share, law = max(own for own, _ in said)
-    offered = _offered(states, j, other, tick)
+    share, law = max(said)
+    offered = _offered(searches, other)
     proposals = [_proposal(found, own, share, k, other) for k, own in enumerate(offered)]
     if not proposals:
         why = f"no small expression says what a learned law does ({percent(share)} of what is left)"
@@ -103,11 +98,8 @@ class _Offered:
     judged: Judged
 
 
-def _offered(
-    states: Sequence[State], j: int, other: SearchData | None, tick: Callable[[], None]
-) -> list[_Offered]:
-    """The best formulas of all states that pass as effects with names must."""
-    searches = [JointSearch(state, j, tick) for state in states]
+def _offered(searches: Sequence[JointSearch], other: SearchData | None) -> list[_Offered]:
+    """The best formulas beside all states that pass as effects with names must."""
     every = [(search, item) for search in searches for item in search.found()]
     for search in searches:  # costs beside one and the same model
         search.count, search.before = max(s.count for s in searches), searches[0].before
@@ -115,8 +107,7 @@ def _offered(
     veto, kept, seen = vetoing(other), list[_Offered](), set[str]()
     for search, item in every[:_JUDGED]:
         state = search.state
-        pair = item.candidate, columns_of(state.rows, item.candidate)
-        best, later = decide(state, judged_at(state, [pair])).best, extended(state, pair[0])
+        best, later = search.judged(item.candidate), extended(state, item.candidate)
         if best is None or item.formula.text in seen or veto(state, later, best):
             continue
         seen.add(item.formula.text)
@@ -175,7 +166,7 @@ def _proposal(
         finding=finding, definition=definition,
         equation=" + ".join(f"{c.prefix}{joint} {c.equation.text}" for c in effect.columns),
         effects_line=f"{name} = {toml_text([stated if candidate.shapes else joint])}",
-        explained=min(1.0, own.judged.gain / share), symbols=formula.symbols,
+        explained=min(1.0, own.judged.gain / share) if share else math.nan, symbols=formula.symbols,
         instead=tuple(p.effect.id for p in found.end.picks if p not in state.picks),
         relative=relative, likeness=likeness, differs=differs,
         drawn=dataclasses.replace(found, steps=steps, end=later),

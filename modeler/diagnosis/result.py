@@ -269,15 +269,17 @@ class Proposal(Brief):
     def told(self) -> list[str]:
         """What people read."""
         f = self.finding
+        units = {name: f" {unit}" for name, unit in f.units.items() if unit != "1"}
         values = ", ".join(
-            f"{name} = {value:.4g} +- {f.sigmas.get(name, math.nan):.2g} {f.units.get(name, '')}"
+            f"{name} = {value:.4g} +- {f.sigmas.get(name, math.nan):.2g}{units.get(name, '')}"
             for name, value in f.parameters.items()
         )
         change = " -> ".join(printed(f.error_before, f.error_after))
         instead = f", in place of {', '.join(self.instead)}" if self.instead else ""
-        found = [f"joint {f.joint}: {self.equation}: error {change}{instead}; "
-                 f"{percent(self.explained)} of what a learned law explains", f"  {values}",
-                 f"  {self.differs}"]  # fmt: skip
+        law = f"{percent(self.explained)} of what a learned law explains"
+        law = "a learned law explains nothing" if math.isnan(self.explained) else law
+        found = [f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}",
+                 f"  {values}", f"  {self.differs}"]  # fmt: skip
         if self.apart:
             found += [f"  told from the next by: {self.apart}", f"  {self.where}"]
         return found
