@@ -51,6 +51,5 @@ def text_with(robot: str, laws: Mapping[str, tuple[str, Law]], more: str = "") -
             f"values = {list(law.values)}}}", "",
         ]  # fmt: skip
         lines += f'{name} = ["{joint}"]\n'
-    place = text.index("[effects]\n")
-    rest = text[place + len("[effects]\n") :]
-    return text[:place] + "\n".join(own) + "\n[effects]\n" + lines + rest
+    head, section, rest = text.partition("[effects]\n")
+    return "\n".join([head, *own, section or "[effects]\n"]) + lines + rest

@@ -9,7 +9,13 @@ from .fitting import (
 )
 from .fleets import fleet as fleet
 from .identifying import identify as identify
-from .improve import add as add, auto as auto, diagnose as diagnose, undo as undo
+from .improve import (
+    add as add,
+    add_discoveries as add_discoveries,
+    auto as auto,
+    diagnose as diagnose,
+    undo as undo,
+)
 from .log_maps import (
     Mapped as Mapped,
     file_and_span as file_and_span,

@@ -12,7 +12,7 @@ from modeler.api.workflow import AnyLog, M, read_logs, recompile
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.observation import check_apart
-from modeler.robot import robot_from_text
+from modeler.robot import robot_from_text, with_own_effect
 from modeler.runtime import CompiledModel
 
 
@@ -23,15 +23,75 @@ def diagnose(
     without: Sequence[str] = (),
     progress: Callable[[float], None] | None = None,
     mapping: Mapped = (),
+    discover: bool = False,
 ) -> diagnosis.Diagnosis:
     """Which physical effect the model lacks on logs; errors from the held-out logs if given.
 
     >>> found = diagnose(model, ["mon.parquet"], ["tue.parquet"])
     >>> found.effects[0].effect, found.effects[0].joint
     ('spring', '1')
+
+    Args:
+        model: as it is.
+        logs: to explain.
+        holdout: logs of other motion to judge on.
+        without: ids of effects, or id@joint, that the robot does not have.
+        progress: called with the share that is done.
+        mapping: as of `read_logs`.
+        discover: True to propose equations for what has no name: `discoveries` of the result.
     """
     compiled, given = logs_of(model, logs, holdout, mapping, spread=True)
-    return missing(model, compiled, given, without, progress)
+    return missing(model, compiled, given, without, progress, discover)
+
+
+def add_discoveries(
+    model: M,
+    found: diagnosis.Diagnosis,
+    logs: Sequence[AnyLog],
+    holdout: Sequence[AnyLog] = (),
+    mapping: Mapped = (),
+) -> M:
+    """The model with the first equation proposed for each joint, where that lowers the error.
+
+    >>> found = diagnose(model, ["mon.parquet"], ["tue.parquet"], discover=True)
+    >>> add_discoveries(model, found, ["mon.parquet"], ["tue.parquet"]) is model
+    True
+
+    Args:
+        model: as it was diagnosed.
+        found: the diagnosis, with `discover`.
+        logs: to fit to.
+        holdout: logs of other motion to judge on.
+        mapping: as of `read_logs`.
+    """
+    compiled, given = logs_of(model, logs, holdout, mapping)
+    return like(model, discovered_added(model, compiled, given, found)[0])
+
+
+def discovered_added(
+    model: IdentifiedModel,
+    compiled: CompiledModel,
+    logs: diagnosis.Logs,
+    found: diagnosis.Diagnosis,
+) -> tuple[IdentifiedModel, tuple[str, ...]]:
+    """The model with the first proposal of each joint and the effects that it stands beside.
+
+    And a line on what is left out.
+    """
+    firsts = [own.proposals[0] for own in found.discoveries or () if own.proposals]
+    if not firsts:
+        return model, ("left out: nothing was found",)
+    text = model.robot_text
+    for first in firsts:
+        text = with_own_effect(text, first.finding.effect, first.definition)
+    replaced = {(name, own.finding.joint) for own in firsts for name in own.instead}
+    beside = [
+        f for f in (*found.effects, *found.refinements) if (f.effect, f.joint) not in replaced
+    ]
+    named = dataclasses.replace(model, robot_text=text)
+    findings = [*beside, *(first.finding for first in firsts)]
+    better, left_out = diagnosis.add_findings(named, compiled, findings, logs)
+    return (model if better is named else better), left_out
 
 
 def add(
@@ -151,13 +211,15 @@ def missing(
     logs: diagnosis.Logs,
     without: Sequence[str] = (),
     progress: Callable[[float], None] | None = None,
+    equations: bool = False,
 ) -> diagnosis.Diagnosis:
     """What a diagnosis finds, which tries the effects that the robot file defines too."""
     robot = robot_from_text(model.robot_text, f"model of {model.spec.robot}, robot")
     known = diagnosis.StatedEffects(robot.catalogue, robot.coupling)
     return diagnosis.diagnose(
-        model, compiled, logs.fitted, logs.held_out, without, progress=progress, known=known
-    )
+        model, compiled, logs.fitted, logs.held_out, without, progress=progress, known=known,
+        equations=equations,
+    )  # fmt: skip
 
 
 def logs_of(

@@ -389,6 +389,12 @@ _DIAGNOSE = Command(
         repeated("--without", "EFFECT[@J]", places.Word,
                  "an effect that this robot does not have, on one joint or at all"),
         MAP, *page(), pictures(),
+        Group("what has no name", None, (
+            flag("--discover", "propose equations, as [own_effects] to paste"),
+            value("--add", "MODEL2", places.Output,
+                  "put the first of each joint into the model, with the effects beside which it "
+                  "stands, and write it where it lowers the error"),
+        )),
     ),
 )  # fmt: skip
 

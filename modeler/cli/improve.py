@@ -41,6 +41,8 @@ _WIDTH = 40  # characters of the longest bar
 
 def run_diagnose(args: argparse.Namespace) -> Json:
     """Prints the verdict, the effects and what cannot be told."""
+    if args.add is not None and not args.discover:
+        raise DataError(f"--add {args.add}: adds what --discover finds; give both, or neither")
     model = load_model(args.model)
     robot = robot_from_text(model.robot_text, f"{args.model}, robot")
     use_options_of(args, "diagnose", robot.diagnose)
@@ -48,7 +50,12 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     with working("deriving the robot of the model"):
         compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map, True)
     with progress("looking for missing effects") as bar:
-        diagnosis = improve.missing(model, compiled, logs, args.without, bar)
+        diagnosis = improve.missing(model, compiled, logs, args.without, bar, args.discover)
+    better, left_out = model, tuple[str, ...]()
+    if args.add is not None:
+        with working("adding what was found"):
+            better, left_out = improve.discovered_added(model, compiled, logs, diagnosis)
+        save_model(args.add, better)
     following = report.after_diagnosis(args.model, args.logs, args.holdout, diagnosis)
     if args.report is not None or args.picture is not None:
         shown = [Path(place).name for place in (*args.logs, *args.holdout)]
@@ -64,6 +71,10 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     say_lines([*lines(diagnosis), *model.warning])
     draw_page(args.report, lambda: page)
     draw_pictures(args.picture, lambda: page.pictures())
+    if args.add is not None:
+        say_lines([*waterfall(better), *added(better), *left_out])
+        say_lines([args.add], "written: ")
+        return diagnosis.to_json() | {"left_out": list(left_out)}
     show_next(following)
     return diagnosis.to_json()
 

@@ -253,10 +253,10 @@ def closed_functions(
         base: the base parameters of the same model.
         solving: how the loops are solved.
     """
-    if model.signals or layout.reads_more(model):
+    if model.signals or layout.reads_torques(model):
         raise EmitError(
-            f"{model.robot.name} has loops, and effects that read more than speeds and "
-            "accelerations; these have no C there; leave them out of [effects]"
+            f"{model.robot.name} has loops, and effects that read more than the motion of joints; "
+            "these have no C there; leave them out of [effects]"
         )
     solving_functions = _solving_functions(solving, model, base)
     frame, *platforms = _frames(model, base)
@@ -269,10 +269,10 @@ def closed_functions(
         "x0 = R x + p with T = [R | p], for a point x of the frame", [frame.given.q], T, "poses",
         role="forward_kinematics",
     )  # fmt: skip
-    public = [*_regressors(frame, model, base), *_dynamics(frame), _inertia_matrix(frame)]
+    public = [*_regressors(frame, model, base), *_dynamics(frame, model), _inertia_matrix(frame)]
     public += [kinematics, *_postures(frame), layout.grouping_function(model, base, frame.given)]
     for platform in platforms:
-        public += [_regressors(platform, model, base)[1], _dynamics(platform)[0]]
+        public += [_regressors(platform, model, base)[1], _dynamics(platform, model)[0]]
         public += _postures(platform)
     # Of the opened tree, of u.
     found = {f.role: f for f in layout.tree_functions(model, base)}
@@ -302,8 +302,8 @@ def closed_dynamics(
     given = layout.arguments_of(model.robot.free, model, base)
     tree = {f.role: f for f in layout.dynamics_functions(model, beta, given)}
     tree["coriolis"] = _tree_coriolis(model, beta, given)
-    public = [*_dynamics(frame), _inertia_matrix(frame)]
-    public += [_dynamics(platform)[0] for platform in platforms]
+    public = [*_dynamics(frame, model), _inertia_matrix(frame)]
+    public += [_dynamics(platform, model)[0] for platform in platforms]
     return tuple(tree.values()), tuple(public)
 
 
@@ -362,7 +362,7 @@ def _regressors(frame: _Frame, model: SymbolicModel, base: BaseParameters) -> li
     return found
 
 
-def _dynamics(frame: _Frame) -> list[CFunction]:
+def _dynamics(frame: _Frame, model: SymbolicModel) -> list[CFunction]:
     x = frame.given
     q, qd, qdd, b, tau = x.q, x.qd, x.qdd, x.beta, x.tau
 
@@ -383,6 +383,9 @@ def _dynamics(frame: _Frame) -> list[CFunction]:
         torque("coriolis", "Coriolis and centripetal torques.",
                "c(q, qd) = tau(q, qd, 0) without gravity, friction and offsets", (q, qd, b),
                "u, ud, udd, beta", qd=qd.name, qdd="standing"),
+        torque("friction", "Torques of all effects but rotor inertias: friction, offsets.",
+               "f(q, qd)", (q, qd, qdd, b), "u, ud, udd, beta", qd=qd.name, qdd=qdd.name)
+        if layout.reads_more(model) else
         torque("friction", "Torques of all effects but rotor inertias: friction, offsets.",
                "f(q, qd)", (q, qd, b), "ud, beta", qd=qd.name, qdd="standing"),
     ]  # fmt: skip

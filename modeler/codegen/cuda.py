@@ -10,6 +10,7 @@ from typing import Any
 
 from modeler.codegen import functions as layout
 from modeler.codegen.block import make_block
+from modeler.codegen.law_tables import law_source, law_tables
 from modeler.codegen.package import render
 from modeler.codegen.targets import CUDA
 from modeler.core.errors import EmitError
@@ -53,6 +54,8 @@ def cuda_files(values: Mapping[str, Any]) -> dict[str, str]:
         states=", ".join(f"const double *{name}" for name in names),
         constants=[(values["names"][n], texts[n]) for n in texts if n in block.symbols],
         shape=_shape(spec),
+        laws=law_tables([block], CUDA),
+        law_source=law_source(),
     )
     return {f"{spec.prefix}.cu": text}
 

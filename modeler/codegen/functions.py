@@ -309,6 +309,19 @@ def reads_more(model: SymbolicModel) -> bool:
     )
 
 
+def reads_torques(model: SymbolicModel) -> bool:
+    """True if an effect reads more than the motion of joints."""
+    return any(
+        part.acts is Acts.POSITION or not part.equation.names.isdisjoint(_TORQUES)
+        for column in model.columns
+        if isinstance(column, ShaftColumn)
+        for part in column.parts
+    )
+
+
+_TORQUES = ("load", "static", "torque")
+
+
 def _advance(model: SymbolicModel, given: Arguments) -> list[CFunction]:
     """The signals one sample later: inner states are stepped; temperatures are measured."""
     if not model.signals:

@@ -42,16 +42,22 @@ class Turns:
 
 
 def turns_of(graph: Graph, outputs: Sequence[Expr]) -> Turns:
-    """Those that the outputs read."""
+    """Those of positions that the outputs read."""
     nodes = [
         k
         for k in graph.reachable(outputs)
-        if graph.nodes[k].op in _TURNS and not graph.nodes[k].static
+        if graph.nodes[k].op in _TURNS and not graph.nodes[k].static and _placed(graph, k)
     ]
     return Turns(
         values=tuple(Expr(graph, k) for k in nodes),
         symbols={k: graph.symbol(f"t[{at}]") for at, k in enumerate(nodes)},
     )
+
+
+def _placed(graph: Graph, node: int) -> bool:
+    """True if it reads no speed."""
+    read = (graph.nodes[k] for k in graph.reachable([Expr(graph, node)]))
+    return all(each.op != "sym" or not each.args[0].startswith(("qd", "s[")) for each in read)
 
 
 def base_columns(model: SymbolicModel, base: BaseParameters) -> dict[tuple[int, int], Expr]:

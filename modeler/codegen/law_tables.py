@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.codegen.functions import name_lines
 from modeler.codegen.targets import Target
+from modeler.core.files import resource_dir
 from modeler.core.law import Law
 
 
@@ -18,16 +19,24 @@ class LawTable:
     Attributes:
         name: in C.
         values: lines of its table.
-        low, scale, cells: of both axes, initialisers.
+        count: of its numbers.
+        low, scale, cells: of both axes; of one axis the second is 0.
         step: how many coefficients lie along the second axis.
     """
 
     name: str
     values: list[str]
-    low: str
-    scale: str
-    cells: str
+    count: int
+    low: list[str]
+    scale: list[str]
+    cells: list[str]
     step: int
+
+
+def law_source() -> str:
+    """What reads the tables, for code that includes nothing."""
+    text = (resource_dir("csrc") / "include" / "modeler_law.h").read_text("utf-8")
+    return text.replace('#include "modeler_runtime.h"\n\n', "")
 
 
 def law_tables(read: Iterable[Any], target: Target) -> list[LawTable]:
@@ -53,13 +62,14 @@ def _table(name: str, law: Law, target: Target) -> LawTable:
         # What rounding left of a 0 may be too small for the target.
         return [target.literal(x if abs(x) > float(target.smallest) else 0.0) for x in values]
 
-    def axes(values: Iterable[float]) -> str:
-        return ", ".join(numbers([*values, 0.0][:2]))
+    def axes(values: Iterable[float]) -> list[str]:
+        return numbers([*values, 0.0][:2])
 
+    lines = name_lines(numbers(strips.ravel().tolist()))
+    cells = axes(map(float, law.cells))
     return LawTable(
-        name, name_lines(numbers(strips.ravel().tolist())), axes(law.low), axes(law.scales),
-        axes(map(float, law.cells)), strips.shape[2],
-    )  # fmt: skip
+        name, lines, strips.size, axes(law.low), axes(law.scales), cells, strips.shape[2]
+    )
 
 
 def law_strips(law: Law) -> np.ndarray:

@@ -13,6 +13,7 @@ from typing import Any
 from modeler.codegen.block import make_block
 from modeler.codegen.fitted import Width, fitted_texts, widths
 from modeler.codegen.functions import CFunction
+from modeler.codegen.law_tables import law_tables
 from modeler.codegen.naming import legend
 from modeler.codegen.package import render
 from modeler.codegen.targets import DOUBLE, Target
@@ -42,6 +43,7 @@ def _target(prefix: str) -> Target:
         number="LREAL",
         functions=MappingProxyType(names),
         smooth_sign=f"{prefix}_smooth_sign",
+        law=f"{prefix}_{{name}}({{arguments}})",
         point=True,
         temporary="{name} := {text};",
         stored="{place} := {text};",
@@ -92,7 +94,7 @@ def structured_texts(
     letters = legend(letter for each in made for letter in each["letters"])
     text = render(
         "structured_text.st", **{**values, **unit, "spec": spec, "prefix": prefix, "made": made,
-         "letters": letters},
+         "letters": letters, "laws": law_tables([each["block"] for each in made], target)},
     )  # fmt: skip
     return {f"{spec.prefix}.st": text}
 
@@ -124,4 +126,5 @@ def _function_block(
         "lines": lines,
         "symbols": block.symbols,
         "letters": block.letters,
+        "block": block,
     }  # fmt: skip

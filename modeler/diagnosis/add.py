@@ -37,7 +37,7 @@ from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.state import SearchData, State, analysed, state_of
 from modeler.diagnosis.timing import instrumental
-from modeler.effects import Acts, Effect, effect_named
+from modeler.effects import MOTION, Acts, Effect, effect_named
 from modeler.estimation import Addition, IdentifiedModel, identify, provenance, with_verdict
 from modeler.robot import listed, near, robot_from_text
 from modeler.runtime import CompiledModel, load
@@ -83,12 +83,13 @@ def requested_effect(model: IdentifiedModel, name: str, joint: str | None) -> Ef
     if effect.hindrance:
         raise DataError(f"{effect.id}: cannot be added ({effect.hindrance})")
     jointed = effect.acts in _JOINTED
-    reads_speeds = effect.acts is not Acts.POSITION and effect.forms[0].names <= {"v", "a"}
-    if model.spec.closure is not None and jointed and not reads_speeds:
-        # the C of a robot with loops reads speeds and accelerations of its joints, nothing else
+    reads_motion = all(name.startswith(MOTION) for name in effect.forms[0].names)
+    reads_motion = reads_motion and effect.acts is not Acts.POSITION
+    if model.spec.closure is not None and jointed and not reads_motion:
+        # the C of a robot with loops reads the motion of its joints, nothing else
         raise DataError(
             f"{effect.id}: cannot be added ({model.spec.robot} has loops, and there effects may "
-            "read speeds and accelerations only; keep it in mind as a finding)"
+            "read positions, speeds and accelerations only; keep it in mind as a finding)"
         )
     if joint is not None:
         _check_joint(model.spec, effect, joint)

@@ -17,6 +17,7 @@ from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact
 from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.judge import vetoing
 from modeler.diagnosis.plausible import gravity_like
+from modeler.diagnosis.proposals import discover
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.search import MOST, Search, Step, search
 from modeler.diagnosis.state import (
@@ -42,7 +43,7 @@ CHANGED = 1.3
 """Ratio of the residual variances with kept and with refitted parameters from which on the robot
 has changed since the fit."""
 
-_READ, _SEARCHED, _LOOKED = 0.05, 0.7, 0.9  # shares of the work when these are done
+_READ, _SEARCHED, _NAMED = 0.05, 0.7, 0.75  # shares of the work when these are done
 
 
 _STRIDE = 0.04  # of what is left of a stage
@@ -78,6 +79,7 @@ def diagnose(
     model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log],
     holdout: Sequence[Log] = (), without: Sequence[str] = (), most: int = MOST,
     progress: Callable[[float], None] | None = None, known: StatedEffects | None = None,
+    equations: bool = False,
 ) -> Diagnosis:  # fmt: skip
     """The effects that the model lacks on these logs, with what they would gain.
 
@@ -90,6 +92,7 @@ def diagnose(
         most: effects to name at most.
         progress: called with a share between 0 and 1.
         known: the effects to try, and how motors are coupled, by the robot file.
+        equations: True to propose some for what has no name.
 
     Raises:
         DataError: no usable row.
@@ -147,8 +150,13 @@ def diagnose(
         data = _masked(data, window)
         beyond = None if beyond is None else _masked(beyond, window)
         found = bands()
-    meter.stage(1.0)
+    meter.stage(_NAMED if equations else 1.0)
     diagnosis = assembled(model, found, window, doubted)
+    if equations and limit:
+        meter.stage(1.0)
+        facts = [(f.effect, f.joint) for f in diagnosis.effects if f.status == "fact"]
+        own = discover(found[0].found, facts, found[0].other, meter.tick)
+        diagnosis = dataclasses.replace(diagnosis, discoveries=own)
     if progress is not None:
         progress(1.0)
 

@@ -1,5 +1,6 @@
 """What a diagnosis says, as plain data; the share of the error that its effects close."""
 
+import json
 import math
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
@@ -11,7 +12,7 @@ import numpy as np
 from modeler.core.brief import LONGEST, Brief
 from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
-from modeler.core.table import percent
+from modeler.core.table import percent, printed
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck, Key
 from modeler.diagnosis.drive_gains import is_gain
@@ -223,6 +224,110 @@ class Finding(Brief):
         }
 
 
+@dataclass(frozen=True, eq=False)
+class Proposal(Brief):
+    """An equation for what has no name on a joint.
+
+    Attributes:
+        finding: its values, errors and units, as those of an effect with a name.
+        definition: its table of `[own_effects]`.
+        equation: its columns, each times its parameter.
+        effects_line: that of `[effects]`.
+        explained: share of what a learned law explains there.
+        symbols: what its price counts.
+        instead: effects of the catalogue in place of which it stands.
+        relative: id of the nearest effect with a name.
+        likeness: share of its torque that this explains.
+        differs: what differs, in plain words.
+        apart: the command that looks for a motion which tells it from the next.
+        where: the state of the joint in these logs in which they differ most.
+        drawn: the search with it as its only step, for pictures.
+    """
+
+    finding: Finding
+    definition: Mapping[str, Any]
+    equation: str
+    effects_line: str
+    explained: float
+    symbols: int
+    instead: tuple[str, ...]
+    relative: str
+    likeness: float
+    differs: str
+    apart: str = ""
+    where: str = ""
+    drawn: Search | None = field(default=None, repr=False)
+
+    @property
+    def text(self) -> str:
+        """To be pasted into a robot file."""
+        return "\n".join([f"[own_effects.{self.finding.effect}]",
+                          *(f"{key} = {_toml(value)}" for key, value in self.definition.items())])  # fmt: skip
+
+    def lines(self) -> list[str]:
+        """What people read, the text to paste at the end."""
+        f = self.finding
+        values = ", ".join(
+            f"{name} = {value:.4g} +- {f.sigmas.get(name, float('nan')):.2g} {f.units.get(name, '')}"
+            for name, value in f.parameters.items()
+        )
+        change = " -> ".join(printed(f.error_before, f.error_after))
+        instead = f", in place of {', '.join(self.instead)}" if self.instead else ""
+        found = [f"joint {f.joint}: {self.equation}: error {change}{instead}; "
+                 f"{percent(self.explained)} of what a learned law explains", f"  {values}",
+                 f"  {self.differs}"]  # fmt: skip
+        if self.apart:
+            found += [f"  told from the next by: {self.apart}", f"  {self.where}"]
+        return [*found, *(f"    {line}" for line in self.text.splitlines()),
+                f"    [effects] {self.effects_line}"]  # fmt: skip
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            **entries(self.finding, "effect joint error_before error_after gain parameters sigmas"),
+            **entries(self.finding, "intervals units"), "text": self.text,
+            **entries(self, "equation effects_line explained symbols instead relative likeness"),
+            **entries(self, "differs apart where"),
+        }  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Discovery(Brief):
+    """What was looked for on one joint.
+
+    Attributes:
+        joint: name.
+        share: of the residual's variance that a learned law explains on motion left out.
+        law: of what the law is a function; empty where it is the flexible rival's.
+        proposals: best first.
+        why: why there are none.
+    """
+
+    joint: str
+    share: float
+    law: str
+    proposals: tuple[Proposal, ...] = ()
+    why: str = ""
+
+    def lines(self) -> list[str]:
+        """For people."""
+        if not self.proposals:
+            return [f"joint {self.joint}: {self.why}"]
+        return [line for proposal in self.proposals for line in proposal.lines()]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        return {**entries(self, "joint share law why"),
+                "proposals": [p.to_json() for p in self.proposals]}  # fmt: skip
+
+
+def _toml(value: Any) -> str:
+    """As it stands in a robot file."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key} = {_toml(entry)}" for key, entry in value.items()) + "}"
+    return json.dumps(value, ensure_ascii=False)
+
+
 @dataclass(frozen=True)
 class JointState(Brief):
     """One joint before and after.
@@ -273,6 +378,7 @@ class Diagnosis(Presented):
         contradicted: True if channels of the logs contradict the model: then nothing is named.
         window: when something pushed, if anything did.
         search: everything behind it.
+        discoveries: equations proposed by joint; None where none were asked for.
     """
 
     robot: str
@@ -290,6 +396,7 @@ class Diagnosis(Presented):
     contradicted: bool
     window: Window | None
     search: Search
+    discoveries: tuple[Discovery, ...] | None = None
 
     def __repr__(self) -> str:
         said = textwrap.shorten(self.sentences[0], LONGEST, placeholder=" ...")
@@ -319,4 +426,6 @@ class Diagnosis(Presented):
             ],
             **entries(self, "joints unmoved held_out sentences band fit_band data changed"),
             "contradicted": self.contradicted,
+            **({} if self.discoveries is None else {
+                "discoveries": [found.to_json() for found in self.discoveries]}),
         })  # fmt: skip

@@ -219,6 +219,9 @@ def lines(diagnosis: Diagnosis) -> list[str]:
     for name, joint in diagnosis.joints.items():
         before, after = printed(joint.error_before, joint.error_after)
         found.append(f"{name:<6}{before:>9}{after:>14}")
+    if diagnosis.discoveries is not None:
+        found += ["", "equations proposed for what has no name:"]
+        found += [line for own in diagnosis.discoveries for line in own.lines()]
     blind = [what for what, _ in blind_spots(diagnosis)]
     if blind:
         found.append(f"these logs cannot show: {', '.join(blind)}")

@@ -13,6 +13,7 @@ from .definition import (
 from .effect import (
     MOTION as MOTION,
     TURN as TURN,
+    VARIABLES as VARIABLES,
     Acts as Acts,
     Effect as Effect,
     EffectColumn as EffectColumn,

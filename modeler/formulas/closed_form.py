@@ -69,6 +69,7 @@ def fresh_model(model: SymbolicModel) -> SymbolicModel:
     """
     found = replace(model, graph=Graph())
     graph, geometry = found.graph, found.geometry
+    graph.tables |= model.graph.tables
     lengths = {x for row in geometry.rows for x in (row.b, row.d, row.r)} | {*geometry.gravity}
     factors = [found.algebra.static(x) for x in sorted(lengths, key=str) if not x.is_Number]
     factors += found.inputs("qd") + found.inputs("qdd")

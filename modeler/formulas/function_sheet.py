@@ -471,13 +471,14 @@ class SheetPrinter:
             base, exponent = (self.sum(arg) for arg in found.args)
             power = f"^{{{exponent}}}" if self.style.latex else f"**({exponent})"
             return self.style.bracket(base) + power
-        argument = self.sum(found.args[0])
+        argument = ", ".join(map(self.sum, found.args))
         if not self.style.latex:
             return f"{found.op}({argument})"
         if found.op == "sqrt":
             return f"\\sqrt{{{argument}}}"
         known = found.op in ("sin", "cos", "tan", "exp", "tanh")
-        return f"\\{found.op}({argument})" if known else f"\\operatorname{{{found.op}}}({argument})"
+        name = re.sub(r"(\D+)(\d*)", r"\\operatorname{\1}_{\2}", found.op).removesuffix("_{}")
+        return f"\\{found.op}({argument})" if known else f"{name}({argument})"
 
     def _product(self, factors: Sequence[Factor]) -> str:
         order = sorted(Counter(factors).items(), key=lambda item: item[0][0])

@@ -12,6 +12,7 @@ from modeler.derivation import (
     BaseParameters,
     Closure,
     Expr,
+    ShaftColumn,
     SymbolicModel,
     along,
     meeting,
@@ -334,7 +335,7 @@ def equation_of(
         write_columns(model, base, writer)
         words.append(f"{'t' if loops else 'tau'} = phi beta, phi<joint>_<parameter>; what is not "
                      "listed is 0")  # fmt: skip
-    words += [*_signals(model), *loops]
+    words += [*_signals(model), *_laws(model), *loops]
     return Equation(tuple(words), writer.finished(), tuple(loops))
 
 
@@ -345,6 +346,18 @@ def _signals(model: SymbolicModel) -> list[str]:
         f"{letter}: {signal.kind}"
         + (f" of joint {model.robot.joints[signal.row].name}" if signal.row >= 0 else "")
         for letter, signal in zip(letters, model.signals, strict=True)
+    ]
+    return ["; ".join(told)] if told else []
+
+
+def _laws(model: SymbolicModel) -> list[str]:
+    """What the functions are that no formula says."""
+    parts = (p for c in model.columns if isinstance(c, ShaftColumn) for p in c.parts)
+    effects = {part.equation.law: part.effect for part in parts}
+    told = [
+        f"{name} is the law of the table in [own_effects.{effects[table.law]}], held beyond its ends"
+        for name, table in model.graph.tables.items()
+        if table.along is None
     ]
     return ["; ".join(told)] if told else []
 

@@ -17,12 +17,13 @@ _TOKENS = re.compile(
 )
 _STANDARD: dict[str, Callable[..., float]] = {
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "exp": math.exp, "sqrt": math.sqrt,
-    "abs": abs, "expt": math.pow,
+    "abs": abs, "expt": math.pow, "trunc": math.trunc, "dint_to_lreal": float,
 }  # fmt: skip
 _KEYWORDS = {
     "function", "function_block", "end_function", "end_function_block", "var", "var_input",
     "var_in_out", "var_temp", "end_var", "constant", "if", "then", "elsif", "else", "end_if",
-    "array", "of", "lreal", "and", "or", "not", "mod", "xor", "true", "false", "at", "by", "case",
+    "array", "of", "lreal", "dint", "and", "or", "not", "mod", "xor", "true", "false", "at", "by",
+    "case",
     "do", "exit", "for", "repeat", "return", "to", "type", "until", "while", "with",
 }  # fmt: skip
 
@@ -46,7 +47,7 @@ class Unit:
     name: str
     kinds: dict[str, str] = field(default_factory=dict)
     lengths: dict[str, int] = field(default_factory=dict)
-    initial: dict[str, float] = field(default_factory=dict)
+    initial: dict[str, float | list[float]] = field(default_factory=dict)
     lines: list[str] = field(default_factory=list)
 
 
@@ -57,7 +58,7 @@ class Program:
         self._tokens = _tokens(text)
         self._at = 0
         self.units: dict[str, Unit] = {}
-        scope = dict(_STANDARD)
+        scope = {**_STANDARD, "place": _place}
         while self._at < len(self._tokens):
             unit = self._unit()
             self.units[unit.name.lower()] = unit
@@ -121,7 +122,7 @@ class Program:
                 raise TextError(f"{unit.name}: {name} is declared twice")
             unit.kinds[name] = kind
             self._take(":")
-            if self._take("lreal", "array") == "array":
+            if self._take("lreal", "dint", "array") == "array":
                 for sign in "[0":
                     self._take(sign)
                 self._take("..")
@@ -130,12 +131,23 @@ class Program:
                     self._take(sign)
             if self._next() == ":=":
                 self._take()
-                sign = -1.0 if self._next() == "-" and self._take() else 1.0
-                unit.initial[name] = sign * float(self._take())
+                unit.initial[name] = self._numbers(unit.lengths.get(name))
             elif kind == "constant":
                 raise TextError(f"{name}: a constant without value")
             self._take(";")
         self._take("end_var")
+
+    def _numbers(self, length: int | None) -> float | list[float]:
+        """The initial value of a number, or of an array of that length."""
+        found, brackets = list[float](), length is not None and self._take("[")
+        for k in range(length or 1):
+            if k:
+                self._take(",")
+            sign = -1.0 if self._next() == "-" and self._take() else 1.0
+            found.append(sign * float(self._take()))
+        if brackets:
+            self._take("]")
+        return found if brackets else found[0]
 
     def _statements(self, unit: Unit, indent: str, *ends: str) -> None:
         while self._next() not in ends:
@@ -167,11 +179,15 @@ class Program:
         if name not in unit.lengths:
             return ""
         self._take("[")
-        place = int(self._take())
+        if unit.kinds[name] == "constant":  # a table, read at a place that is computed
+            place = self._sum(unit)
+            self._take("]")
+            return f"[place({place}, {unit.lengths[name]})]"
+        number = int(self._take())
         self._take("]")
-        if not place < unit.lengths[name]:
-            raise TextError(f"{name}[{place}]")
-        return f"[{place}]"
+        if not number < unit.lengths[name]:
+            raise TextError(f"{name}[{number}]")
+        return f"[{number}]"
 
     def _sum(self, unit: Unit) -> str:
         text = self._product(unit)
@@ -210,6 +226,11 @@ class Program:
         if name not in unit.kinds:
             raise TextError(f"{unit.name} reads {name}, which is not declared")
         return name + self._index(unit, name)
+
+
+def _place(at: float, length: int) -> int:
+    assert at == int(at) and 0 <= at < length
+    return int(at)
 
 
 def _tokens(text: str) -> list[str]:

@@ -1,6 +1,7 @@
 """Laws that were learned, in all emitted code: the tables of Python, and of scipy."""
 
 import subprocess
+import sys
 from functools import cache
 
 import numpy as np
@@ -15,8 +16,11 @@ from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.read import robot_from_text
 from modeler.runtime.bind import tile_library
+from modeler.runtime.gpu import load_gpu
 from modeler.runtime.model import CompiledModel
 from tests.codegen.fitted_library import fitted_of
+from tests.codegen.structured_text import Program
+from tests.compiled.cupy_on_cpu import cupy
 from tests.compiled.test_tiles import CHECK, FLAGS
 from tests.export.test_casadi import far
 from tests.learned import drawn, scipy_value, text_with
@@ -158,3 +162,29 @@ def test_casadi_and_every_function_for_controllers_are_the_same(tmp_path):
     errors = far(str(path), tmp_path, np.random.default_rng(5))
     assert {"inverse_dynamics", "derivatives", "friction"} <= errors.keys()
     assert max(errors.values()) < 1e-11, errors
+
+
+def test_structured_text_gives_what_the_c_gives():
+    model, base, _ = made()
+    emitted = emit(model, base, control=Control(structured_text=True))
+    program, states = Program(emitted.files["demo_arm.st"]), motion()
+    q, v, a = states
+    v[7, 1] = np.nan
+    beta = np.random.default_rng(3).normal(size=base.rank)
+    wanted = compiled("double").base_regressor(*(np.nan_to_num(x) for x in states)) @ beta
+    wanted[7, 1] = np.nan
+    for i in range(len(q)):
+        tau = [0.0] * 3
+        program("demo_arm_inverse_dynamics", q=list(q[i]), qd=list(v[i]), qdd=list(a[i]),
+                beta=list(beta), tau=tau)  # fmt: skip
+        assert i == 7 or np.allclose(tau, wanted[i], rtol=1e-11, atol=1e-9)
+        assert i != 7 or np.isnan(tau[1])
+
+
+def test_kernels_compute_what_the_c_computes(tmp_path, monkeypatch):
+    compiler("g++")
+    model, base, _ = made()
+    monkeypatch.setitem(sys.modules, "cupy", cupy(tmp_path))
+    kernels, states = load_gpu(emit(model, base, cuda=True)), motion()
+    wanted = compiled("double").nonzeros(*states)
+    assert np.allclose(kernels.nonzeros(*states).T, wanted, rtol=1e-11, atol=1e-9)

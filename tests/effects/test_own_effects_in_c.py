@@ -176,15 +176,28 @@ def test_columns_that_others_have_are_grouped_in_numbers(equation: str) -> None:
     np.testing.assert_allclose(base @ compiled.base_parameters(chi), phi @ chi, atol=1e-9)
 
 
-def test_robots_with_loops_take_effects_of_speed_only() -> None:
+def test_robots_with_loops_take_effects_of_motion_only() -> None:
     """They say which effects have no C there."""
-    slow = own_effect(load("five-bar"), "slow", columns={"Kv": "v*abs(v)"})
-    joint = slow.coordinates[0].name
-    with pytest.raises(EmitError, match="has loops"):
-        own = own_effect(load("five-bar"), "place", columns={"Kq": "q*v"})
-        generate(derive(robot_from_text(with_effect(own.text, "place", joint, {}), "five-bar")))
-    compiled = loaded(
-        generate(derive(robot_from_text(with_effect(slow.text, "slow", joint, {}), "five-bar")))
-    )
-    names = [p.name for p in compiled.spec.standard]
-    assert f"Kv{joint}" in names
+    joint = load("five-bar").coordinates[0].name
+
+    def with_column(equation: str) -> Robot:
+        own = own_effect(load("five-bar"), "own", columns={"Kv": equation}).text
+        text = with_reference(with_effect(own, "own", joint, {}), {"ZZ11": 0.2})
+        return robot_from_text(text, "five-bar")
+
+    for equation in ("v*static", "load", "torque*q", "T*v", "t"):
+        with pytest.raises(EmitError, match=r"five-bar has loops, and effects that read more than"):
+            generate(derive(with_column(equation)))
+    compiled = loaded(generate(derive(with_column("sin(3*v)*q + a*sin(q)"))))
+    home = np.array(compiled.spec.closure.home)[list(compiled.spec.closure.given)]
+    rng = np.random.default_rng(8)
+    q, v, a = home + rng.uniform(-0.1, 0.1, (9, 2)), *rng.normal(size=(2, 9, 2))
+    column = [p.column_of for p in compiled.spec.base].index(f"Kv{joint}")
+    phi = compiled.base_regressor(q, v, a)[:, :, column]
+    expected = np.sin(3 * v[:, 0]) * q[:, 0] + a[:, 0] * np.sin(q[:, 0])
+    np.testing.assert_allclose(phi, np.stack([expected, 0 * expected], 1), atol=1e-13)
+    beta = rng.normal(size=len(compiled.spec.base))
+    M = compiled.inertia_matrix(q, beta)
+    parts = compiled.gravity(q, beta) + compiled.coriolis(q, v, beta)
+    parts += np.einsum("nij,nj->ni", M, a) + compiled.friction(v, beta, q, a)
+    np.testing.assert_allclose(compiled.inverse_dynamics(q, v, a, beta), parts, atol=1e-12)

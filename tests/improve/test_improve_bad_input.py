@@ -55,7 +55,10 @@ def test_what_cannot_be_added_is_refused_in_one_line(
 
 LOOPS: dict[str, tuple[str, str]] = {
     "position": ("encoder_eccentricity --joint 11", "cannot be added (five-bar has loops, and"),
-    "reads position": ("spring --joint 11", "spring: cannot be added (five-bar has loops"),
+    "reads a load": (
+        "load_friction --joint 11",
+        "load_friction: cannot be added (five-bar has loops",
+    ),
     "remembers": ("presliding --joint 12", "presliding: cannot be added (five-bar has loops"),
     "second mass": ("elasticity --joint 11", "cannot be added (the joint needs a second mass"),
     "a motor is not passive": ("passive_friction --joint 11", "expected one of 21, 22"),
