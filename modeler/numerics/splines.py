@@ -195,14 +195,11 @@ def surface(x: np.ndarray, y: np.ndarray, count: int = 5) -> np.ndarray:
 
 def _of_all(x: np.ndarray, count: int) -> np.ndarray:
     """Splines over the columns of x (n, d) that are not constant."""
-    low, high = np.quantile(x, [_RARE, 1.0 - _RARE], axis=0)  # few rows would decide the others
-    moves = high > low
-    if not moves.any():
+    moving = x[:, np.ptp(x, axis=0) > 0.0]
+    if not moving.size:
         return np.ones((len(x), 1))
-    moving, cells = x[:, moves], [count + 1] * int(moves.sum())
-    ends = [
-        beyond(*map(float, both), count + 1) for both in zip(low[moves], high[moves], strict=True)
-    ]
+    cells = [count + 1] * moving.shape[1]
+    ends = [beyond(float(a.min()), float(a.max()), count + 1) for a in moving.T]
     values = np.column_stack([moving, np.ones(len(x))])
     free = reduce(kron, [flat_ends(count + 1) for _ in cells])
     return np.asarray((spline_products(values, ends, cells) @ free).toarray())
@@ -231,7 +228,6 @@ OWN = ("own", "surface")
 _SPLINES = {"q": 12, "v": 14, "a": 8, "load": 9, "torque": 9}
 _OTHER = {"q": 10, "v": 9, "a": 5}
 _SUM = 7  # splines
-_RARE = 0.01  # share of the rows beyond either end of a curve
 _OWN, _WIDE, _PAIRS = 60, 60, 150  # random features
 
 
