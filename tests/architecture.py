@@ -94,7 +94,7 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 22  # the workbench in the browser
-MOST_MODULES = 423  # compilers of Microsoft
+MOST_MODULES = 427  # compilers of Microsoft; laws that are learned, equations that are proposed
 MOST_CODE_LINES = 69_600  # compilers of Microsoft, logs without a compiler
 MOST_CIRCLES = 0
 

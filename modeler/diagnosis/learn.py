@@ -11,7 +11,7 @@ least on folds of time that were not fitted. A little r gives to physics what bo
 
 import dataclasses
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from typing import Any
@@ -29,13 +29,11 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import own_columns
 from modeler.diagnosis.judge import FELT, GATE, NAMED_T_RATIO, NEARLY
 from modeler.diagnosis.orders import order_spectrum
-from modeler.diagnosis.result import Pick
 from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
 from modeler.diagnosis.state import State
 from modeler.diagnosis.timing import smoothed
-from modeler.effects import TURN, effect_named, read_definition
+from modeler.effects import TURN, read_definition
 from modeler.numerics.splines import beyond, flat_ends, second_differences, spline_products
-from modeler.robot import robot_from_text, with_own_effect
 
 CELLS = (40, 14)
 """Of one axis alone, and of each of two."""
@@ -183,36 +181,12 @@ LEARNED = "learned"
 """What a law is called where effects have their ids."""
 
 
-def with_law(text: str, state: State, joint: str, learned: Learned) -> tuple[str, Pick]:
-    """The robot file with the definition of a law, and the law as an effect to be put in.
-
-    Args:
-        text: of the robot file.
-        state: in which it was learned.
-        joint: name.
-        learned: it.
-    """
-    effects = robot_from_text(text, "robot of the model").own_effects
-    name = _free(f"{LEARNED}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", [e.id for e in effects])
-    prefix = _free("Lw", [column.prefix for e in effects for column in e.columns])
-    law, j = learned.law, state.names.index(joint)
-    definition = {
-        "title": f"learned, not physics: a law of {learned.coordinates.told}",
-        "columns": {prefix: learned.coordinates.equation},
-        "unit": state.spec.joints[j].effort_unit.replace(" ", "*"),
-        **learned.coordinates.further,
-        "law": {"low": list(law.low), "high": list(law.high), "cells": list(law.cells),
-                "values": list(law.values)},
-    }  # fmt: skip
-    text = with_own_effect(text, name, definition)
-    effect = effect_named(name, robot_from_text(text, "robot with a law").catalogue)
-    assert effect is not None
-    shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
-    candidate = Candidate(effect, effect.forms[0], joint, j, shapes)
-    return text, Pick(candidate, np.array([learned.size]), state, 1.0)
+def effect_id(stem: str, joint: str, taken: Collection[str]) -> str:
+    """Id of an effect of a joint that no other has: learned_2."""
+    return free_name(f"{stem}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", taken)
 
 
-def _free(stem: str, taken: Sequence[str]) -> str:
+def free_name(stem: str, taken: Collection[str]) -> str:
     """The stem, with a letter behind it if it is taken."""
     names = (stem, *(f"{stem}{letter}" for letter in "bcdefghijklmnopqrstuvwxyz"))
     return next(name for name in names if name not in taken)

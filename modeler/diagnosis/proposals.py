@@ -2,8 +2,7 @@
 
 import dataclasses
 import math
-import re
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +14,7 @@ from modeler.diagnosis.discover import JointSearch, Scored
 from modeler.diagnosis.effect_columns import dense
 from modeler.diagnosis.expressions import Formula, parameter_unit, symbols_of
 from modeler.diagnosis.judge import GATE, Judged, compared, holdout_residuals, vetoing
-from modeler.diagnosis.learn import learn
+from modeler.diagnosis.learn import effect_id, free_name, learn
 from modeler.diagnosis.orders import rival
 from modeler.diagnosis.profile import profile_of, values_of
 from modeler.diagnosis.result import Discovery, Finding, Pick, Proposal, toml_text
@@ -132,10 +131,9 @@ def _proposal(
     state, later, item, k = own.state, own.later, own.item, len(own.state.picks)
     j, joint, formula = item.candidate.index, item.candidate.joint or "", item.formula
     known = state.data.known.catalogue
-    stem = f"found_{re.sub(r'[^a-z0-9]', '_', joint.lower())}{'abc'[rank]}"
-    name = _free(stem, {e.id for e in known})
+    name = effect_id("found", f"{joint}{'abc'[rank]}", {e.id for e in known})
     prefixes = {c.prefix for e in known for form in e.forms for c in form.columns}
-    labels = [_free(f"X{chr(97 + j % 26)}{'abc'[rank]}{x}", prefixes) for x in "abcd"]
+    labels = [free_name(f"X{chr(97 + j % 26)}{'abc'[rank]}{x}", prefixes) for x in "abcd"]
     shapes = formula.shape_units(state.spec.joints[j].unit == "m")
     units = [parameter_unit(state.spec, j, item.candidate, i, shapes)
              for i in range(len(formula.columns))]  # fmt: skip
@@ -171,11 +169,6 @@ def _proposal(
         relative=relative, likeness=likeness, differs=differs,
         drawn=dataclasses.replace(found, steps=steps, end=later),
     )  # fmt: skip
-
-
-def _free(stem: str, taken: Collection[str]) -> str:
-    """The stem, with another letter behind it if it is taken."""
-    return next(n for n in (stem, *(f"{stem}{x}" for x in "defghijklmnop")) if n not in taken)
 
 
 # The nearest effect with a name, and what tells it from the next.

@@ -74,7 +74,9 @@ def test_the_hidden_equation_is_the_first_with_its_value(found: Diagnosis) -> No
     first = first_of(found)
     (equation,) = first.definition["columns"].values()
     assert sorted(equation.split("*")) == ["load", "v"]
-    value, sigma = (next(iter(x.values())) for x in (first.finding.parameters, first.finding.sigmas))
+    value, sigma = (
+        next(iter(x.values())) for x in (first.finding.parameters, first.finding.sigmas)
+    )
     assert abs(value - CHURN) < 0.1 * CHURN and 0.0 < sigma < 0.1 * CHURN
     assert first.finding.error_after < 0.3 * first.finding.error_before
     assert first.definition["unit"] == "s/rad" and first.explained > 0.9
