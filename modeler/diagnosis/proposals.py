@@ -180,9 +180,7 @@ def _relative(
     """Id of the nearest effect of the catalogue, how near, and what differs."""
     named = _named(state, candidate.index)
     near, share = _nearest(_columns(state, candidate) @ values, named)
-    if near is None:
-        return "", 0.0, "nothing in the catalogue is near"
-    told = f"{near.effect.title} ({near.effect.id})"
+    told = f"{near.effect.title} ({near.effect.id})" if near is not None else "nothing"
     found = [(share, f"nearly {told}")] if share > ALMOST else []
     for term in formula.terms if len(formula.terms) == 1 else ():
         for i, part in enumerate(term):
@@ -191,10 +189,10 @@ def _relative(
                 column = _columns(state, rest.candidate(state.names, candidate.index))
                 head, alike = _nearest(column[:, 0], named)
                 if head is not None and alike > ALMOST:
-                    more = f", times {part.factor.title}"
+                    near, more = near or head, f", times {part.factor.title}"
                     found.append((alike, f"{head.effect.title} ({head.effect.id}){more}"))
     far = f"nearest is {told}, which explains {percent(share)} of it"
-    return near.effect.id, share, max(found)[1] if found else far
+    return near.effect.id if near is not None else "", share, max(found)[1] if found else far
 
 
 def _named(state: State, j: int) -> list[tuple[Candidate, np.ndarray]]:
