@@ -1,7 +1,6 @@
 """The model with an effect: its robot file, its rows, how sure its values are, notes on it."""
 
 import dataclasses
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -9,7 +8,7 @@ import numpy as np
 
 from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.learn import LEARNED, Learned
+from modeler.diagnosis.learn import LEARNED, Learned, effect_id, free_name
 from modeler.diagnosis.profile import Profile, is_linear, profile
 from modeler.diagnosis.ranking import base_of, blocks_of
 from modeler.diagnosis.result import Pick
@@ -165,41 +164,6 @@ def described(text: str, pick: Candidate, values: np.ndarray, reference: SignalR
     return with_reference(changed, _referred(reference)) if depends else changed
 
 
-def with_law(text: str, state: State, joint: str, learned: Learned) -> tuple[str, Pick]:
-    """The robot file with the definition of a law, and the law as an effect to be put in.
-
-    Args:
-        text: of the robot file.
-        state: in which it was learned.
-        joint: name.
-        learned: it.
-    """
-    effects = robot_from_text(text, "robot of the model").own_effects
-    name = _free(f"{LEARNED}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", [e.id for e in effects])
-    prefix = _free("Lw", [column.prefix for e in effects for column in e.columns])
-    law, j = learned.law, state.names.index(joint)
-    definition = {
-        "title": f"learned, not physics: a law of {learned.coordinates.told}",
-        "columns": {prefix: learned.coordinates.equation},
-        "unit": state.spec.joints[j].effort_unit.replace(" ", "*"),
-        **learned.coordinates.further,
-        "law": {"low": list(law.low), "high": list(law.high), "cells": list(law.cells),
-                "values": list(law.values)},
-    }  # fmt: skip
-    text = with_own_effect(text, name, definition)
-    effect = effect_named(name, robot_from_text(text, "robot with a law").catalogue)
-    assert effect is not None
-    shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
-    candidate = Candidate(effect, effect.forms[0], joint, j, shapes)
-    return text, Pick(candidate, np.array([learned.size]), state, 1.0)
-
-
-def _free(stem: str, taken: Sequence[str]) -> str:
-    """The stem, with a letter behind it if it is taken."""
-    names = (stem, *(f"{stem}{letter}" for letter in "bcdefghijklmnopqrstuvwxyz"))
-    return next(name for name in names if name not in taken)
-
-
 def _shapes(pick: Candidate, reference: SignalReference) -> dict[str, float]:
     """The shapes of a joint's effect, and where its temperature or time is 0."""
     fixed = {s.name: s.grid[0] for s in pick.form.shapes if len(s.grid) == 1}
@@ -238,6 +202,35 @@ def _referred(reference: SignalReference) -> dict[str, float]:
         for base, value in zip(reference.compiled.spec.base, reference.beta, strict=True)
         if effects[base.column_of] in known
     }
+
+
+def with_law(text: str, state: State, joint: str, learned: Learned) -> tuple[str, Pick]:
+    """The robot file with the definition of a law, and the law as an effect to be put in.
+
+    Args:
+        text: of the robot file.
+        state: in which it was learned.
+        joint: name.
+        learned: it.
+    """
+    effects = robot_from_text(text, "robot of the model").own_effects
+    name = effect_id(LEARNED, joint, [e.id for e in effects])
+    prefix = free_name("Lw", [column.prefix for e in effects for column in e.columns])
+    law, j = learned.law, state.names.index(joint)
+    definition = {
+        "title": f"learned, not physics: a law of {learned.coordinates.told}",
+        "columns": {prefix: learned.coordinates.equation},
+        "unit": state.spec.joints[j].effort_unit.replace(" ", "*"),
+        **learned.coordinates.further,
+        "law": {"low": list(law.low), "high": list(law.high), "cells": list(law.cells),
+                "values": list(law.values)},
+    }  # fmt: skip
+    text = with_own_effect(text, name, definition)
+    effect = effect_named(name, robot_from_text(text, "robot with a law").catalogue)
+    assert effect is not None
+    shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
+    candidate = Candidate(effect, effect.forms[0], joint, j, shapes)
+    return text, Pick(candidate, np.array([learned.size]), state, 1.0)
 
 
 def _tilted(text: str, values: np.ndarray, reference: SignalReference) -> np.ndarray:

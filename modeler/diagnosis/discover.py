@@ -222,7 +222,7 @@ class JointSearch:
         base, e = state.base.columns[self.j], state.residual[self.j] / state.sigma[self.j]
         T = made @ base
         gram = made @ made.swapaxes(1, 2) - T @ T.swapaxes(1, 2)
-        length = np.einsum("kii->ki", gram) + 1e-6 * np.einsum("kin,kin->ki", made, made) + 1e-300
+        length = np.einsum("kii->ki", gram) + 1e-6 * np.einsum("kin,kin->ki", made, made) + 1e-30
         side = (made @ e) / np.sqrt(length)
         gram /= np.sqrt(length[:, :, None] * length[:, None])
         gram += 1e-6 * np.eye(gram.shape[1])
@@ -323,10 +323,16 @@ class JointSearch:
                         key=lambda item: item[0])  # fmt: skip
         leading = [Formula((c.term,)) for c in self.distinct(ranked, _EXACT, NEAR)]
         single = self.best(self.scored(leading), _REFINED)
+        # what explains little alone may do so beside the first
+        plain = [self.named[text] for text in _PLAIN if text in self.named]
+        further = [(0.0, c, p) for c in self.columns for p in (None, *plain) if p is not c]
         seconds = [left if right is None else self._product(left, right)
-                   for _, left, right in ranked[:_SECONDS]]  # fmt: skip
+                   for _, left, right in [*ranked[:_SECONDS], *further]]  # fmt: skip
         pairs = [own for first in single[:_FIRSTS] for own in self.sums(first, seconds)]
-        found = self.polished([*single, *self.best(pairs, _REFINED)])
+        double = self.best(pairs, _REFINED)
+        for term in double[0].formula.terms if double else ():  # each again beside the other
+            double += self.best(self.sums(self.scored([Formula((term,))])[0], seconds), _NEAR)
+        found = self.polished([*single, *double])
         return self.apart(self.priced_anew(found))
 
     def sums(self, first: Scored, seconds: Sequence[_Column]) -> list[Scored]:
@@ -389,11 +395,18 @@ class JointSearch:
         return state_of(state.data, [*state.picks, candidate], state.beta)
 
     def apart(self, ranked: Sequence[Scored]) -> list[Scored]:
-        """Those below no cost whose torques differ from those of all cheaper ones."""
+        """Those below no cost whose torques differ from those of all cheaper ones.
+
+        And whose second term adds to the best of one term.
+        """
+        one = [item.left for item in ranked if len(item.formula.terms) == 1]
+        most = MORE * min(one, default=np.inf)
         found: list[tuple[np.ndarray, Scored]] = []
         for item in ranked:
             if item.cost >= 0.0:
                 break
+            if len(item.formula.terms) > 1 and item.left > most:
+                continue
             torque = self.torque(item.candidate)
             if all(np.linalg.norm(torque - other) > SAME * np.linalg.norm(other)
                    for other, _ in found):  # fmt: skip

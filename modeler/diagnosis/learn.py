@@ -10,7 +10,8 @@ least on folds of time that were not fitted. A little r gives to physics what bo
 """
 
 import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from typing import Any
@@ -181,6 +182,17 @@ ANY_LAW = LawAsked()
 
 LEARNED = "learned"
 """What a law is called where effects have their ids."""
+
+
+def effect_id(stem: str, joint: str, taken: Collection[str]) -> str:
+    """Id of an effect of a joint that no other has: learned_2."""
+    return free_name(f"{stem}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", taken)
+
+
+def free_name(stem: str, taken: Collection[str]) -> str:
+    """The stem, with a letter behind it if it is taken."""
+    names = (stem, *(f"{stem}{letter}" for letter in "bcdefghijklmnopqrstuvwxyz"))
+    return next(name for name in names if name not in taken)
 
 
 def learn(state: State, j: int, asked: LawAsked = ANY_LAW) -> Learned | None:

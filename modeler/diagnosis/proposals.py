@@ -2,8 +2,7 @@
 
 import dataclasses
 import math
-import re
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +14,7 @@ from modeler.diagnosis.discover import JointSearch, Scored
 from modeler.diagnosis.effect_columns import dense
 from modeler.diagnosis.expressions import Formula, parameter_unit, symbols_of
 from modeler.diagnosis.judge import GATE, Judged, compared, holdout_residuals, vetoing
-from modeler.diagnosis.learn import learn
+from modeler.diagnosis.learn import effect_id, free_name, learn
 from modeler.diagnosis.orders import rival
 from modeler.diagnosis.profile import profile_of, values_of
 from modeler.diagnosis.result import Discovery, Finding, Pick, Proposal, toml_text
@@ -132,10 +131,9 @@ def _proposal(
     state, later, item, k = own.state, own.later, own.item, len(own.state.picks)
     j, joint, formula = item.candidate.index, item.candidate.joint or "", item.formula
     known = state.data.known.catalogue
-    stem = f"found_{re.sub(r'[^a-z0-9]', '_', joint.lower())}{'abc'[rank]}"
-    name = _free(stem, {e.id for e in known})
+    name = effect_id("found", f"{joint}{'abc'[rank]}", {e.id for e in known})
     prefixes = {c.prefix for e in known for form in e.forms for c in form.columns}
-    labels = [_free(f"X{chr(97 + j % 26)}{'abc'[rank]}{x}", prefixes) for x in "abcd"]
+    labels = [free_name(f"X{chr(97 + j % 26)}{'abc'[rank]}{x}", prefixes) for x in "abcd"]
     shapes = formula.shape_units(state.spec.joints[j].unit == "m")
     units = [parameter_unit(state.spec, j, item.candidate, i, shapes)
              for i in range(len(formula.columns))]  # fmt: skip
@@ -173,11 +171,6 @@ def _proposal(
     )  # fmt: skip
 
 
-def _free(stem: str, taken: Collection[str]) -> str:
-    """The stem, with another letter behind it if it is taken."""
-    return next(n for n in (stem, *(f"{stem}{x}" for x in "defghijklmnop")) if n not in taken)
-
-
 # The nearest effect with a name, and what tells it from the next.
 
 
@@ -187,9 +180,7 @@ def _relative(
     """Id of the nearest effect of the catalogue, how near, and what differs."""
     named = _named(state, candidate.index)
     near, share = _nearest(_columns(state, candidate) @ values, named)
-    if near is None:
-        return "", 0.0, "nothing in the catalogue is near"
-    told = f"{near.effect.title} ({near.effect.id})"
+    told = f"{near.effect.title} ({near.effect.id})" if near is not None else "nothing"
     found = [(share, f"nearly {told}")] if share > ALMOST else []
     for term in formula.terms if len(formula.terms) == 1 else ():
         for i, part in enumerate(term):
@@ -198,10 +189,10 @@ def _relative(
                 column = _columns(state, rest.candidate(state.names, candidate.index))
                 head, alike = _nearest(column[:, 0], named)
                 if head is not None and alike > ALMOST:
-                    more = f", times {part.factor.title}"
+                    near, more = near or head, f", times {part.factor.title}"
                     found.append((alike, f"{head.effect.title} ({head.effect.id}){more}"))
     far = f"nearest is {told}, which explains {percent(share)} of it"
-    return near.effect.id, share, max(found)[1] if found else far
+    return near.effect.id if near is not None else "", share, max(found)[1] if found else far
 
 
 def _named(state: State, j: int) -> list[tuple[Candidate, np.ndarray]]:
