@@ -11,7 +11,7 @@
 #include "modeler_runtime.h"
 
 typedef struct {
-    const modeler_real *values; /* of power p in cell k, coefficient l: values[(4*k + p)*step + l] */
+    const modeler_real *values; /* power p, cell k, coefficient l: values[(4*k + p)*step + l] */
     modeler_real low[2], scale[2]; /* of each axis: its start, cells per unit */
     /* 0, and how many cells. Compilers that do not know them take the larger and the smaller of two
      * numbers; from constants they make jumps. */
@@ -26,8 +26,8 @@ typedef struct {
 #define modeler_law_2x(law, x, y) modeler_law_of_2(law, 0, x, y)
 #define modeler_law_2y(law, x, y) modeler_law_of_2(law, 1, x, y)
 
-/* The cell of x along an axis, where x lies in it, and by what the derivative there counts: cells per
- * unit, or 0. A comparison with what is not a number is false: that is in the first cell. */
+/* The cell of x along an axis, where x lies in it, and by what the derivative there counts: cells
+ * per unit, or 0. A comparison with what is no number is false: that is in the first cell. */
 static inline MODELER_INTO_CLONES int modeler_law_cell(const modeler_law *law, int axis,
                                                        modeler_real x, modeler_real *at,
                                                        modeler_real *rate)
@@ -38,7 +38,7 @@ static inline MODELER_INTO_CLONES int modeler_law_cell(const modeler_law *law, i
     const int cell = (int)held;
 
     *at = (held - (modeler_real)cell) + (x - x);
-    *rate = (modeler_real)(held == u)*law->scale[axis];
+    *rate = (modeler_real)((u >= least) & (u <= most))*law->scale[axis];
     return cell;
 }
 
@@ -52,6 +52,41 @@ static inline MODELER_INTO_CLONES modeler_real modeler_law_power(const modeler_r
     return ((c[3*step]*f + c[2*step])*f + c[step])*f + c[0];
 }
 
+static inline MODELER_INTO_CLONES modeler_real modeler_law_of_1(const modeler_law *law, int along,
+                                                                modeler_real x)
+{
+    modeler_real f, rate;
+    const int cell = modeler_law_cell(law, 0, x, &f, &rate);
+    const modeler_real value = modeler_law_power(law->values + 4*cell, 1, f, along == 0);
+
+    return along < 0 ? value : value*rate;
+}
+
+#if defined(__GNUC__) && !defined(MODELER_PLAIN)
+/* Four coefficients along the second axis side by side. */
+typedef modeler_real modeler_law_four
+    __attribute__((vector_size(4*sizeof(modeler_real)), aligned(sizeof(modeler_real)), may_alias));
+#define MODELER_LAW_FOUR(at) (*(const modeler_law_four *)(const void *)(at))
+
+/* The sum of their polynomials at f, each times what it counts at g; or its derivative. */
+static inline MODELER_INTO_CLONES modeler_real modeler_law_sum(const modeler_real *c, int step,
+                                                               modeler_real f, modeler_real g,
+                                                               int along)
+{
+    const modeler_real one = 1, two = 2, three = 3, half = one/2, sixth = one/6;
+    const modeler_law_four a = MODELER_LAW_FOUR(c + 3*step), b = MODELER_LAW_FOUR(c + 2*step);
+    const modeler_law_four first = {-sixth, half, -half, sixth}, second = {half, -one, half, 0};
+    const modeler_law_four third = {-half, 0, half, 0}, last = {sixth, 4*sixth, sixth, 0};
+    const modeler_law_four d = MODELER_LAW_FOUR(c + step);
+    const modeler_law_four values = along == 0 ? (a*(three*f) + b*two)*f + d
+        : ((a*f + b)*f + d)*f + MODELER_LAW_FOUR(c);
+    const modeler_law_four counts = along == 1 ? (first*(three*g) + second*two)*g + third
+        : ((first*g + second)*g + third)*g + last;
+    const modeler_law_four parts = values*counts;
+
+    return (parts[0] + parts[2]) + (parts[1] + parts[3]);
+}
+#else
 /* By what the four coefficients along the second axis count at g of a cell, or its derivative. */
 static inline MODELER_INTO_CLONES void modeler_law_weights(modeler_real g, int slope,
                                                            modeler_real *w)
@@ -71,32 +106,31 @@ static inline MODELER_INTO_CLONES void modeler_law_weights(modeler_real g, int s
     }
 }
 
-static inline MODELER_INTO_CLONES modeler_real modeler_law_of_1(const modeler_law *law, int along,
-                                                                modeler_real x)
+static inline MODELER_INTO_CLONES modeler_real modeler_law_sum(const modeler_real *c, int step,
+                                                               modeler_real f, modeler_real g,
+                                                               int along)
 {
-    modeler_real f, rate;
-    const int cell = modeler_law_cell(law, 0, x, &f, &rate);
-    const modeler_real value = modeler_law_power(law->values + 4*cell, 1, f, along == 0);
+    const int slope = along == 0;
+    modeler_real w[4];
 
-    return along < 0 ? value : value*rate;
+    modeler_law_weights(g, along == 1, w);
+    return (w[0]*modeler_law_power(c, step, f, slope)
+            + w[1]*modeler_law_power(c + 1, step, f, slope))
+        + (w[2]*modeler_law_power(c + 2, step, f, slope)
+           + w[3]*modeler_law_power(c + 3, step, f, slope));
 }
+#endif
 
 static inline MODELER_INTO_CLONES modeler_real modeler_law_of_2(const modeler_law *law, int along,
                                                                 modeler_real x, modeler_real y)
 {
-    modeler_real f, g, w[4], rates[2];
+    modeler_real f, g, rates[2];
     const int k = modeler_law_cell(law, 0, x, &f, &rates[0]);
     const int l = modeler_law_cell(law, 1, y, &g, &rates[1]);
-    const int step = law->step, slope = along == 0;
-    const modeler_real *const c = law->values + 4*k*step + l;
+    const int step = law->step;
+    const modeler_real value = modeler_law_sum(law->values + 4*k*step + l, step, f, g, along);
 
-    modeler_law_weights(g, along == 1, w);
-    const modeler_real value =
-        (w[0]*modeler_law_power(c, step, f, slope) + w[1]*modeler_law_power(c + 1, step, f, slope))
-        + (w[2]*modeler_law_power(c + 2, step, f, slope)
-           + w[3]*modeler_law_power(c + 3, step, f, slope));
-
-    return along < 0 ? value : value*rates[slope != 0 ? 0 : 1];
+    return along < 0 ? value : value*rates[along == 0 ? 0 : 1];
 }
 
 #endif

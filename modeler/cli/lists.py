@@ -58,7 +58,8 @@ def signature_lines(effect: Effect) -> list[str]:
         column = round((a / reach + 1.0) / 2.0 * (_WIDTH - 1))
         line = round((1.0 - b / top) / 2.0 * (_HEIGHT - 1))
         grid[line][column] = "*"
-    return ["", *("  " + "".join(row).rstrip() for row in grid), f"  torque against {_AXES[axis]}"]
+    label = f"{axis} from {-reach:.3g} to {reach:.3g}" if effect.learned else _AXES[axis]
+    return ["", *("  " + "".join(row).rstrip() for row in grid), f"  torque against {label}"]
 
 
 def _curve(

@@ -310,8 +310,9 @@ def _check(node: ast.expr, text: str, names: set[str], law: Law | None) -> None:
         _check(node.right, text, names, law)
     elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
         if node.func.id not in (*FUNCTIONS, *([LAW] if law else [])):
+            table = ", and law of the table that stands under the key `law`" * (node.func.id == LAW)
             raise ExpressionError(
-                f'got "{text}": no function {node.func.id}; there are {", ".join(FUNCTIONS)}'
+                f'got "{text}": no function {node.func.id}; there are {", ".join(FUNCTIONS)}{table}'
             )
         count = len(law.cells) if law and node.func.id == LAW else 1
         if len(node.args) != count or node.keywords:

@@ -9,7 +9,7 @@ from modeler.core.brief import Brief
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
 from modeler.derivation.geometry import Geometry
-from modeler.effects import TURN, Acts, EnergyBlock, Memory
+from modeler.effects import NOISE, TURN, Acts, EnergyBlock, Memory
 from modeler.robot import Joint, Robot
 
 _INERTIAL_UNITS = dict.fromkeys(("XX", "XY", "XZ", "YY", "YZ", "ZZ"), "kg m2") | dict.fromkeys(
@@ -196,14 +196,14 @@ class Signal:
         """Those that what it follows reads, by the variable."""
         if self.kind != "followed" or self.follows is None:
             return {}
-        return _variables(self.follows.names, self.row)
+        return _variables(self.follows.names, self.row, dict(self.shapes))
 
 
-def _variables(names: Collection[str], row: int) -> dict[str, Signal]:
+def _variables(names: Collection[str], row: int, shapes: Mapping[str, float]) -> dict[str, Signal]:
     """Signals that an equation reads, by the variable; not its inner state."""
     found = {
         "t": Signal("time", -1), "T": Signal("temperature", row),
-        "since": Signal("since", row, TURN),
+        "since": Signal("since", row, shapes.get(TURN, NOISE)),
     }  # fmt: skip
     return {name: signal for name, signal in found.items() if name in names}
 
@@ -228,7 +228,7 @@ def signals_of(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
 def signals_read(column: ShaftColumn) -> dict[str, Signal]:
     """Those that one column reads, by the variable of its equation."""
     names, memory = column.equation.names, column.memory
-    found = _variables(names, column.row)
+    found = _variables(names, column.row, column.shapes)
     if "z" in names:
         if memory is None or memory.kind == "resonance":
             raise DerivationError(f"{column.name}: its inner state has no form in C")

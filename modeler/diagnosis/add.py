@@ -22,13 +22,14 @@ from modeler.diagnosis.added_model import (
     left_out,
     not_needed,
     rows_of,
+    with_law,
     with_shapes,
 )
 from modeler.diagnosis.candidates import Candidate, StatedEffects, links_of, passive_joints
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
-from modeler.diagnosis.learn import ANY_LAW, LawAsked, Learned, learn, with_law
+from modeler.diagnosis.learn import ANY_LAW, LawAsked, Learned, learn
 from modeler.diagnosis.plausible import objection
 from modeler.diagnosis.profile import values_of
 from modeler.diagnosis.result import Pick, doubt

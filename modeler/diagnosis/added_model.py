@@ -1,6 +1,7 @@
 """The model with an effect: its robot file, its rows, how sure its values are, notes on it."""
 
 import dataclasses
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -8,8 +9,10 @@ import numpy as np
 
 from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.learn import LEARNED, Learned
 from modeler.diagnosis.profile import Profile, is_linear, profile
 from modeler.diagnosis.ranking import base_of, blocks_of
+from modeler.diagnosis.result import Pick
 from modeler.diagnosis.score import Residuals, error_changes, no_better
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.signals import SignalReference, tilt_axes
@@ -28,7 +31,14 @@ from modeler.observation import (
     prepare,
     shafts,
 )
-from modeler.robot import robot_from_text, with_coupling, with_effect, with_gravity, with_reference
+from modeler.robot import (
+    robot_from_text,
+    with_coupling,
+    with_effect,
+    with_gravity,
+    with_own_effect,
+    with_reference,
+)
 from modeler.runtime import CompiledModel
 
 
@@ -153,6 +163,41 @@ def described(text: str, pick: Candidate, values: np.ndarray, reference: SignalR
     names = frozenset().union(*(form.names for form in effect.forms))
     depends = effect.acts is Acts.POSITION or not names.isdisjoint({"load", "static", "torque"})
     return with_reference(changed, _referred(reference)) if depends else changed
+
+
+def with_law(text: str, state: State, joint: str, learned: Learned) -> tuple[str, Pick]:
+    """The robot file with the definition of a law, and the law as an effect to be put in.
+
+    Args:
+        text: of the robot file.
+        state: in which it was learned.
+        joint: name.
+        learned: it.
+    """
+    effects = robot_from_text(text, "robot of the model").own_effects
+    name = _free(f"{LEARNED}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", [e.id for e in effects])
+    prefix = _free("Lw", [column.prefix for e in effects for column in e.columns])
+    law, j = learned.law, state.names.index(joint)
+    definition = {
+        "title": f"learned, not physics: a law of {learned.coordinates.told}",
+        "columns": {prefix: learned.coordinates.equation},
+        "unit": state.spec.joints[j].effort_unit.replace(" ", "*"),
+        **learned.coordinates.further,
+        "law": {"low": list(law.low), "high": list(law.high), "cells": list(law.cells),
+                "values": list(law.values)},
+    }  # fmt: skip
+    text = with_own_effect(text, name, definition)
+    effect = effect_named(name, robot_from_text(text, "robot with a law").catalogue)
+    assert effect is not None
+    shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
+    candidate = Candidate(effect, effect.forms[0], joint, j, shapes)
+    return text, Pick(candidate, np.array([learned.size]), state, 1.0)
+
+
+def _free(stem: str, taken: Sequence[str]) -> str:
+    """The stem, with a letter behind it if it is taken."""
+    names = (stem, *(f"{stem}{letter}" for letter in "bcdefghijklmnopqrstuvwxyz"))
+    return next(name for name in names if name not in taken)
 
 
 def _shapes(pick: Candidate, reference: SignalReference) -> dict[str, float]:

@@ -15,15 +15,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.optimize import least_squares
 
 from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import dense
-from modeler.diagnosis.expressions import Factor, Formula, Part, Term, Unit, factors, wave
-from modeler.diagnosis.judge import judged_at, tried
+from modeler.diagnosis.expressions import Formula, Term, parts
+from modeler.diagnosis.judge import Judged, decide, judged_at, tried
 from modeler.diagnosis.orders import order_spectrum
-from modeler.diagnosis.search import refined
-from modeler.diagnosis.state import State, columns_of, state_of, visible
+from modeler.diagnosis.state import State, all_columns_of, columns_of, state_of, visible
 from modeler.estimation import remembered
 from modeler.numerics.spectra import order_spectrum as spectrum_of
 from modeler.runtime import mapped
@@ -31,7 +31,7 @@ from modeler.runtime import mapped
 PRICE = 4.0
 """Nats of a symbol, which is one of about fifty, and of a free number: 1/2 ln n (Schwarz 1978)."""
 
-SAME = 0.01
+SAME = 0.003
 """Share of its torque by which a formula must differ from a better one to be another."""
 
 MORE = 0.9**2
@@ -46,13 +46,14 @@ NEAR = 0.97
 _AT_ONCE = 16  # columns, each with all factors
 _MANY = 512  # columns
 _BEAM = 30  # products of two that get a third factor
+_HINTS = 4  # products that are judged before all else
 _EXACT = 40  # columns that are made anew
 _REFINED = 12
 _FIRSTS = 4  # columns that get a second one beside them
 _SECONDS = 1500  # products of two that are tried there
 _BESIDE = 8
-_TURNS = 4
-_NEAR, _ROUNDS, _CHANGED = 4, 3, 12
+_STEPS = 20  # of refining
+_NEAR, _ROUNDS, _CHANGED = 3, 3, 8
 _PLAIN = ("sign(v)", "v", "abs(v)", "v*abs(v)", "load", "abs(load)")
 _LOW = (0.5, 1.0, 1.5, 2.0, 2.5)  # waves in the stroke that no spectrum shows
 
@@ -99,7 +100,6 @@ class JointSearch:
     def __init__(self, state: State, j: int, tick: Callable[[], None] = lambda: None) -> None:
         self.state, self.j, self._tick = state, j, tick
         self.joint = state.spec.joints[j]
-        self.effort: Unit = {"N": 1.0, "m": 1.0} if self.joint.unit == "rad" else {"N": 1.0}
         self.before = float(state.sigma[j] ** 2 * np.sum(state.folded.left_out[j] ** 2))
         noise = np.random.default_rng(0).normal(size=len(state.y[j]))
         self.count = self._count(noise)  # what is missing is remembered, noise is not
@@ -116,36 +116,28 @@ class JointSearch:
         share = np.maximum(np.asarray(left) / self.before, 1e-12)
         return np.asarray(0.5 * self.count * np.log(share) + PRICE * np.asarray(symbols))
 
-    def formula(self, *terms: Term) -> Formula:
-        """The sum of terms."""
-        return Formula(terms, self.effort)
-
     # Factors at the rows of the joint, and products of them.
 
     @cached_property
-    def factors(self) -> list[Factor]:
-        """Those of this joint."""
-        state = self.state
+    def columns(self) -> list[_Column]:
+        """Every factor at the first values of its shapes."""
+        state, found = self.state, list[_Column]()
         warm = self.joint.name in state.reference.temperature
-        return factors(
-            state.scales, state.names, self.j, self.effort, warm, state.spec.closure is not None
-        )
+        stroke = 2.0 * np.pi / state.scales[self.j].range
+        waves = [*(stroke * x for x in _LOW), *self.orders()]
+        for own in parts(state.spec, state.scales, self.j, warm, waves):
+            first = Formula(((own[0],),)).candidate(state.names, self.j)
+            every = [dataclasses.replace(first, shapes=dict(part.shapes)) for part in own]
+            made = all_columns_of(state.rows, every)
+            shown = [pair for pair in zip(own, made, strict=True) if visible(pair[1])]
+            found += [self._column((p,), dense(c, self.j, self._rows)) for p, c in shown]
+            self._tick()
+        return found
 
     @cached_property
     def atoms(self) -> list[_Column]:
-        """Every factor at the first values of its shapes."""
-        found = []
-        for factor in self.factors:
-            parts = [Part(factor, shapes) for shapes in factor.over_grid()]
-            first = self.formula((parts[0],)).candidate(self.state.names, self.j)
-            every = [dataclasses.replace(first, shapes=dict(part.shapes)) for part in parts]
-            columns = self.state.rows.many(every) if len(every) > 1 else [
-                self.state.rows.columns(first)
-            ]  # fmt: skip
-            found += [self._column((part,), dense(own, self.j, self._rows))
-                      for part, own in zip(parts, columns, strict=True) if visible(own)]  # fmt: skip
-            self._tick()
-        return found
+        """Those that are no waves."""
+        return [column for column in self.columns if column.values.shape[1] == 1]
 
     @property
     def _rows(self) -> int:
@@ -153,62 +145,36 @@ class JointSearch:
 
     def _column(self, term: Term, values: np.ndarray) -> _Column:
         size = np.sqrt(np.mean(values**2, axis=0))
-        return _Column(term, values / np.where(size > 0.0, size, 1.0), self.formula(term).symbols)
+        return _Column(term, values / np.where(size > 0.0, size, 1.0), Formula((term,)).symbols)
 
     def _product(self, a: _Column, b: _Column) -> _Column:
         """Of a column and a factor that is no wave."""
         term = (*a.term, *b.term)
-        return _Column(term, a.values * b.values, self.formula(term).symbols)
-
-    def waves(self) -> list[_Column]:
-        """Waves over the position of this joint and of others."""
-        found = []
-        scale, places = self.state.scales[self.j], self._positions()
-        unit = 2.0 * np.pi / scale.range
-        orders = dict.fromkeys(
-            [*(scale.angular * [1.0]), *(unit * x for x in _LOW), *self.orders()]
-        )
-        every = [
-            (wave("q", order, scale, "the position"), places[self.j], order) for order in orders
-        ]
-        for k, name in enumerate(self.state.names):
-            if k in places and k != self.j and self.state.scales[k].angular:
-                words = f"the position of joint {name}"
-                every.append((wave(f"q{name}", 1.0, self.state.scales[k], words), places[k], 1.0))
-        for factor, q, order in every:
-            part = Part(factor, {"n": order} if factor.grid else {})
-            angle = order * q
-            found.append(self._column((part,), np.column_stack([np.sin(angle), np.cos(angle)])))
-        return found
-
-    def _positions(self) -> dict[int, np.ndarray]:
-        q = self.state.rows.filtered(self.j, [s.q for s in self.state.rows.signals])
-        return dict(enumerate(q.T))
+        return _Column(term, a.values * b.values, Formula((term,)).symbols)
 
     def orders(self) -> list[float]:
         """Waves that stand out in the residual, and in it turned by the motion or the load."""
-        own = order_spectrum(self.state, self.j)
+        state, j = self.state, self.j
+        own = order_spectrum(state, j)
         found = list(own.peaks) if own is not None else []
-        cutoff = self.state.data.observation.report.processing.parallel_cutoff or 1e9
-        speed = np.abs(self.named["v"].values[:, 0])
-        slow = float(np.quantile(speed, 0.1)) * self.state.scales[self.j].speed
-        reached = 2.0 * np.pi * cutoff / max(slow, 1e-9)
-        q = self._positions()[self.j]
-        for name in ("sign(v)", "v", "load", "static"):
-            if name in self.named:
-                r = self.state.residual[self.j] * self.named[name].values[:, 0]
-                spectrum = spectrum_of(q, r - r.mean(), self.joint.unit, reached)
-                found += spectrum.peaks if spectrum is not None else ()
+        x = state.rows.filtered(j, [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]])
+                                    for s in state.rows.signals])  # fmt: skip
+        cutoff = state.data.observation.report.processing.parallel_cutoff or 1e9
+        reached = 2.0 * np.pi * cutoff / max(float(np.quantile(np.abs(x[:, 1]), 0.1)), 1e-9)
+        for turned in (np.sign(x[:, 1]), x[:, 1], x[:, 2], np.abs(x[:, 2])):
+            r = state.residual[j] * turned
+            spectrum = spectrum_of(x[:, 0], r - r.mean(), self.joint.unit, reached)
+            found += spectrum.peaks if spectrum is not None else ()
         once: list[float] = []
         for order in found:
-            if all(abs(order - other) > 1.0 / self.state.scales[self.j].range for other in once):
+            if all(abs(order - other) > 1.0 / state.scales[j].range for other in once):
                 once.append(order)
         return once
 
     @cached_property
     def named(self) -> dict[str, _Column]:
         """Factors without shapes, by their text."""
-        return {c.term[0].factor.text: c for c in self.atoms if not c.term[0].shapes}
+        return {c.term[0].texts[0]: c for c in self.atoms if not c.term[0].shapes}
 
     def products(
         self, left: Sequence[_Column], right: Sequence[_Column], keep: int,
@@ -225,11 +191,11 @@ class JointSearch:
         state, place = state or self.state, {id(c): k for k, c in enumerate(right)}
         values = np.stack([c.values[:, 0] for c in right])
         symbols = np.array([c.symbols for c in right])
-        texts = np.array([c.term[0].factor.text for c in right])
+        texts = np.array([c.term[0].texts[0] for c in right])
 
         def of(column: _Column) -> list[_Priced]:
             first = place.get(id(column), -1) + 1
-            fit = ~np.isin(texts[first:], [part.factor.text for part in column.term])
+            fit = ~np.isin(texts[first:], [part.texts[0] for part in column.term])
             who = first + np.flatnonzero(fit)
             made = column.values.T[None] * values[who][:, None]
             count = len(column.values.T)
@@ -286,8 +252,9 @@ class JointSearch:
             c = column.values
             own = np.vstack([c, 1j * (base.T @ c)])  # products are those of columns off the model
             own = own @ _root((own.T @ own).real)
-            if all(np.linalg.norm((own.T @ other).real) ** 2
-                   < alike**2 * min(own.shape[1], other.shape[1]) for other, _ in found):  # fmt: skip
+            shared = (float(np.linalg.norm((own.T @ x).real) ** 2 / min(len(own.T), len(x.T)))
+                      for x, _ in found)  # fmt: skip
+            if own.size and all(share < alike**2 for share in shared):
                 found.append((own, column))
             if len(found) == keep:
                 break
@@ -310,35 +277,51 @@ class JointSearch:
             found.append(Scored(formula, candidate, left, float(self.cost(left, formula.symbols))))
         return sorted(found, key=lambda s: s.cost)
 
-    def refined(self, item: Scored, turns: int = _TURNS) -> Scored:
-        """The same at its best shapes."""
-        for _ in range(turns):
-            candidate = refined(self.state, item.candidate, self.explained)
-            self._tick()
-            again = self.scored([item.formula.with_shapes(candidate.shapes)])
-            if not again or again[0].cost >= item.cost:
-                break
-            gained, item = item.cost - again[0].cost, again[0]
-            if gained < 1.0:
-                break
-        return item
+    def refined(self, item: Scored) -> Scored:
+        """The same at its best shapes: variable projection (Kaufman 1975), on all rows."""
+        formula, start = item.formula, np.array([*item.formula.shapes.values()])
+        if not start.size:
+            return item
+        sizes = np.array([size for part, names in formula.parts for size in part.sizes()])
+        base, e = self.state.base.columns[self.j], self.state.residual[self.j]
 
-    def explained(self, candidate: Candidate) -> float:
-        """Fall of the squared residual, weighted, on all rows."""
-        columns = self.state.rows.columns(candidate)
-        if not visible(columns):
-            return 0.0
-        values = dense(columns, self.j, self._rows)
-        return float(self.fall(self.state, values.T[None])[0])
+        def at(x: np.ndarray) -> Formula:
+            return formula.with_shapes(dict(zip(formula.shapes, start + sizes * x, strict=True)))
+
+        def left(x: np.ndarray) -> np.ndarray:
+            candidate = dataclasses.replace(item.candidate, shapes=at(x).shapes)
+            columns = self.state.rows.columns(candidate)
+            if not visible(columns):
+                return e
+            c = dense(columns, self.j, self._rows)
+            off = c - base @ (base.T @ c)
+            return np.asarray(e - off @ np.linalg.lstsq(off, e, rcond=1e-9)[0])
+
+        found = least_squares(left, np.zeros(start.size), diff_step=1e-3, max_nfev=_STEPS)
+        self._tick()
+        again = self.scored([at(found.x)])
+        return again[0] if again and again[0].cost < item.cost else item
+
+    def hinted(self) -> bool:
+        """True if a product surely explains something: laws resolve no waves, and forget."""
+        every = [*self.singles(self.columns), *self.products(self.columns, self.atoms, _EXACT)]
+        ranked = sorted(every, key=lambda item: item[0])
+        few = self.scored([Formula((c.term,)) for c in self.distinct(ranked, _HINTS)])
+        return any(self.judged(item.candidate) is not None for item in few)
+
+    def judged(self, candidate: Candidate) -> Judged | None:
+        """It as an effect of the catalogue is judged; None if it is worth no name."""
+        pair = candidate, columns_of(self.state.rows, candidate)
+        return decide(self.state, judged_at(self.state, [pair])).best
 
     def found(self) -> list[Scored]:
         """Formulas that say more than they cost, the cheapest first; no two are alike."""
-        atoms, waves = self.atoms, self.waves()
-        doubles = self.products([*atoms, *waves], atoms, _SECONDS)
+        atoms = self.atoms
+        doubles = self.products(self.columns, atoms, _SECONDS)
         triples = self.products(self.distinct(doubles, _BEAM), atoms, _SECONDS)
-        ranked = sorted([*self.singles([*atoms, *waves]), *doubles, *triples],
+        ranked = sorted([*self.singles(self.columns), *doubles, *triples],
                         key=lambda item: item[0])  # fmt: skip
-        leading = [self.formula(c.term) for c in self.distinct(ranked, _EXACT, NEAR)]
+        leading = [Formula((c.term,)) for c in self.distinct(ranked, _EXACT, NEAR)]
         single = self.best(self.scored(leading), _REFINED)
         seconds = [left if right is None else self._product(left, right)
                    for _, left, right in ranked[:_SECONDS]]  # fmt: skip
@@ -350,8 +333,8 @@ class JointSearch:
         """A formula and a second term that surely adds to it."""
         beside = JointSearch(self._with(first.candidate), self.j, self._tick)
         near = self.distinct(self.singles(seconds, beside.state), _BESIDE, NEAR)
-        others = beside.best(beside.scored([self.formula(c.term) for c in near]), _BESIDE, 1)
-        sums = [self.formula(*first.formula.terms, *s.formula.terms) for s in others]
+        others = beside.best(beside.scored([Formula((c.term,)) for c in near]), _BESIDE)
+        sums = [Formula((*first.formula.terms, *s.formula.terms)) for s in others]
         return [s for s in self.scored(sums) if s.left < MORE * first.left]
 
     def polished(self, found: Sequence[Scored]) -> list[Scored]:
@@ -368,28 +351,28 @@ class JointSearch:
                 new = {f.text: f for own in kind for f in own if f.text not in seen}
                 seen |= new.keys()
                 near.append(self.scored([*new.values()]))
-            found = [*found, *(item for own in near for item in self.best(own, _CHANGED, 2))]
+            found = [*found, *(item for own in near for item in self.best(own, _CHANGED))]
         return list(found)
 
     def neighbours(self, formula: Formula) -> tuple[list[Formula], list[Formula]]:
         """It without a part or a term; with a plain factor in place of a part."""
-        shorter = [self.formula(term) for term in formula.terms if len(formula.terms) > 1]
-        others = []
+        shorter = [Formula((term,)) for term in formula.terms if len(formula.terms) > 1]
+        others = list[Formula]()
         for k, term in enumerate(formula.terms):
             for i in range(len(term)):
                 rest = (*term[:i], *term[i + 1 :])
-                taken = [part.factor.text for part in term]
+                taken = [part.texts[0] for part in term]
                 plain = [self.named[text].term for text in _PLAIN
                          if text in self.named and text not in taken]  # fmt: skip
                 for new in ((), *plain) if rest else plain:
                     terms = (*formula.terms[:k], (*new, *rest), *formula.terms[k + 1 :])
-                    (others if new else shorter).append(self.formula(*terms))
+                    (others if new else shorter).append(Formula(terms))
         return shorter, [f for f in others if f.possible]
 
-    def best(self, ranked: Sequence[Scored], count: int, turns: int = _TURNS) -> list[Scored]:
+    def best(self, ranked: Sequence[Scored], count: int) -> list[Scored]:
         """The cheapest at their best shapes."""
         first = sorted(ranked, key=lambda s: s.cost)[:count]
-        return sorted((self.refined(item, turns) for item in first), key=lambda s: s.cost)
+        return sorted((self.refined(item) for item in first), key=lambda s: s.cost)
 
     def priced_anew(self, every: Sequence[Scored]) -> list[Scored]:
         """The cheapest first, by how many rows there are in what the best leaves."""

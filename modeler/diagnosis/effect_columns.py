@@ -13,7 +13,7 @@ from modeler.core.brief import Brief
 from modeler.core.manifest import ParameterSpec
 from modeler.diagnosis.candidates import Candidate, links_of
 from modeler.diagnosis.signals import EVERY, WINDOW, SignalReference, Signals, tilt_columns
-from modeler.effects import Acts
+from modeler.effects import NOISE, TURN, Acts
 from modeler.numerics.filters import SPREAD, only
 from modeler.observation import Observation, Stretch, observed_alike, signals_of
 
@@ -46,11 +46,14 @@ def own_columns(
         for name in first.shapes
     }
     span = window if memory is None else EVERY  # what remembers reads the stretch from its start
-    read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate", "since"}))
+    read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
     values |= {name: getattr(signals, name)[span, j, None] for name in read}
     values |= {name: signals.of_other(name)[span, None] for name in first.form.others}
     if "t" in names:
         values["t"] = signals.time[span, None]
+    if "since" in names:
+        backs = [candidate.shapes.get(TURN, NOISE) for candidate in candidates]
+        values["since"] = np.column_stack([signals.since(j, back)[span] for back in backs])
     if "T" in names and (warmth := signals.temperature(first.joint or "")) is not None:
         values["T"] = warmth[span, None]
     with np.errstate(all="ignore"):  # columns that are not finite are not looked at

@@ -9,7 +9,7 @@ Marx 1996). The smoothness s, and the coordinates where none are asked for, are 
 least on folds of time that were not fitted. A little r gives to physics what both could explain.
 """
 
-import re
+import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
@@ -26,23 +26,28 @@ from modeler.core.law import Law
 from modeler.core.toml_cells import Place
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import own_columns
-from modeler.diagnosis.judge import FELT, GATE, NAMED_T_RATIO, NEARLY
+from modeler.diagnosis.judge import FELT, GATE, NEARLY
 from modeler.diagnosis.orders import order_spectrum
-from modeler.diagnosis.result import Pick
 from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
 from modeler.diagnosis.state import State
 from modeler.diagnosis.timing import smoothed
-from modeler.effects import effect_named, read_definition
+from modeler.effects import TURN, read_definition
 from modeler.numerics.splines import beyond, flat_ends, second_differences, spline_products
-from modeler.robot import robot_from_text, with_own_effect
 
 CELLS = (40, 14)
 """Of one axis alone, and of each of two."""
 
+SURE = 3.0
+"""Least fall of the error, in standard errors, where a law was not fitted; it is judged again."""
+
 _WAVE = 8  # cells for each wave that stands out in the residual
-_MOST_CELLS, _FEW = 240, 5
-_SLIPS = (0.02, 0.2)
-"""Travels after a reversal, of the range of motion, over which z turns."""
+_FINE, _MOST_CELLS, _FEW = 100, 240, 5
+_TRAVELS = (0.003, 0.03)
+"""After a reversal, of the range of motion: over which z turns, and what is a reversal at all."""
+
+_LAGS = (0.1, 0.4, 1.6)  # s
+_FACTOR = 1.1  # steps of these that are not worth a look
+
 _SMOOTH = tuple(10.0**power for power in range(-5, 4))
 _FIRST = (1e-2, 1.0)  # smoothness in which coordinates are compared
 _RIDGE = 1e-4  # of the mean square of a spline
@@ -82,6 +87,12 @@ class Coordinates(Brief):
     def counts(self) -> tuple[int, ...]:
         """Cells along each axis."""
         return self.cells or (CELLS[len(self.arguments) - 1],) * len(self.arguments)
+
+    def scaled(self, name: str, factor: float) -> "Coordinates":
+        """The same with another value of a shape of what it reads."""
+        (value,) = self.further["shapes"][name]
+        shapes = self.further["shapes"] | {name: [float(f"{value * factor:.4g}")]}
+        return dataclasses.replace(self, further=dict(self.further) | {"shapes": shapes})
 
     def values(self, state: State, j: int) -> list[np.ndarray]:
         """(samples, arguments + 1) by stretch: the arguments, then the factor.
@@ -126,8 +137,8 @@ class Learned(Brief):
 
     @property
     def significant(self) -> bool:
-        """True if it is worth a place in a model, as an effect with a name would be."""
-        return self.gain > GATE and self.sure > NAMED_T_RATIO and self.felt > FELT
+        """True if it is worth a place in a model."""
+        return self.gain > GATE and self.sure > SURE and self.felt > FELT
 
 
 @dataclass(frozen=True)
@@ -172,41 +183,6 @@ LEARNED = "learned"
 """What a law is called where effects have their ids."""
 
 
-def with_law(text: str, state: State, joint: str, learned: Learned) -> tuple[str, Pick]:
-    """The robot file with the definition of a law, and the law as an effect to be put in.
-
-    Args:
-        text: of the robot file.
-        state: in which it was learned.
-        joint: name.
-        learned: it.
-    """
-    effects = robot_from_text(text, "robot of the model").own_effects
-    name = _free(f"{LEARNED}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", [e.id for e in effects])
-    prefix = _free("Lw", [column.prefix for e in effects for column in e.columns])
-    law, j = learned.law, state.names.index(joint)
-    definition = {
-        "title": f"learned, not physics: a law of {learned.coordinates.told}",
-        "columns": {prefix: learned.coordinates.equation},
-        "unit": state.spec.joints[j].effort_unit.replace(" ", "*"),
-        **learned.coordinates.further,
-        "law": {"low": list(law.low), "high": list(law.high), "cells": list(law.cells),
-                "values": list(law.values)},
-    }  # fmt: skip
-    text = with_own_effect(text, name, definition)
-    effect = effect_named(name, robot_from_text(text, "robot with a law").catalogue)
-    assert effect is not None
-    shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].shapes}
-    candidate = Candidate(effect, effect.forms[0], joint, j, shapes)
-    return text, Pick(candidate, np.array([learned.size]), state, 1.0)
-
-
-def _free(stem: str, taken: Sequence[str]) -> str:
-    """The stem, with a letter behind it if it is taken."""
-    names = (stem, *(f"{stem}{letter}" for letter in "bcdefghijklmnopqrstuvwxyz"))
-    return next(name for name in names if name not in taken)
-
-
 def learn(state: State, j: int, asked: LawAsked = ANY_LAW) -> Learned | None:
     """The law of joint j that loses least on motion it was not fitted to; None without any.
 
@@ -227,8 +203,27 @@ def learn(state: State, j: int, asked: LawAsked = ANY_LAW) -> Learned | None:
     found = [(_Fit(state, j, own).best(_SMOOTH, asked.rising), own) for _, own in found[:_NEAR]]
     if not found:
         return None
-    fit, splines = _simplest(found)
+    fit, splines = _refined(state, j, *_simplest(found), asked.rising)
     return _learned(state, j, splines, fit)
+
+
+def _refined(
+    state: State, j: int, fit: "_Solved", splines: "_Splines", rising: int
+) -> tuple["_Solved", "_Splines"]:
+    """At a travel or a time of what remembers that loses less: steps by factors, ever smaller."""
+    for name in splines.coordinates.further.get("shapes", {}):
+        factor = 2.0
+        while factor > _FACTOR:
+            for times in (factor, 1.0 / factor):
+                tried = _splines(state, j, splines.coordinates.scaled(name, times))
+                if tried is not None:
+                    other = _Fit(state, j, tried).best(_SMOOTH, rising)
+                    if other.after.sum() < fit.after.sum():
+                        fit, splines = other, tried
+                        break
+            else:
+                factor = factor**0.5
+    return fit, splines
 
 
 def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
@@ -239,7 +234,7 @@ def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
     peaks = [] if (spectrum := order_spectrum(state, j)) is None else spectrum.peaks
     turns = state.scales[j].range / (2.0 * np.pi)
     fine = min(_MOST_CELLS, round(_WAVE * max(peaks, default=0.0) * turns))
-    waves = [0] + ([fine] if fine > CELLS[0] else [])
+    waves = [0, _FINE] + ([fine] if fine > _FINE else [])
     quantities = _quantities(state, j)
     for x, further in quantities:
         for cells in waves if x == "q" else [0]:
@@ -255,15 +250,20 @@ def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
 
 def _quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
     """What a law may depend on, with what else its definition needs."""
-    found, slips = ["q", "v", "a"], list[float]()
-    if state.spec.closure is None:  # in loops laws read the motion of their own joint
-        found += ["load", "since"]
-        slips = [float(f"{share * state.scales[j].range:.3g}") for share in _SLIPS]
-        others = [name for name in state.names if name != state.names[j]]
-        found += [f"{letter}{name}" for name in others for letter in "qv"]
+    found: list[tuple[str, Mapping[str, Any]]] = [("q", {}), ("v", {}), ("a", {})]
     if state.names[j] in state.reference.temperature:
-        found.append("T")
-    return [*((name, {}) for name in found), *(("z", {"shapes": {"d": [d]}}) for d in slips)]
+        found.append(("T", {}))
+    if state.spec.closure is not None:  # in loops laws read the motion of their own joint
+        return found
+    others = [name for name in state.names if name != state.names[j]]
+    found += [("load", {}), *((f"{letter}{name}", {}) for name in others for letter in "qv")]
+    for share in _TRAVELS:
+        travel = float(f"{share * state.scales[j].range:.3g}")
+        found.append(("z", {"shapes": {"d": [travel]}}))
+        found.append(("sqrt(since)", {"shapes": {TURN: [travel]}}))
+    for tau in _LAGS:
+        found += [("z", {"lag": x, "shapes": {"tau": [tau]}}) for x in ("v", "abs(v)")]
+    return found
 
 
 def _simplest(found: Sequence[tuple["_Solved", "_Splines"]]) -> tuple["_Solved", "_Splines"]:

@@ -1,8 +1,9 @@
 """Equations proposed for what a diagnosis leaves: as text to paste, with what they are near to."""
 
 import dataclasses
+import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,20 +13,12 @@ from modeler.core.toml_cells import Place
 from modeler.diagnosis.candidates import Candidate, over_grid
 from modeler.diagnosis.discover import JointSearch, Scored
 from modeler.diagnosis.effect_columns import dense
-from modeler.diagnosis.expressions import Formula
-from modeler.diagnosis.judge import (
-    GATE,
-    Judged,
-    compared,
-    decide,
-    holdout_residuals,
-    judged_at,
-    vetoing,
-)
+from modeler.diagnosis.expressions import Formula, parameter_unit, symbols_of
+from modeler.diagnosis.judge import GATE, Judged, compared, holdout_residuals, vetoing
 from modeler.diagnosis.learn import learn
 from modeler.diagnosis.orders import rival
-from modeler.diagnosis.profile import profile_of, shape_units, values_of
-from modeler.diagnosis.result import Discovery, Finding, Pick, Proposal
+from modeler.diagnosis.profile import profile_of, values_of
+from modeler.diagnosis.result import Discovery, Finding, Pick, Proposal, toml_text
 from modeler.diagnosis.search import Search, Step, extended
 from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of, visible
 from modeler.effects import Acts, read_definition
@@ -35,6 +28,9 @@ MOST = 3
 
 ALMOST = 0.98
 """Share of a column that another explains from which on they are nearly the same."""
+
+LEAST = 0.01
+"""Share by which one with more columns must be nearer."""
 
 _JUDGED = 8  # formulas, the cheapest first, that are judged
 
@@ -67,29 +63,29 @@ def _on_joint(
     end, name = found.end, found.end.names[j]
     kept = tuple(p for p in end.picks if p.index != j or not p.local or p.key in stated)
     states = [end] + ([state_of(end.data, kept, end.beta)] if len(kept) < len(end.picks) else [])
-    share, law = 0.0, ""
-    for state in states:
-        learned = learn(state, j)
-        said = rival(state, j, state.residual[j])
-        tick()
-        own = max(learned.gain if learned is not None and learned.significant else 0.0,
-                  said.share if said.sure and said.share > GATE else 0.0)  # fmt: skip
-        if own == 0.0:
-            states.remove(state)
-        elif own > share:
-            share = own
-            law = learned.coordinates.told if learned is not None and own == learned.gain else ""
-    if not states:
-        why = "nothing to find: a learned law says nothing of what is left beyond chance"
+    said = [_said(state, j) for state in states]
+    tick()
+    searches = [JointSearch(state, j, tick) for state in states]
+    searches = [search for search, (share, _) in zip(searches, said, strict=True)
+                if share > 0.0 or search.hinted()]  # fmt: skip
+    if not searches:
+        why = "nothing to find: neither a learned law nor a product says more than chance of it"
         return Discovery(name, 0.0, "", (), why)
-    offered = _offered(states, j, other, tick)
-    proposals = [
-        _proposal(found, offered[k], share, k, other) for k in range(len(offered))
-    ]  # fmt: skip
+    share, law = max(said)
+    offered = _offered(searches, other)
+    proposals = [_proposal(found, own, share, k, other) for k, own in enumerate(offered)]
     if not proposals:
         why = f"no small expression says what a learned law does ({percent(share)} of what is left)"
         return Discovery(name, share, law, (), why)
     return Discovery(name, share, law, _told_apart(proposals, [o.state for o in offered], j))
+
+
+def _said(state: State, j: int) -> tuple[float, str]:
+    """Share of the residual of a joint that a law explains, and of what; 0 within chance."""
+    law, said = learn(state, j), rival(state, j, state.residual[j])
+    if law is not None and law.significant:
+        return law.gain, law.coordinates.told
+    return (said.share, "") if said.sure and said.share > GATE else (0.0, "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,84 +98,84 @@ class _Offered:
     judged: Judged
 
 
-def _offered(
-    states: Sequence[State], j: int, other: SearchData | None, tick: Callable[[], None]
-) -> list[_Offered]:
-    """The best formulas of all states that pass as effects with names must."""
-    searches = [JointSearch(state, j, tick) for state in states]
+def _offered(searches: Sequence[JointSearch], other: SearchData | None) -> list[_Offered]:
+    """The best formulas beside all states that pass as effects with names must."""
     every = [(search, item) for search in searches for item in search.found()]
-    count = max(search.count for search in searches)
-    for search in searches:
-        search.count = count
-    ranked = sorted(every, key=lambda pair: _whole_cost(*pair, searches[0]))
-    veto, kept = vetoing(other), list[_Offered]()
-    for search, item in ranked[:_JUDGED]:
+    for search in searches:  # costs beside one and the same model
+        search.count, search.before = max(s.count for s in searches), searches[0].before
+    every.sort(key=lambda pair: _whole_cost(*pair))
+    veto, kept, seen = vetoing(other), list[_Offered](), set[str]()
+    for search, item in every[:_JUDGED]:
         state = search.state
-        columns = columns_of(state.rows, item.candidate)
-        best = decide(state, judged_at(state, [(item.candidate, columns)])).best
-        later = extended(state, item.candidate)
-        if best is not None and not veto(state, later, best):
-            kept.append(_Offered(state, later, item, best))
+        best, later = search.judged(item.candidate), extended(state, item.candidate)
+        if best is None or item.formula.text in seen or veto(state, later, best):
+            continue
+        seen.add(item.formula.text)
+        kept.append(_Offered(state, later, item, best))
         if len(kept) == MOST:
             break
     return kept
 
 
-def _whole_cost(search: JointSearch, item: Scored, first: JointSearch) -> float:
-    """Nats beside the model without effects of the catalogue that the formula replaces."""
-    texts = [c.equation.text for p in search.state.picks for c in p.form.columns
+def _whole_cost(search: JointSearch, item: Scored) -> float:
+    """Nats with the price of the effects of the catalogue beside which the formula stands."""
+    named = [c.equation.text for p in search.state.picks for c in p.form.columns
              if p.index == search.j]  # fmt: skip
-    named = sum(len(re.findall(r"\w+", text)) + 1 for text in texts)
-    return float(first.cost(item.left, item.formula.symbols + named))
+    symbols = item.formula.symbols + sum(map(symbols_of, named))
+    return float(search.cost(item.left, symbols))
 
 
-def _proposal(found: Search, own: _Offered, share: float, rank: int,
-              other: SearchData | None) -> Proposal:  # fmt: skip
-    state, later, item = own.state, own.later, own.item
-    j, k, joint = item.candidate.index, len(state.picks), item.candidate.joint or ""
-    taken = {e.id for e in state.data.known.catalogue}
-    stem = f"found_{re.sub(r'[^a-z0-9]', '_', joint.lower())}"
-    name = next(
-        n for n in (f"{stem}{'abc'[rank]}{mark}" for mark in ("", *"defghij")) if n not in taken
-    )
-    prefixes = {c.prefix for e in state.data.known.catalogue for f in e.forms for c in f.columns}
-    mark = next(x for x in "XYZUHNB" if not any(
-        p.startswith(f"{x}{chr(97 + j)}{'abc'[rank]}") for p in prefixes))  # fmt: skip
-    formula = item.formula
-    labels = [f"{mark}{chr(97 + j)}{'abc'[rank]}{letter}" for letter in "abcd"]
-    definition = {"title": formula.title, **formula.definition(labels)}
-    effect = read_definition(name, Place("discover", value=definition), {}, joints=state.names)
+def _proposal(
+    found: Search, own: _Offered, share: float, rank: int, other: SearchData | None
+) -> Proposal:
+    """An offer with its values, as text, and what it is near to."""
+    state, later, item, k = own.state, own.later, own.item, len(own.state.picks)
+    j, joint, formula = item.candidate.index, item.candidate.joint or "", item.formula
+    known = state.data.known.catalogue
+    stem = f"found_{re.sub(r'[^a-z0-9]', '_', joint.lower())}{'abc'[rank]}"
+    name = _free(stem, {e.id for e in known})
+    prefixes = {c.prefix for e in known for form in e.forms for c in form.columns}
+    labels = [_free(f"X{chr(97 + j % 26)}{'abc'[rank]}{x}", prefixes) for x in "abcd"]
+    shapes = formula.shape_units(state.spec.joints[j].unit == "m")
+    units = [parameter_unit(state.spec, j, item.candidate, i, shapes)
+             for i in range(len(formula.columns))]  # fmt: skip
+    table = formula.definition(labels)
+    definition = {"title": formula.title, **table, "unit": units[0] if len(set(units)) == 1
+                  else dict(zip(labels, units, strict=False))}  # fmt: skip
+    place = Place("discover", value=definition)
+    effect = read_definition(name, place, {}, joints=state.names)
     candidate = dataclasses.replace(item.candidate, effect=effect, form=effect.forms[0])
-    deviations = own.judged.deviations * float(np.sqrt(np.mean(
-        (later.residual[j] / state.sigma[j]) ** 2)))  # fmt: skip
-    along = profile_of(later, k)
-    if along is not None:
-        deviations = along.deviations()
-    values = later.values[k]
-    named = values_of(later, candidate, values, deviations)
+    left, along, values = later.residual[j] / state.sigma[j], profile_of(later, k), later.values[k]
+    deviations = own.judged.deviations * float(np.sqrt(np.mean(left**2)))
+    named = values_of(later, candidate, values, deviations if along is None else along.deviations())
     before, after = (holdout_residuals(s, other) for s in (state, later))
     change = compared(before, after, [j], state).whole
-    units = {**named.unit, **shape_units(later, candidate)}
     finding = Finding(
         effect=name, joint=joint, error_before=change.before, error_after=change.after,
         parameters=named.value | dict(candidate.shapes),
         sigmas=named.deviation | ({} if along is None else along.shape_deviations()),
-        units=units, ties=(), evidence=formula.title, closure=None, refines=False,
+        units=dict(zip(named.value, units, strict=True)) | shapes, ties=(),
+        evidence=formula.title, closure=None, refines=False,
         pick=Pick(candidate, values, later, own.judged.visible),
     )  # fmt: skip
-    relative, likeness, differs = _relative(state, item.formula, candidate, values)
-    gone = [p.effect.id for p in found.end.picks if p not in state.picks]
-    equation = " + ".join(f"{c.prefix}{joint} {c.equation.text}" for c in effect.columns)
-    shapes = ", ".join([f'joint = "{joint}"', *(f"{key} = {float(f'{value:.6g}')!r}"
-                                                for key, value in candidate.shapes.items())])  # fmt: skip
-    line = f"{name} = [{{{shapes}}}]" if candidate.shapes else f'{name} = ["{joint}"]'
-    step = Step(own.judged, (), state)
-    drawn = dataclasses.replace(found, start=state, steps=(step,), end=later)
+    relative, likeness, differs = _relative(state, formula, candidate, values)
+    stated = {"joint": joint, **{key: float(f"{x:.6g}") for key, x in candidate.shapes.items()}}
+    judged = dataclasses.replace(own.judged, candidate=candidate)
+    steps = (*(s for s in found.steps if s.pick in state.picks), Step(judged, (), state))
     return Proposal(
-        finding=finding, definition=definition, equation=equation, effects_line=line,
-        explained=min(1.0, own.judged.gain / share), symbols=formula.symbols,
-        instead=tuple(gone), relative=relative, likeness=likeness, differs=differs, drawn=drawn,
+        finding=finding, definition=definition,
+        equation=" + ".join(f"{c.prefix}{joint} {c.equation.text}" for c in effect.columns),
+        effects_line=f"{name} = {toml_text([stated if candidate.shapes else joint])}",
+        explained=min(1.0, own.judged.gain / share) if share else math.nan, symbols=formula.symbols,
+        instead=tuple(p.effect.id for p in found.end.picks if p not in state.picks),
+        relative=relative, likeness=likeness, differs=differs,
+        drawn=dataclasses.replace(found, steps=steps, end=later),
     )  # fmt: skip
+
+
+def _free(stem: str, taken: Collection[str]) -> str:
+    """The stem, with another letter behind it if it is taken."""
+    return next(n for n in (stem, *(f"{stem}{x}" for x in "defghijklmnop")) if n not in taken)
 
 
 # The nearest effect with a name, and what tells it from the next.
@@ -189,29 +185,23 @@ def _relative(
     state: State, formula: Formula, candidate: Candidate, values: np.ndarray
 ) -> tuple[str, float, str]:
     """Id of the nearest effect of the catalogue, how near, and what differs."""
-    torque = _columns(state, candidate) @ values
     named = _named(state, candidate.index)
-    near, share = _nearest(torque, named)
-    best = (share, near, "") if near is not None else (0.0, None, "")
-    told = f"{best[1].effect.title} ({best[1].effect.id})" if best[1] is not None else ""
-    if best[1] is None or share > ALMOST:
-        said = f"nearly {told}" if told else "nothing in the catalogue is near"
-        return (best[1].effect.id if best[1] is not None else ""), share, said
-    factors: tuple[float, str] = (ALMOST, "")
+    near, share = _nearest(_columns(state, candidate) @ values, named)
+    if near is None:
+        return "", 0.0, "nothing in the catalogue is near"
+    told = f"{near.effect.title} ({near.effect.id})"
+    found = [(share, f"nearly {told}")] if share > ALMOST else []
     for term in formula.terms if len(formula.terms) == 1 else ():
         for i, part in enumerate(term):
-            rest = Formula(((*term[:i], *term[i + 1 :]),), formula.effort)
+            rest = Formula(((*term[:i], *term[i + 1 :]),))
             if rest.terms[0]:
                 column = _columns(state, rest.candidate(state.names, candidate.index))
                 head, alike = _nearest(column[:, 0], named)
-                if head is not None and alike > factors[0]:
-                    factors = (
-                        alike,
-                        f"{head.effect.title} ({head.effect.id}), times {part.factor.words}",
-                    )
-    if factors[1]:
-        return best[1].effect.id, share, factors[1]
-    return best[1].effect.id, share, f"nearest is {told}, which explains {percent(share)} of it"
+                if head is not None and alike > ALMOST:
+                    more = f", times {part.factor.title}"
+                    found.append((alike, f"{head.effect.title} ({head.effect.id}){more}"))
+    far = f"nearest is {told}, which explains {percent(share)} of it"
+    return near.effect.id, share, max(found)[1] if found else far
 
 
 def _named(state: State, j: int) -> list[tuple[Candidate, np.ndarray]]:
@@ -235,11 +225,11 @@ def _nearest(
     """The one whose columns explain most of a torque, and the share."""
     best, share = None, 0.0
     size = float(torque @ torque) or 1.0
-    for candidate, columns in named:
+    for candidate, columns in sorted(named, key=lambda own: own[1].shape[1]):
         if np.isfinite(columns).all():
             q = np.linalg.lstsq(columns, torque, rcond=1e-9)[0]
             own = 1.0 - float(np.sum((torque - columns @ q) ** 2)) / size
-            if own > share + 1e-9:
+            if own > share + LEAST:
                 best, share = candidate, own
     return best, share
 
@@ -255,24 +245,21 @@ def _told_apart(
     """Each with the motion that tells it from the next, the last from the first."""
     if len(proposals) < 2:
         return tuple(proposals)
-    torques = []
-    for proposal, state in zip(proposals, states, strict=True):
-        pick = proposal.finding.pick
-        assert pick is not None
-        torques.append(_columns(state, pick.candidate) @ pick.values)
+    torques = [_columns(state, p.finding.pick.candidate) @ p.finding.pick.values
+               for p, state in zip(proposals, states, strict=True)
+               if p.finding.pick is not None]  # fmt: skip
     rows, joint = states[0].rows, states[0].spec.joints[j]
-    state = rows.filtered(j, [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]])
-                              for s in rows.signals])  # fmt: skip
-    told = []
+    motion = rows.filtered(j, [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]])
+                               for s in rows.signals])  # fmt: skip
+    unit, effort, told = joint.unit, joint.effort_unit, list[Proposal]()
     for k, proposal in enumerate(proposals):
         other = (k + 1) % len(proposals)
         apart = np.abs(torques[k] - torques[other])
-        at, unit = state[int(np.argmax(apart))], joint.unit
-        names = [f"{proposals[i].finding.effect}@{joint.name}" for i in (k, other)]
+        q, v, load = motion[int(np.argmax(apart))]
+        pair = ",".join(f"{proposals[i].finding.effect}@{joint.name}" for i in (k, other))
         told.append(dataclasses.replace(
-            proposal,
-            apart=f"modeler excite ROBOT.toml --between {','.join(names)} --out apart.csv",
-            where=f"they differ most, by {apart.max():.3g} {joint.effort_unit}, near q = {at[0]:.3g} "
-            f"{unit}, v = {at[1]:.3g} {unit}/s, load = {at[2]:.3g} {joint.effort_unit}",
+            proposal, apart=f"modeler excite ROBOT.toml --between {pair} --out apart.csv",
+            where=f"they differ most, by {apart.max():.3g} {effort}, near q = {q:.3g} {unit}, "
+            f"v = {v:.3g} {unit}/s, load = {load:.3g} {effort}",
         ))  # fmt: skip
     return tuple(told)

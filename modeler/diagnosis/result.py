@@ -239,9 +239,9 @@ class Proposal(Brief):
         relative: id of the nearest effect with a name.
         likeness: share of its torque that this explains.
         differs: what differs, in plain words.
+        drawn: the search with it as its last step, for pictures.
         apart: the command that looks for a motion which tells it from the next.
         where: the state of the joint in these logs in which they differ most.
-        drawn: the search with it as its only step, for pictures.
     """
 
     finding: Finding
@@ -254,32 +254,39 @@ class Proposal(Brief):
     relative: str
     likeness: float
     differs: str
+    drawn: Search = field(repr=False)
     apart: str = ""
     where: str = ""
-    drawn: Search | None = field(default=None, repr=False)
 
     @property
     def text(self) -> str:
-        """To be pasted into a robot file."""
-        return "\n".join([f"[own_effects.{self.finding.effect}]",
-                          *(f"{key} = {_toml(value)}" for key, value in self.definition.items())])  # fmt: skip
+        """To be pasted into a robot file; the line of `[effects]` is behind it, as a comment."""
+        lines = (f"{key} = {toml_text(value)}" for key, value in self.definition.items())
+        line = f"# [effects] {self.effects_line}"
+        return "\n".join([f"[own_effects.{self.finding.effect}]", *lines, line])
 
-    def lines(self) -> list[str]:
-        """What people read, the text to paste at the end."""
+    @property
+    def told(self) -> list[str]:
+        """What people read."""
         f = self.finding
+        units = {name: f" {unit}" for name, unit in f.units.items() if unit != "1"}
         values = ", ".join(
-            f"{name} = {value:.4g} +- {f.sigmas.get(name, float('nan')):.2g} {f.units.get(name, '')}"
+            f"{name} = {value:.4g} +- {f.sigmas.get(name, math.nan):.2g}{units.get(name, '')}"
             for name, value in f.parameters.items()
         )
         change = " -> ".join(printed(f.error_before, f.error_after))
         instead = f", in place of {', '.join(self.instead)}" if self.instead else ""
-        found = [f"joint {f.joint}: {self.equation}: error {change}{instead}; "
-                 f"{percent(self.explained)} of what a learned law explains", f"  {values}",
-                 f"  {self.differs}"]  # fmt: skip
+        law = f"{percent(self.explained)} of what a learned law explains"
+        law = "a learned law explains nothing" if math.isnan(self.explained) else law
+        found = [f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}",
+                 f"  {values}", f"  {self.differs}"]  # fmt: skip
         if self.apart:
             found += [f"  told from the next by: {self.apart}", f"  {self.where}"]
-        return [*found, *(f"    {line}" for line in self.text.splitlines()),
-                f"    [effects] {self.effects_line}"]  # fmt: skip
+        return found
+
+    def lines(self) -> list[str]:
+        """The same, and the text to paste."""
+        return [*self.told, *(f"    {line}" for line in self.text.splitlines())]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
@@ -321,10 +328,12 @@ class Discovery(Brief):
                 "proposals": [p.to_json() for p in self.proposals]}  # fmt: skip
 
 
-def _toml(value: Any) -> str:
+def toml_text(value: Any) -> str:
     """As it stands in a robot file."""
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key} = {_toml(entry)}" for key, entry in value.items()) + "}"
+        return "{" + ", ".join(f"{key} = {toml_text(entry)}" for key, entry in value.items()) + "}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(toml_text, value))}]"
     return json.dumps(value, ensure_ascii=False)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from modeler.core.brief import Brief
-from modeler.effects import TURN, Memory
+from modeler.effects import Memory
 from modeler.numerics.filters import recursion
 from modeler.observation import Segment, bristle, lag, nearest_closed, signals_of, since_reversal
 
@@ -137,10 +137,15 @@ class Signals(Brief):
         """(n, J) time derivative of `torque`."""
         return np.gradient(self.torque, self.step, axis=0)
 
+    def since(self, j: int, back: float) -> np.ndarray:
+        """(n,) s since joint j last turned back, by more than `back`."""
+        if (j, back) not in self._since:
+            self._since[j, back] = since_reversal(self.q[:, j], self.step, back)[1]
+        return self._since[j, back]
+
     @cached_property
-    def since(self) -> np.ndarray:
-        """(n, J) s since the joint last turned back."""
-        return np.stack([since_reversal(q, self.step, TURN)[1] for q in self.q.T], axis=1)
+    def _since(self) -> dict[tuple[int, float], np.ndarray]:
+        return {}
 
     @cached_property
     def coupling(self) -> np.ndarray:

@@ -12,6 +12,7 @@ from .definition import (
 )
 from .effect import (
     MOTION as MOTION,
+    NOISE as NOISE,
     TURN as TURN,
     VARIABLES as VARIABLES,
     Acts as Acts,

@@ -13,6 +13,7 @@ from modeler.core.law import BESIDE, MOST as MOST_VALUES, Law
 from modeler.core.toml_cells import LARGEST, Place, listed, near, shown
 from modeler.effects.effect import (
     MOTION,
+    TURN,
     VARIABLES,
     Acts,
     Effect,
@@ -283,7 +284,7 @@ def _law(place: Place) -> Law:
             "expected one of each for every argument of the law, which has one or two"
         )
     for a, b, count in zip(low, high, cells, strict=True):
-        if not a < b or count < 1 or count != int(count):
+        if not a < b or count < 1 or count != int(count) or math.isinf(count / (b - a)):
             raise place.error(
                 f"got an axis from {a:g} to {b:g} of {count:g} cells; expected low < high, and a "
                 "whole number above 0"
@@ -323,6 +324,7 @@ def _check_form(form: Form, acts: Acts, place: Place) -> None:
     follows = form.memory and form.memory.follows
     equations = [column.equation for column in form.columns] + ([follows] if follows else [])
     used = frozenset().union(memory, *(equation.names for equation in equations))
+    used |= {TURN} if "since" in used else set()
     for shape in form.shapes:
         if shape.name not in used:
             raise place.at("shapes").error(f"no equation uses {shape.name}; use it or take it out")

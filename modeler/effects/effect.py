@@ -162,8 +162,11 @@ VARIABLES = {
 }
 """What the equation of a column may use; SI units."""
 
-TURN = 3e-4
-"""rad or m: a joint that has come back by more has turned back; less is noise of its encoder."""
+TURN = "back"
+"""Shape of an effect that reads `since`: a joint that has come back by more has turned back."""
+
+NOISE = 3e-3
+"""rad or m of `TURN` where an effect does not say it: two counts of 2**12 in a turn."""
 
 MOTION = ("q", "v", "a")
 """Those that it may read of another joint too, whose name follows: `v3`."""

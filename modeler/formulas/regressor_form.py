@@ -355,7 +355,7 @@ def _laws(model: SymbolicModel) -> list[str]:
     parts = (p for c in model.columns if isinstance(c, ShaftColumn) for p in c.parts)
     effects = {part.equation.law: part.effect for part in parts}
     told = [
-        f"{name} is the law of the table in [own_effects.{effects[table.law]}], held beyond its ends"
+        f"{name} is the law of [own_effects.{effects[table.law]}], held beyond its ends"
         for name, table in model.graph.tables.items()
         if table.along is None
     ]

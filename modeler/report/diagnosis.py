@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from modeler.core.table import percent, printed
 from modeler.diagnosis import Diagnosis, Finding, Step, blind_spots, tie_names, tied, unit, where
 from modeler.effects import effect_named
-from modeler.report.blocks import Block, Figure, Items, PageCell, PageTable, Paragraph
+from modeler.report.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
 from modeler.report.effect_evidence import evidence_of, figures
 from modeler.report.evidence import evidence_picture, rivals_of, rivals_table
 from modeler.report.page import Origin, Page, Section
@@ -94,7 +94,7 @@ def _sections(diagnosis: Diagnosis) -> list[Section]:
         ids.append(own)  # two ripples of a joint differ by their orders only
         again = ids.count(own)
         found.append(_shown(diagnosis, step, own if again == 1 else f"{own}-{again}"))
-    found += _events(diagnosis)
+    found += [*_events(diagnosis), *_proposed(diagnosis)]
     blind = [(f"{what}:", why) for what, why in blind_spots(diagnosis)]
     nothing = Paragraph("Nothing of the catalogue.")
     found.append(Section("What these logs cannot show", [Items(blind) if blind else nothing]))
@@ -128,6 +128,22 @@ def _events(diagnosis: Diagnosis) -> list[Section]:
     if diagnosis.window is not None:
         picture = push_picture(end, diagnosis.window)
         found += [Section(f.effect, [Figure(picture)]) for f in diagnosis.effects if f.event]
+    return found
+
+
+def _proposed(diagnosis: Diagnosis) -> list[Section]:
+    """Equations for what has no name."""
+    found = []
+    for own in diagnosis.discoveries or ():
+        name = f"Equations proposed, {where(own.joint)}"
+        if not own.proposals:
+            found.append(Section(name, [Paragraph(f"{own.why}.")]))
+        for proposal in own.proposals:
+            item = evidence_of(proposal.drawn, proposal.drawn.steps[-1])
+            found.append(Section(f"{proposal.equation}, {where(own.joint)}", [
+                *(Paragraph(line) for line in proposal.told), Code(proposal.text),
+                Figure(torque_picture(item)), Figure(evidence_picture(item)),
+            ], _id(proposal.finding.effect, own.joint)))  # fmt: skip
     return found
 
 

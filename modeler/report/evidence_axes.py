@@ -7,7 +7,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from modeler.diagnosis import Candidate, Signals, State
-from modeler.effects import Acts, Shows
+from modeler.effects import NOISE, TURN, Acts, Shows
 from modeler.observation import travel_since_reversal
 
 
@@ -98,7 +98,7 @@ _VALUES: dict[Shows, Callable[[Candidate, Signals, int], np.ndarray]] = {
     "rate": lambda pick, s, j: s.rate[:, j],
     "t": lambda pick, s, j: s.time,
     "T": _temperature,
-    "since": lambda pick, s, j: s.since[:, j],
+    "since": lambda pick, s, j: s.since(j, pick.shapes.get(TURN, NOISE)),
     "travel": lambda pick, s, j: travel_since_reversal(s.q[:, j]),
     "waves": lambda pick, s, j: np.degrees((pick.shapes["m"] * s.q[:, j]) % (2.0 * np.pi)),
 }

@@ -1,5 +1,6 @@
 """Laws that were learned, in all emitted code: the tables of Python, and of scipy."""
 
+import platform
 import subprocess
 import sys
 from functools import cache
@@ -21,10 +22,11 @@ from modeler.runtime.model import CompiledModel
 from tests.codegen.fitted_library import fitted_of
 from tests.codegen.structured_text import Program
 from tests.compiled.cupy_on_cpu import cupy
-from tests.compiled.test_tiles import CHECK, FLAGS
+from tests.compiled.test_tiles import CHECK
 from tests.export.test_casadi import far
 from tests.learned import drawn, scipy_value, text_with
 from tests.modules import STRICT, Module, compiler, loaded
+from tests.turns import IN_TURN
 
 RNG = np.random.default_rng(20260)
 LAWS = {
@@ -122,8 +124,10 @@ def test_tiles_have_the_values_of_one_after_another(precision, monkeypatch):
     assert (np.abs(one - many) <= 200 * np.finfo(NUMBERS[precision]).eps * rest).all()
 
 
-@pytest.mark.parametrize("flags", [each for each in FLAGS if isinstance(each, list)])
-@pytest.mark.parametrize("cc", ["gcc", "clang"])
+@pytest.mark.parametrize(
+    ("cc", "flags"),
+    [("gcc", ["-O0"]), ("clang", ["-O0"]), ("gcc", ["-O2"]), ("clang", ["-DMODELER_PLAIN"])],
+)
 def test_every_instruction_set_and_compiler_gives_the_same(cc, flags, tmp_path):
     model, base, _ = made()
     emitted = emit(model, base, fitted_of(made().emitted.spec), control=Control())
@@ -141,19 +145,68 @@ def test_every_instruction_set_and_compiler_gives_the_same(cc, flags, tmp_path):
     assert subprocess.run([tmp_path / "check"], check=False).returncode == 0
 
 
-def test_a_law_is_straight_line_code_without_calls(tmp_path):
-    """As it stands in the header: neither a jump nor a call is left of it."""
+@pytest.mark.parametrize("cc", ["gcc", "clang"])
+def test_a_law_is_straight_line_code_without_calls(cc, tmp_path):
+    """Its table known or not, no jump and no call is left of it."""
     write_emitted(made().emitted, tmp_path)
+    text = made().emitted.files["demo_arm_base_regressor.c"]
+    first = text.index("static const double law1")
     (tmp_path / "one.c").write_text(
-        '#include "modeler_law.h"\n'
-        "double one(const modeler_law *law, double x, double y);\n"
-        "double one(const modeler_law *law, double x, double y)\n"
-        "{\n    return modeler_law_2(law, x, y);\n}\n"
+        f'#include "modeler_law.h"\n{text[first : text.index("/*", first)]}\n'
+        "double one(double x, double y);\n"
+        "double one(double x, double y)\n{\n"
+        "    return modeler_law_2(&law1, x, y) + modeler_law_2y(&law3, x, y)\n"
+        "        + modeler_law_1(&law2, x) + modeler_law_1x(&law2, y);\n}\n"
     )
-    command = [compiler("gcc"), *STRICT, "-O2", "-DMODELER_NO_CLONES", "-S", "one.c"]
+    command = [compiler(cc), *STRICT, "-O2", "-DMODELER_NO_CLONES", "-S", "one.c"]
     subprocess.run(command, cwd=tmp_path, check=True)
     words = [line.split()[0] for line in (tmp_path / "one.s").read_text().splitlines() if line]
-    assert "ret" in words and not [w for w in words if w.startswith(("j", "call"))]
+    if platform.machine() != "x86_64":
+        pytest.skip("NOT CHECKED: jumps have other names here")
+    assert not [word for word in words if word.startswith(("j", "call"))]
+
+
+@pytest.mark.parametrize("name", ["five-bar", pytest.param("orthoglide-2003", marks=IN_TURN)])
+def test_robots_with_loops_have_laws_of_their_motors(name, monkeypatch):
+    """Columns by scipy, one by one and in tiles; parts of the torque; casadi's G is the C's."""
+    rng = np.random.default_rng(12)
+    joints = ("11", "12")
+    laws = {
+        joints[0]: ("sign(v)*law(q, abs(v))", drawn(rng, 2)),
+        joints[1]: ("law(v)", drawn(rng, 1)),
+    }
+    model = derive_model(robot_from_text(text_with(name, laws), name))
+    c = loaded(emit(model, base_parameters(model)))
+    home = np.array(c.spec.closure.home)[list(c.spec.closure.given)]
+    q = home + np.cumsum(rng.uniform(-2e-3, 2e-3, (40, len(home))), axis=0)
+    qd, qdd = rng.normal(size=(2, *q.shape))
+    phi = c.base_regressor(q, qd, qdd)
+    names = [base.column_of for base in c.spec.base]
+    wanted = np.zeros((2, *q.shape))
+    wanted[0, :, 0] = np.sign(qd[:, 0]) * scipy_value(laws["11"][1], q[:, 0], np.abs(qd[:, 0]))
+    wanted[1, :, 1] = scipy_value(laws["12"][1], qd[:, 1])
+    for k, column in enumerate(("Lawa11", "Lawb12")):
+        np.testing.assert_allclose(phi[:, :, names.index(column)], wanted[k], atol=1e-13)
+    beta = rng.normal(size=len(names))
+    tau = c.inverse_dynamics(q, qd, qdd, beta)
+    parts = np.einsum("nij,nj->ni", c.inertia_matrix(q, beta), qdd) + c.gravity(q, beta)
+    parts += c.coriolis(q, qd, beta) + c.friction(qd, beta, q, qdd)
+    np.testing.assert_allclose(parts, tau, atol=1e-9 * np.abs(tau).max())
+    monkeypatch.setattr(tiling, "TILED_FROM", 1)
+    W = c.observation(q, qd, qdd)
+    np.testing.assert_allclose(W, phi.reshape(W.shape), rtol=1e-9, atol=1e-9)
+
+
+def test_forward_dynamics_undo_the_torques():
+    model, base, _ = made()
+    c = loaded(emit(model, base, control=Control()))
+    nominal = {p.name: p.nominal or 0.0 for p in c.spec.standard}
+    nominal |= {"Lawa1": 0.5, "Lawb2": -0.3, "Lawc3": 0.02}
+    beta = c.base_parameters(np.array([nominal[p.name] for p in c.spec.standard]))
+    q, qd, qdd = motion()
+    tau = c.inverse_dynamics(q[:20], qd[:20], qdd[:20], beta)
+    found = c.evaluate("forward_dynamics", q=q[:20], qd=qd[:20], tau=tau, beta=beta)
+    np.testing.assert_allclose(found, qdd[:20], atol=1e-7)
 
 
 def test_casadi_and_every_function_for_controllers_are_the_same(tmp_path):
@@ -187,4 +240,5 @@ def test_kernels_compute_what_the_c_computes(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "cupy", cupy(tmp_path))
     kernels, states = load_gpu(emit(model, base, cuda=True)), motion()
     wanted = compiled("double").nonzeros(*states)
-    assert np.allclose(kernels.nonzeros(*states).T, wanted, rtol=1e-11, atol=1e-9)
+    apart = np.abs(kernels.nonzeros(*states).T - wanted).max(axis=1)
+    assert (apart <= 1e-12 * np.abs(wanted).max(axis=1)).all()

@@ -1,0 +1,159 @@
+"""Equations for what the catalogue has no name for: found, with units, pasted, added, or nothing."""
+
+import dataclasses
+import json
+import math
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.api.improve import discovered_added
+from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.discover import JointSearch
+from modeler.diagnosis.expressions import Formula, Part, parameter_unit, parts
+from modeler.diagnosis.proposals import discover
+from modeler.diagnosis.result import Diagnosis, Proposal
+from modeler.diagnosis.signals import SignalReference
+from modeler.diagnosis.state import SearchData, State, analysed, state_of
+from modeler.observation.log import Log
+from modeler.report.diagnosis import diagnosis_page
+from modeler.robot.read import robot_from_text
+from tests.diagnose.conftest import Case, Run, demonstration, motion, nothing, on_joint
+from tests.json_schemas import check_schema
+
+CHURN = 0.08  # s/rad, times load and speed of joint 2
+
+
+@cache
+def _links() -> SignalReference:
+    case = demonstration()
+    return SignalReference(case.compiled, case.fitted(case.train).beta, 0.0, {})
+
+
+def churning(log: Log) -> np.ndarray:
+    """Drag of joint 2 that grows with its load, with its sign: no effect of the catalogue."""
+    q, v = motion(log)
+    load = demonstration().compiled.inverse_dynamics(
+        q, v, np.gradient(v, log.time, axis=0), _links().links
+    )
+    return on_joint(log, 1, CHURN * load[:, 1] * v[:, 1])
+
+
+def reaching(log: Log) -> np.ndarray:
+    """Drag of joint 1 where joint 3 stands about one place."""
+    q, v = motion(log)
+    return on_joint(log, 0, 2.0 * v[:, 0] * np.exp(-(((q[:, 2] - 0.5) / 0.7) ** 2)))
+
+
+@pytest.fixture(scope="module")
+def found(case: Case) -> Diagnosis:
+    """A diagnosis of churning with equations."""
+    model, train, holdout = case.hidden(churning)
+    return diagnose(model, case.compiled, [train], [holdout], equations=True)
+
+
+def first_of(found: Diagnosis) -> Proposal:
+    """The best proposal for joint 2."""
+    every = {own.joint: own for own in found.discoveries or ()}
+    assert not every["1"].proposals and not every["3"].proposals
+    assert "nothing to find" in every["1"].why
+    return every["2"].proposals[0]
+
+
+def state(case: Case, torque: object) -> State:
+    """What the model leaves of the training run with a hidden torque."""
+    model, train, _ = case.hidden(torque)  # type: ignore[arg-type]
+    seen = analysed(case.compiled, [train], model.processing)
+    return state_of(SearchData(case.compiled, seen), (), model.beta)
+
+
+def test_the_hidden_equation_is_the_first_with_its_value(found: Diagnosis) -> None:
+    first = first_of(found)
+    (equation,) = first.definition["columns"].values()
+    assert sorted(equation.split("*")) == ["load", "v"]
+    value, sigma = (
+        next(iter(x.values())) for x in (first.finding.parameters, first.finding.sigmas)
+    )
+    assert abs(value - CHURN) < 0.1 * CHURN and 0.0 < sigma < 0.1 * CHURN
+    assert first.finding.error_after < 0.3 * first.finding.error_before
+    assert first.definition["unit"] == "s/rad" and first.explained > 0.9
+    assert "viscous" in first.differs and "times the load" in first.differs
+
+
+def test_every_symbol_has_its_price(found: Diagnosis) -> None:
+    """Longer equations leave less of these logs, and stand behind it all the same."""
+    search = JointSearch(found.search.start, 1)
+    every = search.found()
+    assert sorted(every[0].formula.columns[0].split("*")) == ["load", "v"]
+    least = min(every, key=lambda own: own.left)
+    assert least.formula.symbols > every[0].formula.symbols and least.left < every[0].left
+
+
+def test_what_is_proposed_can_be_pasted_and_added(case: Case, found: Diagnosis) -> None:
+    model, train, holdout = case.hidden(churning)
+    first = first_of(found)
+    pasted = robot_from_text(f"{model.robot_text}\n{first.text}\n", "pasted")
+    assert [e.id for e in pasted.own_effects] == [first.finding.effect]
+    assert first.effects_line == f'{first.finding.effect} = ["2"]'
+    better, left_out = discovered_added(model, case.compiled, Logs([train], [holdout]), found)
+    assert (better.history[-1].effect, better.history[-1].joint) == (first.finding.effect, "2")
+    assert better.history[-1].error < 0.5 * better.history[0].error and not left_out
+    unproven = dataclasses.replace(found, discoveries=())
+    same, why = discovered_added(model, case.compiled, Logs([train], [holdout]), unproven)
+    assert same is model and why == ("left out: nothing was found",)
+
+
+def test_what_is_found_is_told_to_machines_and_on_the_page(found: Diagnosis) -> None:
+    told = found.to_json()
+    check_schema("diagnose", {"schema": "urn:modeler:schema:diagnose:1", **told})
+    json.dumps(told, allow_nan=False)
+    proposals = {own["joint"]: own["proposals"] for own in told["discoveries"]}["2"]
+    assert 1 <= len(proposals) <= 3
+    assert proposals[0]["text"].startswith("[own_effects.found_2a]")
+    if len(proposals) > 1:
+        assert "--between found_2a@2,found_2b@2" in proposals[0]["apart"]
+    page = diagnosis_page(found)
+    assert any(section.title.startswith("Xbaa2") for section in page.sections)
+
+
+def test_a_place_of_another_joint_is_found(case: Case) -> None:
+    best = JointSearch(state(case, reaching), 0).found()[0]
+    assert best.formula.columns == ["v*exp(-((q3 - c)/b)**2)"]
+    assert best.formula.shapes["c"] == pytest.approx(0.5, abs=0.1)
+    assert best.formula.shapes["b"] == pytest.approx(0.7, rel=0.1)
+
+
+def test_nothing_is_proposed_where_nothing_is_hidden(case: Case) -> None:
+    every = discover(case.found(nothing).search, (), None)
+    assert [own.joint for own in every] == ["1", "2", "3"]
+    assert all(not own.proposals and "nothing to find" in own.why for own in every)
+
+
+UNITS = {
+    ("speed",): "N*m*s/rad", ("direction", "load"): "1", ("speed", "load"): "s/rad",
+    ("direction", "root_of_load"): "N^0.5*m^0.5", ("drag", "fall"): "N*m*s^2/rad^2",
+    ("speed", "other_sine"): "N*m*s/rad", ("direction", "late_size"): "N*m*s/rad",
+    ("time", "direction"): "N*m/s", ("place", "memory"): "N*m/rad",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("names", UNITS, ids="*".join)
+def test_units_follow_from_what_is_read(case: Case, names: tuple[str, ...]) -> None:
+    spec = case.compiled.spec
+    own = parts(spec, state(case, nothing).scales, 1, False, [5.0])
+    every: dict[str, Part] = {}
+    for some in own:
+        every.setdefault(some[0].factor.id, some[0])
+    formula = Formula((tuple(every[name] for name in names),))
+    candidate = formula.candidate([joint.name for joint in spec.joints], 1)
+    unit = parameter_unit(spec, 1, candidate, 0, formula.shape_units(False))
+    assert unit == UNITS[names]
+    assert all(math.isfinite(value) for value in formula.shapes.values())
+
+
+def test_add_wants_discover(run: Run, tmp_path: Path) -> None:
+    status, _, err = run("diagnose", "m.json", "log.csv", "--add", tmp_path / "m2.json")
+    assert status == 1 and "adds what --discover finds; give both, or neither" in err
