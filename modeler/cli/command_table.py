@@ -566,7 +566,11 @@ _CATALOGUE = Command(
     "modeler effects coulomb",
     (
         value("effect", "EFFECT", places.Word, "one effect, in full", nargs="?"),
-        value("--robot", "ROBOT", places.RobotFile, "with the effects that this file defines"),
+        value("--robot", "ROBOT|MODEL", places.RobotFile, "with the effects that it defines"),
+        value("--export", "EFFECT", places.Word,
+              "write one of these as EFFECT.toml and a page, for --effects-from of others"),
+        value("--out", "FOLDER", places.OutputFolder, "of these files (default: this one)"),
+        flag("--force", "write over files that are there"),
     ),
     "write the catalogue for machines",
 )  # fmt: skip

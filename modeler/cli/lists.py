@@ -4,18 +4,29 @@ import argparse
 import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from modeler.cli.console import Json, note, say, say_lines, working
 from modeler.cli.options import unknown
+from modeler.cli.places import Output, check_places
 from modeler.core.builtin import OTHER_PROGRAMS, builtin_names
 from modeler.core.errors import DataError, RobotError
 from modeler.core.estimators import ABOUT
-from modeler.core.files import check_writable
+from modeler.core.files import check_writable, write_all_unless_other
 from modeler.core.json import entries
 from modeler.core.toml_cells import shown
 from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
-from modeler.robot import Robot, near, read_robot, robot_with_effects as with_given_effects
+from modeler.robot import (
+    Robot,
+    exported_effect,
+    near,
+    read_robot,
+    robot_from_text,
+    robot_with_effects as with_given_effects,
+)
+
+if TYPE_CHECKING:
+    from modeler.estimation import IdentifiedModel
 
 # The signature of an effect, drawn in characters: torque against what it depends on.
 
@@ -35,51 +46,58 @@ _AXES = {
 
 def signature_lines(effect: Effect) -> list[str]:
     """A picture of the first column, units left out; empty for effects that have none."""
-    form = effect.forms[0]
     if effect.acts not in (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE):
         return []
-    order = ("T", "t", "since", "load", "z", "q", "torque", "a", "v")
-    late = {"z"} if form.memory is not None and form.memory.kind == "lag" else set()
-    axis = next((name for name in order if name in form.names - late), "v")
-    points = 6 * _WIDTH
-    x = [2.0 * k / (points - 1) - 1.0 for k in range(points)]
-    y = [_torque(form, axis, at) for at in x]
-    top = max(map(abs, y)) or 1.0
+    axis, x, y = _curve(effect.forms[0], 6 * _WIDTH)
+    reach, top = max(map(abs, x)), max(map(abs, y)) or 1.0
     grid = [[" "] * _WIDTH for _ in range(_HEIGHT)]
     grid[_HEIGHT // 2] = ["-"] * _WIDTH
     for row in grid:
         row[_WIDTH // 2] = "|"
     for a, b in zip(x, y, strict=True):
-        column = round((a + 1.0) / 2.0 * (_WIDTH - 1))
+        column = round((a / reach + 1.0) / 2.0 * (_WIDTH - 1))
         line = round((1.0 - b / top) / 2.0 * (_HEIGHT - 1))
         grid[line][column] = "*"
-    return ["", *("  " + "".join(row).rstrip() for row in grid), f"  torque against {_AXES[axis]}"]
+    label = f"{axis} from {-reach:.3g} to {reach:.3g}" if effect.learned else _AXES[axis]
+    return ["", *("  " + "".join(row).rstrip() for row in grid), f"  torque against {label}"]
 
 
-def _torque(form: Form, axis: str, x: float) -> float:
+def _curve(
+    form: Form, points: int, shapes: Mapping[str, float] | None = None
+) -> tuple[str, list[float], list[float]]:
+    """The axis on which a form is drawn, points of it, and the first column there."""
+    order = ("T", "t", "since", "load", "z", "q", "torque", "a", "v")
+    late = {"z"} if form.memory is not None and form.memory.kind == "lag" else set()
+    axis = next((name for name in order if name in form.names - late), "v")
+    laws = [column.equation.law for column in form.columns]
+    ends = [abs(end) for law in laws if law is not None for end in (*law.low, *law.high)]
+    reach = max(ends, default=math.pi if axis == "q" else 1.0)
+    x = [reach * (2.0 * k / (points - 1) - 1.0) for k in range(points)]
+    return axis, x, [_torque(form, axis, at, shapes or {}) for at in x]
+
+
+def _torque(form: Form, axis: str, x: float, shapes: Mapping[str, float]) -> float:
     """The column that is drawn, at one point of the axis, other variables at 1; 0 where it ends."""
     values: dict[str, float] = {}
     for shape in form.shapes:
         values[shape.name] = shape.grid[-1] if shape.grid else 6.0
-    values |= dict.fromkeys((*form.names, "v", "load", "static", "z"), 1.0)
+    values |= {**shapes} | dict.fromkeys((*form.names, "v", "load", "static", "z"), 1.0)
     if axis == "load":  # both directions, the load growing outwards
         values |= {"load": abs(x), "static": abs(x), "v": _FUNCTIONS["sign"](x)}
     elif axis == "z":
         back = x < 0.0
         values["z"] = 1 - 2 * math.exp(-4 * (x + 1)) if back else 2 * math.exp(-4 * x) - 1
         values["v"] = 1.0 if back else -1.0
-    elif axis == "q":
-        values["q"] = math.pi * x
     elif axis == "since":
         values["since"] = x + 1.0
     else:
         values[axis] = x
     column = form.columns[-1] if axis == "q" else form.columns[0]
     try:
-        result = column.equation.fold(values, _FUNCTIONS, math.pi, float)
-    except (ValueError, OverflowError, ZeroDivisionError):
+        result = float(column.equation.fold(values, _FUNCTIONS, math.pi, float))
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
         return 0.0
-    return result if isinstance(result, int | float) and math.isfinite(result) else 0.0
+    return result if math.isfinite(result) else 0.0
 
 
 def robot_of(args: argparse.Namespace) -> Robot:
@@ -167,8 +185,22 @@ def run_robots(args: argparse.Namespace) -> Json:
 
 
 def run_effects(args: argparse.Namespace) -> Json:
-    """Prints the catalogue, or one page of it."""
-    known = CATALOGUE if args.robot is None else read_robot(args.robot).catalogue
+    """Prints the catalogue, or one page of it; writes an effect of a robot as files."""
+    model = robot = None
+    if args.robot is not None and Path(args.robot).suffix.lower() == ".json":
+        from modeler.estimation import load_model  # the catalogue needs no fits
+
+        model = load_model(args.robot)
+        robot = robot_from_text(model.robot_text, f"{args.robot}, robot")
+    elif args.robot is not None:
+        robot = read_robot(args.robot)
+    if args.export is not None:
+        if robot is None:
+            raise DataError(
+                f"--export {args.export}: expected --robot too, a robot or model that has it"
+            )
+        return _export(args, robot, model)
+    known = CATALOGUE if robot is None else robot.catalogue
     chosen = known
     if args.effect is not None:
         effect = effect_named(args.effect, known)
@@ -189,6 +221,25 @@ def run_effects(args: argparse.Namespace) -> Json:
                     say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
             say_lines(signature_lines(chosen[0]))
     return facts
+
+
+def _export(args: argparse.Namespace, robot: Robot, model: "IdentifiedModel | None") -> Json:
+    """Writes the definition of one effect, and its page."""
+    from modeler import report  # the catalogue needs no pages
+
+    text = exported_effect(robot, args.export)
+    effect = effect_named(args.export, robot.own_effects)
+    assert effect is not None
+    found = [at.shapes for use in robot.effects if use.effect == effect.id for at in use.instances]
+    axis, x, y = _curve(effect.forms[0], 6 * _WIDTH, found[0] if found else {})
+    label = {"q": "position [rad or m]", "v": "speed [rad/s or m/s]"}.get(axis, _AXES[axis])
+    page = report.effect_page(effect, text, robot, model, (label, x, y))
+    args.out = [Output(Path(args.out or ".", f"{effect.id}{end}")) for end in (".toml", ".html")]
+    check_places(args)
+    places = [place.file for place in args.out]
+    write_all_unless_other(list(zip(places, (text, str(page)), strict=True)), args.force)
+    say_lines(map(str, places), "written: ")
+    return [_facts(effect)]
 
 
 def run_estimators(args: argparse.Namespace) -> Json:

@@ -210,14 +210,24 @@ def write_unless_other(path: Path, content: bytes | str, force: bool) -> None:
         DataError: there is such a file.
         ModelerError, BrokenPipeError: as above.
     """
-    data = content.encode() if isinstance(content, str) else content
-    there = destination(path).kind is Kind.FILE
-    if not force and there and path.read_bytes() != data:
-        raise DataError(
-            f"{path}: there is such a file with another content; choose another name, or write "
-            "over it with --force (force=True)"
-        )
-    write_atomically(path, data)
+    write_all_unless_other([(path, content)], force)
+
+
+def write_all_unless_other(files: list[tuple[Path, bytes | str]], force: bool) -> None:
+    """The same of several files: all, or none.
+
+    Raises:
+        DataError, ModelerError, BrokenPipeError: as above.
+    """
+    for path, content in files:
+        data = content.encode() if isinstance(content, str) else content
+        there = destination(path).kind is Kind.FILE
+        if not force and there and path.read_bytes() != data:
+            raise DataError(
+                f"{path}: there is such a file with another content; choose another name, or write "
+                "over it with --force (force=True)"
+            )
+    write_together(files)
 
 
 def write_together(files: Iterable[tuple[Path, bytes | str]], gone: Iterable[Path] = ()) -> None:

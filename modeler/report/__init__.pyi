@@ -15,7 +15,11 @@ from .estimators import (
 from .figure_page import write_files as write_files
 from .fit import fit_page as fit_page
 from .fleet import fleet_page as fleet_page
-from .history import additions_page as additions_page, step_name as step_name
+from .history import (
+    additions_page as additions_page,
+    effect_page as effect_page,
+    step_name as step_name,
+)
 from .log import (
     channel_rows as channel_rows,
     clock_line as clock_line,

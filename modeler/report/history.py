@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from modeler.core.figure import Bars, Panel, Picture
+from modeler.core.figure import Bars, Curve, Panel, Picture
 from modeler.core.style import BLUE, GREEN, ORANGE, PINK, SKY, Style
 from modeler.core.table import DIGITS, WORDS, percent, printed
 from modeler.diagnosis import fall_shares
@@ -14,7 +14,7 @@ from modeler.estimation import Addition, IdentifiedModel
 from modeler.report.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
 from modeler.report.page import Origin, Page, Section
 from modeler.report.values import added_names, joints_table, shapes_table, values_table
-from modeler.robot import robot_from_text
+from modeler.robot import Robot, robot_from_text
 
 HELD, FITTED, LEARNED = Style(BLUE), Style(ORANGE), Style(PINK)
 SAME, CHANGED = Style(SKY), Style(GREEN)
@@ -44,6 +44,51 @@ def additions_page(
         facts=_facts(model, fact, left_out),
         provenance=[*model.warning, f"fitted on {', '.join(log.name for log in model.logs)}"],
         command="add",
+    )  # fmt: skip
+
+
+def effect_page(
+    effect: Effect, definition: str, robot: Robot, model: IdentifiedModel | None,
+    drawn: tuple[str, Sequence[float], Sequence[float]],
+) -> Page:  # fmt: skip
+    """The page of an effect that a robot file defines: its equation, where it was found, values.
+
+    Args:
+        effect: it.
+        definition: the file that defines it.
+        robot: that has it.
+        model: of the robot, with sigmas; None: the values of the robot file.
+        drawn: axis, points of it, and the torque there per unit of its first parameter.
+    """
+    at = [i for use in robot.effects if use.effect == effect.id for i in use.instances]
+    names = [f"{c.prefix}{i.joint}{i.label}" for i in at for c in effect.columns]
+    rows = [(n, f"{robot.parameters[n]:.5g}") for n in names if n in robot.parameters]
+    rows += [(f"{n}, joint {i.joint}", f"{x:.5g}") for i in at for n, x in i.shapes.items()]
+    values = [PageTable(("of the robot file", "value, SI"), rows)]
+    if model is not None:
+        steps = [(s, _units(s, effect, model)) for s in model.history if s.effect == effect.id]
+        own = [p for p in model.fit.parameters if p.name in names]
+        shapes, caption = shapes_table(steps), "SI units; sigma is one standard deviation."
+        values = [values_table(own, (), caption), *([shapes] if shapes else values[:0])]
+    joints = ", ".join(dict.fromkeys(i.joint for i in at)) or "none"
+    units = ", ".join(f"{c.prefix}: {c.unit_revolute}" for c in effect.columns)
+    label, x, y = drawn
+    curve = Curve(effect.id, np.array(x), np.array(y), LEARNED if effect.learned else HELD)
+    torque = f"torque per unit of {effect.columns[0].prefix}"
+    picture = Picture(
+        name=effect.id, title=effect.title, height=380,
+        caption=f"The torque against {label}; what else it depends on stands at 1.",
+        panels=((Panel(effect.equation, label, torque, (curve,), zero=True),),),
+    )  # fmt: skip
+    return Page(
+        title=f"{robot.name}: {effect.id}",
+        headline=(effect.id, effect.title),
+        sections=[Section("Its torque", [Figure(picture)]),
+                  Section("Its values", values if names else [Paragraph("No joint has it.")]),
+                  Section("To be found on other robots", [Code(definition)])],
+        origin=Origin(robot.name),
+        facts=[("Equation", effect.equation), ("Unit", units), ("Joints", joints)],
+        command="effects",
     )  # fmt: skip
 
 

@@ -64,7 +64,8 @@ def test_what_is_read_is_named_alike() -> None:
     wanted = {"--robot": places.RobotFile, "--map": places.MapWord, "--holdout": places.LogFile,
               "--payload-log": places.LogFile, "--from": places.MotionFile,
               "--check": places.MotionFile, "--motion": places.MotionOrKind,
-              "--list": places.ListFile, "--like": places.OriginalFile}  # fmt: skip
+              "--list": places.ListFile, "--like": places.OriginalFile,
+              "--effects-from": places.Input}  # fmt: skip
     for command, action in options():
         if is_a(action, places.Input):
             assert action.type is wanted.get(action.option_strings[-1]), command

@@ -9,8 +9,8 @@ from modeler import api
 from modeler.core.errors import DataError, RobotError
 from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
-from modeler.robot.shared_effects import shared_effects
-from tests.diagnose.conftest import Case, motion, on_joint
+from modeler.robot.shared_effects import exported_effect, shared_effects
+from tests.diagnose.conftest import Case, Run, motion, on_joint
 
 BRAKE = """
 [own_effects.eddy_brake]
@@ -150,3 +150,101 @@ def test_folders_without_effects_and_files_that_are_none(tmp_path: Path) -> None
     (tmp_path / "x.toml").mkdir()
     with pytest.raises(RobotError, match=r"x\.toml: is a folder"):
         shared_effects(robot, tmp_path)
+
+
+USED = """
+[effects]
+eddy_brake = [{joint = "1", c = 0.7, w = 0.25}, {joint = "2", c = -0.4, w = 0.125}]
+"""
+
+
+def test_an_export_tries_the_values_that_were_found_and_their_neighbours() -> None:
+    robot = robot_from_text(ROBOT + BRAKE + USED, "spinner.toml")
+    text = exported_effect(robot, "eddy_brake")
+    assert text.startswith("[own_effects.eddy_brake]\n") and text.count("[own_effects") == 1
+    (effect,) = robot_from_text(ROBOT + text, "other.toml").own_effects
+    assert {s.name: s.grid for s in effect.forms[0].shapes} == {
+        "c": (-1.4, -0.4, 0.7, 1.7), "w": (0.0625, 0.125, 0.25, 0.5)
+    }  # fmt: skip
+    (before,) = robot.own_effects
+    assert (effect.title, effect.columns) == (before.title, before.columns)
+    unused = robot_from_text(ROBOT + BRAKE, "spinner.toml")
+    again = robot_from_text(ROBOT + exported_effect(unused, "eddy_brake"), "x")
+    assert again.own_effects == unused.own_effects
+
+
+def test_a_grid_at_which_an_equation_has_no_value_stays_as_it_was() -> None:
+    steep = """
+[own_effects.steep]
+columns = {Kx = "v*sqrt(4.5 - p)"}
+shapes = {p = [2, 4]}
+"""
+    text = ROBOT + steep + '[effects]\nsteep = [{joint = "1", p = 3}]\n'
+    found = exported_effect(robot_from_text(text, "x.toml"), "steep")
+    (effect,) = robot_from_text(ROBOT + found, "y.toml").own_effects
+    assert effect.forms[0].shapes[0].grid == (2.0, 4.0)
+
+
+def test_export_and_use_as_commands(case: Case, tmp_path: Path, run: Run) -> None:
+    """What one robot showed is found on the next, by nothing but the file."""
+    _, train, holdout = case.hidden(brake)
+    own = api.load("demo-arm").text + BRAKE
+    (tmp_path / "arm.toml").write_text(own, encoding="utf-8")
+    logs = []
+    for name, log in (("train", train), ("holdout", holdout)):
+        table = np.column_stack([log.time, log.q, log.tau])
+        logs.append(tmp_path / f"{name}.csv")
+        head = "time,q1,q2,q3,tau1,tau2,tau3"
+        np.savetxt(logs[-1], table, delimiter=",", header=head, comments="")
+    words, m, m2, shelf = (logs[0], "--holdout", logs[1]), *(tmp_path / n for n in "abc")
+    m, m2 = m.with_suffix(".json"), m2.with_suffix(".json")
+    assert run("fit", tmp_path / "arm.toml", logs[0], "--out", m)[0] == 0
+    assert run("add", m, "eddy_brake", "--joint", 2, *words, "--out", m2)[0] == 0
+    export = ("effects", "--export", "eddy_brake", "--out", shelf, "--robot")
+    status, out, _ = run(*export, m2)
+    files = [shelf / "eddy_brake.toml", shelf / "eddy_brake.html"]
+    assert (status, out) == (0, "".join(f"written: {file}\n" for file in files))
+    assert sorted(shelf.iterdir()) == sorted(files)
+    page = files[1].read_text(encoding="utf-8")
+    for said in ("drag of a magnet", "Keb2", "[own_effects.eddy_brake]", "v*exp(-((q - c)/w)**2)"):
+        assert said in page, said
+    assert "http://" not in page.split("<script>")[0]
+    content = files[0].read_text(encoding="utf-8")
+    assert run(*export, m2)[0] == 0  # the same again
+    status, _, err = run(*export, tmp_path / "arm.toml")  # other first values
+    assert status == 1 and "there is such a file with another content" in err
+    assert [file.read_text(encoding="utf-8") for file in files] == [content, page]
+    assert run(*export, tmp_path / "arm.toml", "--force")[0] == 0
+    assert files[0].read_text(encoding="utf-8") != content
+    assert run(*export, m2, "--force")[0] == 0
+
+    plain = tmp_path / "plain.json"
+    assert run("fit", "demo-arm", logs[0], "--out", plain)[0] == 0
+    status, out, _ = run("diagnose", plain, *words, "--effects-from", shelf)
+    assert status == 0 and "missing: drag of a magnet (eddy_brake), joint 2" in out
+    assert f"modeler add {plain} eddy_brake --joint 2" in out and f"--effects-from {shelf}" in out
+    out = run("diagnose", m, *words, "--effects-from", shelf)[1]
+    assert "missing: drag of a magnet (eddy_brake), joint 2" in out  # defined already
+    found = run("add", plain, "auto", *words, "--out", m, "--effects-from", shelf)
+    assert found[0] == 0 and "+ eddy_brake @2" in found[1]
+    status, _, err = run("add", plain, "undo", *words, "--out", m, "--effects-from", shelf)
+    assert status == 1 and "got it with undo; expected an effect of the folder, or auto" in err
+    status, _, err = run("diagnose", plain, *words, "--effects-from", shelf, "--without", "spin")
+    assert status == 1 and "eddy_brake" in err
+
+
+def test_what_cannot_be_exported(tmp_path: Path, run: Run) -> None:
+    (tmp_path / "eddy_brake.toml").write_text(ROBOT + BRAKE, encoding="utf-8")
+    robot = ("--robot", tmp_path / "eddy_brake.toml")
+    for words, said in (
+        (("eddy_brake",), "--export eddy_brake: expected --robot too, a robot or model that has"),
+        (("eddy_brak", *robot), 'eddy_brak: no such effect (did you mean "eddy_brake"?); expected '
+         "one that spinner defines: eddy_brake"),
+        (("spring", *robot), "spring: every robot may have it; expected one that spinner defines"),
+        (("eddy_brake", *robot, "--out", tmp_path, "--force"),
+         "this is the robot file that is read; expected a name of its own"),
+        (("eddy_brake", "--robot", "emps"), "expected one that emps defines: none"),
+    ):  # fmt: skip
+        status, out, err = run("effects", "--export", *words)
+        assert (status, out) == (1, "") and said in err and err.count("\n") == 1
+    assert [p.name for p in tmp_path.iterdir()] == ["eddy_brake.toml"]
