@@ -1,4 +1,4 @@
-"""Equations for what the catalogue has no name for: found, with units, pasted, added, or nothing."""
+"""Equations for what the catalogue has no name for: found, with units, pasted, added; or none."""
 
 import dataclasses
 import json
