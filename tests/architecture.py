@@ -94,8 +94,8 @@ ONLY_IN = {
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 22  # the workbench in the browser
-MOST_MODULES = 427  # compilers of Microsoft; laws that are learned, equations that are proposed
-MOST_CODE_LINES = 69_600  # compilers of Microsoft, logs without a compiler
+MOST_MODULES = 430  # laws that are learned, equations proposed
+MOST_CODE_LINES = 71_600  # laws that are learned, equations proposed
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.

@@ -20,7 +20,7 @@ from modeler.cli.old_words import OLD_COMMANDS
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE
-from modeler.effects.effect import Acts
+from modeler.effects.effect import MOTION, Acts
 from modeler.observation.settings import Processing
 from modeler.robot.conventions import COLUMNS
 from modeler.robot.read import _KEYS, robot_from_text
@@ -317,7 +317,7 @@ def test_the_table_of_effects_on_loops_is_true():
     told = {key: names.split(", ") for key, names in rows.items()}
     joints = [e for e in CATALOGUE if e.acts in (Acts.JOINT, Acts.MOTOR)]
     joints += [e for e in CATALOGUE if e.acts is Acts.POSITION and not e.hindrance]
-    has_c = [e for e in joints if e.acts is not Acts.POSITION and e.forms[0].names <= {"v", "a"}]
+    has_c = [e for e in joints if e.acts is not Acts.POSITION and e.forms[0].names <= {*MOTION}]
     assert set(told["in `[effects]`, and added"]) == {e.id for e in has_c}
     without = {e.id for e in joints} - {e.id for e in has_c}
     assert set(told["not in `[effects]`, not added"]) == without

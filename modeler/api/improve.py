@@ -4,6 +4,7 @@ from __future__ import annotations  # what a signature names is loaded when it i
 
 import dataclasses
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 from modeler import diagnosis
 from modeler.api.arguments import Steps, silent
@@ -12,8 +13,10 @@ from modeler.api.workflow import AnyLog, M, read_logs, recompile
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.observation import check_apart
-from modeler.robot import robot_from_text, with_own_effect
+from modeler.robot import Robot, SharedEffects, robot_from_text, shared_effects, with_own_effect
 from modeler.runtime import CompiledModel
+
+_NONE = SharedEffects()
 
 
 def diagnose(
@@ -24,6 +27,7 @@ def diagnose(
     progress: Callable[[float], None] | None = None,
     mapping: Mapped = (),
     discover: bool = False,
+    effects_from: str | Path | None = None,
 ) -> diagnosis.Diagnosis:
     """Which physical effect the model lacks on logs; errors from the held-out logs if given.
 
@@ -39,9 +43,12 @@ def diagnose(
         progress: called with the share that is done.
         mapping: as of `read_logs`.
         discover: True to propose equations for what has no name: `discoveries` of the result.
+        effects_from: folder of files that `modeler effects --export` wrote, whose effects the robot
+            may have too.
     """
+    more = shared_of(model, effects_from)
     compiled, given = logs_of(model, logs, holdout, mapping, spread=True)
-    return missing(model, compiled, given, without, progress, discover)
+    return missing(model, compiled, given, without, progress, discover, more)
 
 
 def add_discoveries(
@@ -50,6 +57,7 @@ def add_discoveries(
     logs: Sequence[AnyLog],
     holdout: Sequence[AnyLog] = (),
     mapping: Mapped = (),
+    effects_from: str | Path | None = None,
 ) -> M:
     """The model with the first equation proposed for each joint, where that lowers the error.
 
@@ -63,9 +71,11 @@ def add_discoveries(
         logs: to fit to.
         holdout: logs of other motion to judge on.
         mapping: as of `read_logs`.
+        effects_from: as of the diagnosis.
     """
+    more = shared_of(model, effects_from)
     compiled, given = logs_of(model, logs, holdout, mapping)
-    return like(model, discovered_added(model, compiled, given, found)[0])
+    return like(model, discovered_added(model, compiled, given, found, more)[0])
 
 
 def discovered_added(
@@ -73,6 +83,7 @@ def discovered_added(
     compiled: CompiledModel,
     logs: diagnosis.Logs,
     found: diagnosis.Diagnosis,
+    more: SharedEffects = _NONE,
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
     """The model with the first proposal of each joint and the effects that it stands beside.
 
@@ -81,7 +92,7 @@ def discovered_added(
     firsts = [own.proposals[0] for own in found.discoveries or () if own.proposals]
     if not firsts:
         return model, ("left out: nothing was found",)
-    text = model.robot_text
+    text = more.written(model.robot_text, [f.effect for f in [*found.effects, *found.refinements]])
     for first in firsts:
         text = with_own_effect(text, first.finding.effect, first.definition)
     replaced = {(name, own.finding.joint) for own in firsts for name in own.instead}
@@ -102,6 +113,7 @@ def add(
     joint: str | None = None,
     mapping: Mapped = (),
     law: diagnosis.LawAsked = diagnosis.ANY_LAW,
+    effects_from: str | Path | None = None,
 ) -> M:
     """The model with one effect more, fitted to the logs; `table("waterfall")` says what it gained.
 
@@ -117,11 +129,14 @@ def add(
         joint: None: where it explains most.
         mapping: as of `read_logs`.
         law: of what a learned law is a function, and its form.
+        effects_from: folder of files that `modeler effects --export` wrote, whose effects the robot
+            may have too.
 
     Raises:
         DataError: no such effect, one that is there already, cannot be told from the logs, or
             cannot be added.
     """
+    model = with_shared(model, shared_of(model, effects_from), effect)
     compiled, given = logs_of(model, logs, holdout, mapping)
     if effect == diagnosis.LEARNED:
         return like(model, diagnosis.add_learned(model, compiled, joint, given, law))
@@ -135,6 +150,7 @@ def auto(
     progress: Callable[[float], None] | None = None,
     mapping: Mapped = (),
     learned: bool = False,
+    effects_from: str | Path | None = None,
 ) -> M:
     """The model with all that a diagnosis on these logs names and that lowers the error.
 
@@ -149,12 +165,15 @@ def auto(
         progress: called with the share that is done.
         mapping: as of `read_logs`.
         learned: True for a learned law of each joint at last, of what is left.
+        effects_from: folder of files that `modeler effects --export` wrote, whose effects the robot
+            may have too.
 
     Raises:
         DataError: nothing that can be added is missing.
     """
+    more = shared_of(model, effects_from)
     compiled, given = logs_of(model, logs, holdout, mapping)
-    return like(model, auto_added(model, compiled, given, progress, learned=learned)[0])
+    return like(model, auto_added(model, compiled, given, progress, silent, learned, more)[0])
 
 
 def undo(model: M, logs: Sequence[AnyLog], mapping: Mapped = ()) -> M:
@@ -183,16 +202,21 @@ def auto_added(
     progress: Callable[[float], None] | None = None,
     working: Steps = silent,
     learned: bool = False,
+    more: SharedEffects = _NONE,
 ) -> tuple[IdentifiedModel, tuple[str, ...], diagnosis.Diagnosis]:
     """The model with what a diagnosis names, why some of it is left out, and the diagnosis.
 
     Raises:
         DataError: nothing that can be added is missing.
     """
-    found = missing(model, compiled, logs, (), progress)
+    found = missing(model, compiled, logs, (), progress, more=more)
     findings = [*found.effects, *found.refinements]
+    named = dataclasses.replace(
+        model, robot_text=more.written(model.robot_text, [f.effect for f in findings])
+    )
     with working("adding what is missing"):
-        better, left_out = diagnosis.add_findings(model, compiled, findings, logs)
+        better, left_out = diagnosis.add_findings(named, compiled, findings, logs)
+    better = model if better is named else better
     if learned:
         with working("learning laws"):
             better, idle = diagnosis.add_laws(better, recompile(better), logs)
@@ -212,14 +236,42 @@ def missing(
     without: Sequence[str] = (),
     progress: Callable[[float], None] | None = None,
     equations: bool = False,
+    more: SharedEffects = _NONE,
 ) -> diagnosis.Diagnosis:
-    """What a diagnosis finds, which tries the effects that the robot file defines too."""
-    robot = robot_from_text(model.robot_text, f"model of {model.spec.robot}, robot")
-    known = diagnosis.StatedEffects(robot.catalogue, robot.coupling)
-    return diagnosis.diagnose(
+    """What a diagnosis finds, which tries the effects that the robot file defines too.
+
+    And those of a folder; why some of these are left out stands among its sentences.
+    """
+    robot = robot_of(model)
+    known = diagnosis.StatedEffects((*robot.catalogue, *more.effects), robot.coupling)
+    found = diagnosis.diagnose(
         model, compiled, logs.fitted, logs.held_out, without, progress=progress, known=known,
         equations=equations,
     )  # fmt: skip
+    laws = {e.id: "a learned law, no physics" for e in more.effects if e.learned}
+    left = [f"left out: {name} ({why})" for name, why in {**more.left_out, **laws}.items()]
+    return dataclasses.replace(found, sentences=(*found.sentences, *left))
+
+
+def robot_of(model: IdentifiedModel) -> Robot:
+    """The robot of a model."""
+    return robot_from_text(model.robot_text, f"model of {model.spec.robot}, robot")
+
+
+def shared_of(model: IdentifiedModel, folder: str | Path | None) -> SharedEffects:
+    """Effects of a folder that the robot of the model may have too; without a folder none."""
+    return _NONE if folder is None else shared_effects(robot_of(model), folder)
+
+
+def with_shared(model: M, more: SharedEffects, effect: str) -> M:
+    """The model whose robot file defines that effect, if it is one of a folder.
+
+    Raises:
+        DataError: it is one that the robot cannot have.
+    """
+    if effect in more.left_out:
+        raise DataError(f"{effect} of {more.left_out[effect]}; expected another effect")
+    return dataclasses.replace(model, robot_text=more.written(model.robot_text, [effect]))
 
 
 def logs_of(

@@ -26,6 +26,7 @@ from modeler.cli.shared_arguments import (
     CHANGED,
     DASK,
     DRAWN,
+    EFFECTS_FROM,
     FORCE,
     LOGS,
     MAP,
@@ -388,6 +389,7 @@ _DIAGNOSE = Command(
                 "logs of other motion: errors come from them, nothing is fitted to them"),
         repeated("--without", "EFFECT[@J]", places.Word,
                  "an effect that this robot does not have, on one joint or at all"),
+        EFFECTS_FROM,
         MAP, *page(), pictures(),
         Group("what has no name", None, (
             flag("--discover", "propose equations, as [own_effects] to paste"),
@@ -416,6 +418,7 @@ _ADD = Command(
         several("--holdout", "LOG", places.LogFile, "logs of other motion to judge on"),
         value("--robot-out", "FILE.toml", places.Output, "write the new robot file too",
               old=("--robot",)),
+        EFFECTS_FROM,
         MAP, *page(), pictures(),
         Group("of `learned`, and of `auto`", None, (
             value("--of", "X[,Y]", places.Word,

@@ -1,6 +1,7 @@
 """`modeler diagnose MODEL LOG...` and `modeler add MODEL EFFECT LOG... --out MODEL2`."""
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 import modeler.api.improve as improve
@@ -32,9 +33,9 @@ from modeler.diagnosis import (
     notes,
     undone,
 )
-from modeler.effects import effect_named
+from modeler.effects import Effect, effect_named
 from modeler.estimation import IdentifiedModel, load_model, save_model
-from modeler.robot import Robot, near, robot_from_text
+from modeler.robot import near, robot_from_text
 
 _WIDTH = 40  # characters of the longest bar
 
@@ -46,17 +47,20 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     model = load_model(args.model)
     robot = robot_from_text(model.robot_text, f"{args.model}, robot")
     use_options_of(args, "diagnose", robot.diagnose)
-    _check_without(args, robot, model)
+    more = improve.shared_of(model, args.effects_from)
+    _check_without(args, (*robot.catalogue, *more.effects), model)
     with working("deriving the robot of the model"):
         compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map, True)
     with progress("looking for missing effects") as bar:
-        diagnosis = improve.missing(model, compiled, logs, args.without, bar, args.discover)
+        diagnosis = improve.missing(model, compiled, logs, args.without, bar, args.discover, more)
     better, left_out = model, tuple[str, ...]()
     if args.add is not None:
         with working("adding what was found"):
-            better, left_out = improve.discovered_added(model, compiled, logs, diagnosis)
+            better, left_out = improve.discovered_added(model, compiled, logs, diagnosis, more)
         save_model(args.add, better)
-    following = report.after_diagnosis(args.model, args.logs, args.holdout, diagnosis)
+    following = report.after_diagnosis(
+        args.model, args.logs, args.holdout, diagnosis, args.effects_from
+    )
     if args.report is not None or args.picture is not None:
         shown = [Path(place).name for place in (*args.logs, *args.holdout)]
         provenance = [
@@ -79,9 +83,10 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     return diagnosis.to_json()
 
 
-def _check_without(args: argparse.Namespace, robot: Robot, model: IdentifiedModel) -> None:
+def _check_without(
+    args: argparse.Namespace, catalogue: Sequence[Effect], model: IdentifiedModel
+) -> None:
     """Refuses effects that there are not, then joints."""
-    catalogue = robot.catalogue
     known = [effect.id for effect in catalogue]
     names = [joint.name for joint in model.spec.joints]
     closure = model.spec.closure
@@ -108,15 +113,21 @@ def run_add(args: argparse.Namespace) -> Json:
             f"--joint {args.joint}: `{args.effect}` takes no joint; expected one effect with "
             "--joint, or leave it out"
         )
+    if args.effects_from is not None and args.effect in (LEARNED, "undo"):
+        raise DataError(
+            f"--effects-from {args.effects_from}: got it with {args.effect}; expected an effect of "
+            "the folder, or auto"
+        )
     asked = _law_asked(args)
     model = load_model(args.model)
+    more = improve.shared_of(model, args.effects_from)
     with working("deriving the robot of the model"):
         compiled, logs = improve.logs_of(model, args.logs, args.holdout, args.map)
     left_out: tuple[str, ...] = ()
     if args.effect == "auto":
         with progress("looking for missing effects") as bar:
             better, left_out, _ = improve.auto_added(
-                model, compiled, logs, bar, working, args.learned
+                model, compiled, logs, bar, working, args.learned, more
             )
     elif args.effect == LEARNED:
         with progress("learning a law") as bar:
@@ -126,6 +137,7 @@ def run_add(args: argparse.Namespace) -> Json:
             better = undone(model, logs)
     else:
         with working(f"adding {args.effect}"):
+            model = improve.with_shared(model, more, args.effect)
             better = add_effect(model, compiled, args.effect, args.joint, logs)
     save_model(args.out, better)
     following = report.after_add(args.out, args.logs, args.holdout, better.fit)

@@ -27,6 +27,8 @@ DASK = value(
     "a Dask scheduler whose workers read the logs, as tcp://host:8786; local: a cluster of this "
     "machine's processors",
 )  # fmt: skip
+_SHARED = "with the effects that `modeler effects --export` wrote there"
+EFFECTS_FROM = value("--effects-from", "FOLDER", places.Input, _SHARED)
 FORCE = flag(
     "--force", "write also over files of DIR that no earlier run wrote, or that were edited since"
 )

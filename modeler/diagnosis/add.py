@@ -182,7 +182,8 @@ def add_effect(
     pick = _found(before, effect, joint)
     after, score = _judged(before, pick)
     *steps, last = after.model.history
-    last = dataclasses.replace(last, doubt=_why_perhaps(pick, score))
+    moved = _moved(model, after.model) if effect.learned else {}
+    last = dataclasses.replace(last, moved=moved, doubt=_why_perhaps(pick, score))
     return _finished(after.with_history((*steps, last)))
 
 

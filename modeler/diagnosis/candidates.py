@@ -171,7 +171,7 @@ def candidates(
     """
     found: list[Candidate] = []
     for effect in known.catalogue:
-        if effect.several or effect.learned:
+        if effect.several:
             continue
         if effect.acts in (Acts.JOINT, Acts.POSITION):
             for j, joint in enumerate(spec.joints):

@@ -25,7 +25,8 @@ def generate_candidates(
     temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
     changed = state.data.kept is not None
     present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
-    asked = [e for e in state.data.known.catalogue if only in (None, e.id)]
+    every = state.data.known.catalogue
+    asked = [e for e in every if (only is None and not e.learned) or e.id == only]
     known = dataclasses.replace(state.data.known, catalogue=asked)
 
     def allowed(effect: str, joint: str | None) -> bool:

@@ -27,7 +27,7 @@ from modeler.core.law import Law
 from modeler.core.toml_cells import Place
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import own_columns
-from modeler.diagnosis.judge import FELT, GATE, NAMED_T_RATIO, NEARLY
+from modeler.diagnosis.judge import FELT, GATE, NEARLY
 from modeler.diagnosis.orders import order_spectrum
 from modeler.diagnosis.score import STANDARD_ERRORS, standard_errors
 from modeler.diagnosis.state import State
@@ -38,8 +38,11 @@ from modeler.numerics.splines import beyond, flat_ends, second_differences, spli
 CELLS = (40, 14)
 """Of one axis alone, and of each of two."""
 
+SURE = 3.0
+"""Least fall of the error, in standard errors, where a law was not fitted; it is judged again."""
+
 _WAVE = 8  # cells for each wave that stands out in the residual
-_MOST_CELLS, _FEW = 240, 5
+_FINE, _MOST_CELLS, _FEW = 100, 240, 5
 _TRAVELS = (0.003, 0.03)
 """After a reversal, of the range of motion: over which z turns, and what is a reversal at all."""
 
@@ -135,8 +138,8 @@ class Learned(Brief):
 
     @property
     def significant(self) -> bool:
-        """True if it is worth a place in a model, as an effect with a name would be."""
-        return self.gain > GATE and self.sure > NAMED_T_RATIO and self.felt > FELT
+        """True if it is worth a place in a model."""
+        return self.gain > GATE and self.sure > SURE and self.felt > FELT
 
 
 @dataclass(frozen=True)
@@ -243,7 +246,7 @@ def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
     peaks = [] if (spectrum := order_spectrum(state, j)) is None else spectrum.peaks
     turns = state.scales[j].range / (2.0 * np.pi)
     fine = min(_MOST_CELLS, round(_WAVE * max(peaks, default=0.0) * turns))
-    waves = [0] + ([fine] if fine > CELLS[0] else [])
+    waves = [0, _FINE] + ([fine] if fine > _FINE else [])
     quantities = _quantities(state, j)
     for x, further in quantities:
         for cells in waves if x == "q" else [0]:

@@ -1,5 +1,6 @@
 """Smooth functions of all that was measured: how well do they predict a residual?"""
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
@@ -148,7 +149,8 @@ def _standard(values: np.ndarray) -> np.ndarray:
 def beyond(low: float, high: float, cells: int) -> tuple[float, float]:
     """The ends of an axis, with a cell on either side of what was seen to come to rest in."""
     cell = (high - low) / (cells - 2)
-    return float(f"{low - cell:.6g}"), float(f"{high + cell:.6g}")
+    digits = 3 - math.floor(math.log10(cell))  # of the ends: a robot file shows them
+    return round(low - cell, digits), round(high + cell, digits)
 
 
 def flat_ends(cells: int) -> csr_array:
@@ -186,7 +188,7 @@ def curve(x: np.ndarray, count: int = 16) -> np.ndarray:
     return _of_all(x[:, None], count)
 
 
-def surface(x: np.ndarray, y: np.ndarray, count: int = 7) -> np.ndarray:
+def surface(x: np.ndarray, y: np.ndarray, count: int = 5) -> np.ndarray:
     """(n, count**2) products of splines over x (n,) and y (n,): any smooth function of both."""
     return _of_all(np.column_stack([x, y]), count)
 
@@ -223,8 +225,8 @@ SLIPS = (0.001, 0.01, 0.1)
 OWN = ("own", "surface")
 """Sets of functions of the motion of the joint itself."""
 
-_SPLINES = {"q": 16, "v": 20, "a": 10, "load": 12, "torque": 12}
-_OTHER = {"q": 14, "v": 12, "a": 6}
+_SPLINES = {"q": 12, "v": 14, "a": 8, "load": 9, "torque": 9}
+_OTHER = {"q": 10, "v": 9, "a": 5}
 _SUM = 7  # splines
 _OWN, _WIDE, _PAIRS = 60, 60, 150  # random features
 

@@ -345,8 +345,9 @@ def after_compare(
 
 
 def after_diagnosis(
-    model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: "Diagnosis"
-) -> list[str]:
+    model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: "Diagnosis",
+    effects_from: str | None = None,
+) -> list[str]:  # fmt: skip
     """Add the effects that have columns; without any, see what is left, or take the model."""
     named = [f for f in diagnosis.effects if f.pick is not None]
     if not named and diagnosis.verdict == "nothing significant":
@@ -361,6 +362,7 @@ def after_diagnosis(
     path = Path(model)
     better = path.with_name(f"{path.name.partition('.')[0]}-improved{''.join(path.suffixes)}")
     words = f"modeler add {_listed([model])} {effect} {_listed(logs)}{_held(holdout)}"
+    words += f" --effects-from {shlex.quote(effects_from)}" if effects_from else ""
     return [f"{words} --out {_listed([str(better)])}"]
 
 

@@ -62,6 +62,11 @@ from .robot import (
     listed as listed,
     near as near,
 )
+from .shared_effects import (
+    SharedEffects as SharedEffects,
+    exported_effect as exported_effect,
+    shared_effects as shared_effects,
+)
 from .start import (
     check_new_robot as check_new_robot,
     convert as convert,

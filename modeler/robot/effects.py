@@ -27,7 +27,7 @@ _LOGGED = ("q", "qc", "qd", "qdd", "tau", "current", "temperature")  # columns o
 
 
 def read_own_effects(
-    value: Any, place: Place, joints: Collection[str] | None = None
+    value: Any, place: Place, joints: Collection[str] | None = None, before: Sequence[Effect] = ()
 ) -> tuple[Effect, ...]:
     """The effects that the file defines, in its order.
 
@@ -35,6 +35,7 @@ def read_own_effects(
         value: the table `own_effects`: id -> title, columns, shapes, unit, nonnegative, acts.
         place: of the file.
         joints: of the robot, whose motion equations may read; None: of a file that was read before.
+        before: other effects of the robot, whose parameters are taken.
 
     Raises:
         RobotError: names that the catalogue has, and what `read_definition` refuses.
@@ -52,7 +53,9 @@ def read_own_effects(
                 f"{shown(name)} is {effect.id} of the catalogue, which stays as it is; choose "
                 "another name"
             )
-        taken = parameter_owners((*CATALOGUE, *found)) | dict.fromkeys(INERTIAL, "the links")
+        taken = parameter_owners((*CATALOGUE, *before, *found)) | dict.fromkeys(
+            INERTIAL, "the links"
+        )
         taken |= dict.fromkeys(_LOGGED, "the logs")
         found.append(read_definition(name, here, taken, joints=joints))
     return tuple(found)

@@ -88,17 +88,7 @@ def read_robot(robot: str | Path) -> Robot:
     path = Path(robot)
     if path.suffix.lower() in OTHER_PROGRAMS:
         return of_other_program(converted(path), path)
-    try:
-        is_file = path.exists() and not path.is_dir()
-        text = read_text(path) if is_file else ""
-    except UnicodeDecodeError as error:
-        raise RobotError(
-            f"{path}: byte {error.start} is not UTF-8 text; save the file as UTF-8"
-        ) from None
-    except OSError as error:
-        raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
-    if not is_file:
-        raise RobotError(_not_found(path))
+    text = file_text(path)
     if is_robot_xml(text.encode()):  # under another name
         return of_other_program(converted(path), path)
     if text.lstrip().startswith("{"):  # as JSON does and a robot file never
@@ -108,6 +98,24 @@ def read_robot(robot: str | Path) -> Robot:
             "built-in one; models are taken by `modeler compare`, `add` and others"
         )
     return robot_from_text(text, str(path))
+
+
+def file_text(path: Path) -> str:
+    """What a file says.
+
+    Raises:
+        RobotError: it is not there, cannot be read, or is no text.
+    """
+    try:
+        if path.exists() and not path.is_dir():
+            return read_text(path)
+    except UnicodeDecodeError as error:
+        raise RobotError(
+            f"{path}: byte {error.start} is not UTF-8 text; save the file as UTF-8"
+        ) from None
+    except OSError as error:
+        raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
+    raise RobotError(_not_found(path))
 
 
 def of_other_program(found: Converted, path: str | Path) -> Robot:
@@ -251,9 +259,14 @@ def _not_found(path: Path) -> str:
     )
 
 
-def _document(text: str, place: Place) -> dict[str, Any]:
+def toml_document(text: str, place: Place) -> dict[str, Any]:
+    """What a TOML text says.
+
+    Raises:
+        RobotError: it is no TOML; says in which line.
+    """
     try:
-        document = parse_toml(text)
+        return parse_toml(text)
     except TomlError as error:
         match = re.fullmatch(r"(.*) \(at line (\d+), column (\d+)\)", str(error), re.DOTALL)
         if str(error).endswith("(at end of document)"):
@@ -269,6 +282,10 @@ def _document(text: str, place: Place) -> dict[str, Any]:
             f"not TOML ({match[1]}); correct that line (texts stand in quotes, entries are "
             "separated by commas)"
         ) from None
+
+
+def _document(text: str, place: Place) -> dict[str, Any]:
+    document = toml_document(text, place)
     place.holding(document).checked_table(_KEYS, "")
     for key, advice in _NEEDED.items():
         if key not in document:

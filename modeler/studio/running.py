@@ -213,8 +213,9 @@ async def _lines(stream: asyncio.StreamReader) -> AsyncIterator[str]:
 def _environment() -> dict[str, str]:
     """Ours, in which the child finds this very package, wherever it was imported from."""
     root = str(Path(__file__).resolve().parents[2])
+    found = dict(os.environ)
     # An empty place in this list would be the folder of the project, in spite of -P.
-    places = [place for place in os.environ.get("PYTHONPATH", "").split(os.pathsep) if place]
+    places = [place for place in found.get("PYTHONPATH", "").split(os.pathsep) if place]
     if root not in (sysconfig.get_path("purelib"), sysconfig.get_path("platlib")):
         places.insert(0, root)
-    return {**os.environ, "PYTHONPATH": os.pathsep.join(places)}
+    return found | {"PYTHONPATH": os.pathsep.join(places)}

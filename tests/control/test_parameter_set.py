@@ -104,6 +104,7 @@ def folder(tmp_path_factory):
     return where
 
 
+@pytest.mark.in_turn
 @pytest.mark.parametrize(
     ("cc", "flags"),
     [("gcc", ["-fsanitize=thread"]), ("gcc", ["-fsanitize=address,undefined"]), ("clang", [])],

@@ -1,4 +1,4 @@
-"""Equations for what the catalogue has no name for: found, with units, pasted, added; or none."""
+"""Equations proposed: hidden expressions come back, a clean log yields none."""
 
 import dataclasses
 import json

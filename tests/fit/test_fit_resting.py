@@ -69,6 +69,7 @@ OTHERS = [
 ]  # fmt: skip
 
 
+@pytest.mark.in_turn
 @pytest.mark.parametrize("rest", RESTING)
 @pytest.mark.parametrize(
     "commands", [FITS, LOADED, OTHERS, pytest.param(BOTH, marks=IN_TURN)],

@@ -136,7 +136,8 @@ class Window:
         """Until no command runs and the screen is drawn."""
         self.page.wait_for_function(
             "() => document.querySelector('.studio-screen')"
-            " && !document.querySelector('.studio-running:not(.hidden)')"
+            " && !document.querySelector('.studio-running:not(.hidden)')",
+            polling=100,
         )
 
     def sees(self, text: str) -> None:
