@@ -53,7 +53,7 @@ _FIRSTS = 4  # columns that get a second one beside them
 _SECONDS = 1500  # products of two that are tried there
 _BESIDE = 8
 _STEPS = 20  # of refining
-_NEAR, _ROUNDS, _CHANGED = 3, 3, 8
+_NEAR, _ROUNDS, _CHANGED = 3, 3, 14
 _PLAIN = ("sign(v)", "v", "abs(v)", "v*abs(v)", "load", "abs(load)")
 _LOW = (0.5, 1.0, 1.5, 2.0, 2.5)  # waves in the stroke that no spectrum shows
 
