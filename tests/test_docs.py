@@ -223,6 +223,7 @@ LONG = (
     "docs/how-to/servo-arms.md",
     "docs/how-to/drive-gains.md",
     "docs/how-to/diagnosis.md",
+    "docs/how-to/learned-law.md",
     "docs/explanation/diagnosis.md",
     "docs/how-to/free-run.md",
     "docs/how-to/excitation.md",
