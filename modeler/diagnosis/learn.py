@@ -256,8 +256,10 @@ def every_coordinates(state: State, j: int) -> Iterator[Coordinates]:
         if x != "v":
             yield Coordinates(("v", x), "", further)
             yield Coordinates(("abs(v)", x), "sign(v)", further)
-        for cells in waves if x not in ("q", "v") else []:
-            yield Coordinates(("q", x), "", further, (cells, _FEW) if cells else ())
+        if x not in ("q", "v") and not further:
+            yield Coordinates(("q", x))
+        for cells in waves[1:] if x in ("load", "T") else []:
+            yield Coordinates(("q", x), cells=(cells, _FEW))
 
 
 def _quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
