@@ -242,7 +242,7 @@ def missing(
 
     And those of a folder; why some of these are left out stands among its sentences.
     """
-    robot = robot_of(model)
+    robot = _robot_of(model)
     known = diagnosis.StatedEffects((*robot.catalogue, *more.effects), robot.coupling)
     found = diagnosis.diagnose(
         model, compiled, logs.fitted, logs.held_out, without, progress=progress, known=known,
@@ -253,14 +253,13 @@ def missing(
     return dataclasses.replace(found, sentences=(*found.sentences, *left))
 
 
-def robot_of(model: IdentifiedModel) -> Robot:
-    """The robot of a model."""
+def _robot_of(model: IdentifiedModel) -> Robot:
     return robot_from_text(model.robot_text, f"model of {model.spec.robot}, robot")
 
 
 def shared_of(model: IdentifiedModel, folder: str | Path | None) -> SharedEffects:
     """Effects of a folder that the robot of the model may have too; without a folder none."""
-    return _NONE if folder is None else shared_effects(robot_of(model), folder)
+    return _NONE if folder is None else shared_effects(_robot_of(model), folder)
 
 
 def with_shared(model: M, more: SharedEffects, effect: str) -> M:
