@@ -112,7 +112,7 @@ def add(
     holdout: Sequence[AnyLog] = (),
     joint: str | None = None,
     mapping: Mapped = (),
-    law: diagnosis.LawAsked = diagnosis.ANY_LAW,
+    law: diagnosis.LawAsked | None = None,
     effects_from: str | Path | None = None,
 ) -> M:
     """The model with one effect more, fitted to the logs; `table("waterfall")` says what it gained.
@@ -128,7 +128,7 @@ def add(
         holdout: logs of other motion to judge on.
         joint: None: where it explains most.
         mapping: as of `read_logs`.
-        law: of what a learned law is a function, and its form.
+        law: of what a learned law is a function, and its form; None: whatever predicts best.
         effects_from: folder of files that `modeler effects --export` wrote, whose effects the robot
             may have too.
 
@@ -139,7 +139,9 @@ def add(
     model = with_shared(model, shared_of(model, effects_from), effect)
     compiled, given = logs_of(model, logs, holdout, mapping)
     if effect == diagnosis.LEARNED:
-        return like(model, diagnosis.add_learned(model, compiled, joint, given, law))
+        return like(
+            model, diagnosis.add_learned(model, compiled, joint, given, law or diagnosis.ANY_LAW)
+        )
     return like(model, diagnosis.add_effect(model, compiled, effect, joint, given))
 
 

@@ -393,9 +393,9 @@ _DIAGNOSE = Command(
         MAP, *page(), pictures(),
         Group("what has no name", None, (
             flag("--discover", "propose equations, as [own_effects] to paste"),
-            value("--add", "MODEL2", places.Output,
-                  "put the first of each joint into the model, with the effects beside which it "
-                  "stands, and write it where it lowers the error"),
+            flag("--add", "put the first of each joint into the model, with the effects beside "
+                          "which it stands, where that lowers the error"),
+            value("--out", "MODEL2", places.Output, "with --add: model file to write"),
         )),
     ),
 )  # fmt: skip

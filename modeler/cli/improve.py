@@ -28,7 +28,6 @@ from modeler.diagnosis import (
     add_effect,
     add_learned,
     added,
-    fall_shares,
     lines,
     notes,
     undone,
@@ -42,8 +41,10 @@ _WIDTH = 40  # characters of the longest bar
 
 def run_diagnose(args: argparse.Namespace) -> Json:
     """Prints the verdict, the effects and what cannot be told."""
-    if args.add is not None and not args.discover:
-        raise DataError(f"--add {args.add}: adds what --discover finds; give both, or neither")
+    if args.add and not args.discover:
+        raise DataError("--add: adds what --discover finds; give both, or neither")
+    if args.add is not (args.out is not None):
+        raise DataError("--add, --out MODEL2: got one of them; give both, or neither")
     model = load_model(args.model)
     robot = robot_from_text(model.robot_text, f"{args.model}, robot")
     use_options_of(args, "diagnose", robot.diagnose)
@@ -54,10 +55,10 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     with progress("looking for missing effects") as bar:
         diagnosis = improve.missing(model, compiled, logs, args.without, bar, args.discover, more)
     better, left_out = model, tuple[str, ...]()
-    if args.add is not None:
+    if args.add:
         with working("adding what was found"):
             better, left_out = improve.discovered_added(model, compiled, logs, diagnosis, more)
-        save_model(args.add, better)
+        save_model(args.out, better)
     following = report.after_diagnosis(
         args.model, args.logs, args.holdout, diagnosis, args.effects_from
     )
@@ -75,9 +76,9 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     say_lines([*lines(diagnosis), *model.warning])
     draw_page(args.report, lambda: page)
     draw_pictures(args.picture, lambda: page.pictures())
-    if args.add is not None:
+    if args.add:
         say_lines([*waterfall(better), *added(better), *left_out])
-        say_lines([args.add], "written: ")
+        say_lines([args.out], "written: ")
         return diagnosis.to_json() | {"left_out": list(left_out)}
     show_next(following)
     return diagnosis.to_json()
@@ -200,7 +201,7 @@ def waterfall(model: IdentifiedModel) -> list[str]:
         bar = ("~" if step.learned else "#") * round(_WIDTH * step.error / largest)
         fitted = f"(fitted {percent(step.training_error, DIGITS)}{', learned' * step.learned})"
         lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  {fitted}")
-    if (parts := fall_shares(model)) is not None:
+    if (parts := model.fall_shares) is not None:
         lines.append(f"{'':<30} ~ learned, not physics")
         physics, learned = (100.0 * part for part in parts)
         lines.append(

@@ -3,7 +3,6 @@ from .add import (
     add_findings as add_findings,
     add_laws as add_laws,
     add_learned as add_learned,
-    fall_shares as fall_shares,
     undone as undone,
 )
 from .added_model import Logs as Logs, added as added, notes as notes

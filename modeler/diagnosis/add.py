@@ -3,7 +3,6 @@
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -255,19 +254,6 @@ def add_laws(
         else:
             compiled = load(model.spec, model.sources)
     return model, tuple(left)
-
-
-def fall_shares(model: IdentifiedModel) -> tuple[float, float] | None:
-    """Of the fall of the error since the first fit, what physics and what learned laws took.
-
-    Falls of the relative error, in the order in which they were added; None without learned laws.
-    """
-    steps = model.history
-    if not any(step.learned for step in steps):
-        return None
-    falls = [(new.learned, old.error - new.error) for old, new in pairwise(steps)]
-    physics, learned = (sum(fall for own, fall in falls if own is kind) for kind in (False, True))
-    return physics, learned
 
 
 MOVED = 2.0

@@ -172,6 +172,21 @@ class IdentifiedModel(Presented):
     mapping: Mapping[str, Any] = field(default_factory=dict)
 
     @property
+    def fall_shares(self) -> tuple[float, float] | None:
+        """Of the fall of the error since the first fit, what physics and what learned laws took.
+
+        Falls of the relative error, in the order in which they were added; None without learned
+        laws.
+        """
+        if not any(step.learned for step in self.history):
+            return None
+        falls = [
+            (new.learned, old.error - new.error) for old, new in itertools.pairwise(self.history)
+        ]
+        physics, learned = (sum(f for own, f in falls if own is kind) for kind in (False, True))
+        return physics, learned
+
+    @property
     def beta(self) -> np.ndarray:
         """(c,) base parameters, manifest order."""
         return self.fit.beta

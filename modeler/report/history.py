@@ -8,7 +8,6 @@ import numpy as np
 from modeler.core.figure import Bars, Curve, Panel, Picture
 from modeler.core.style import BLUE, GREEN, ORANGE, PINK, SKY, Style
 from modeler.core.table import DIGITS, WORDS, percent, printed
-from modeler.diagnosis import fall_shares
 from modeler.effects import Effect, effect_named
 from modeler.estimation import Addition, IdentifiedModel
 from modeler.report.blocks import Block, Code, Figure, Items, PageCell, PageTable, Paragraph
@@ -103,7 +102,7 @@ def _facts(
         if most is not None:
             change = " \u2192 ".join(printed(start.get(most, math.nan), end[most]))
             facts.append(("Gains most", f"joint {most}: {change}"))
-    if (parts := fall_shares(model)) is not None:
+    if (parts := model.fall_shares) is not None:
         physics, learned = (f"{100.0 * part:.2g}" for part in parts)
         facts.append(("Of the fall", f"physics {physics}, learned laws {learned} points"))
     if left_out:

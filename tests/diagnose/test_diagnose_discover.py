@@ -156,5 +156,9 @@ def test_units_follow_from_what_is_read(case: Case, names: tuple[str, ...]) -> N
 
 
 def test_add_wants_discover(run: Run, tmp_path: Path) -> None:
-    status, _, err = run("diagnose", "m.json", "log.csv", "--add", tmp_path / "m2.json")
-    assert status == 1 and "adds what --discover finds; give both, or neither" in err
+    for words, told in (
+        (["--add", "--out", tmp_path / "m2.json"], "adds what --discover finds; give both, or ne"),
+        (["--discover", "--add"], "--add, --out MODEL2: got one of them; give both, or neither"),
+    ):
+        status, _, err = run("diagnose", "m.json", "log.csv", *words)
+        assert status == 1 and told in err

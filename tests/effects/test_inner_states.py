@@ -126,10 +126,10 @@ def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "sin
     exact = 1e-12 if precision == "double" else 2e-5
     np.testing.assert_allclose(after[:, [0, 3, 4]], np.column_stack([clock, x, z]), rtol=exact,
                                atol=exact)  # fmt: skip
-    way = np.sign(s[:, 1] + dq[:, 1] / 3e-4)  # each of these steps is far longer than a reversal
+    way = np.sign(s[:, 1] + dq[:, 1] / 3e-3)  # each of these steps is far longer than a reversal
     np.testing.assert_allclose(after[:, 1], way)
-    ago = np.minimum(s[:, 2] + 0.02, 0.04 * (1.0 + np.abs(dq[:, 1] / 3e-4 + s[:, 1]))
-                     / np.abs(dq[:, 1] / 3e-4))  # fmt: skip
+    ago = np.minimum(s[:, 2] + 0.02, 0.04 * (1.0 + np.abs(dq[:, 1] / 3e-3 + s[:, 1]))
+                     / np.abs(dq[:, 1] / 3e-3))  # fmt: skip
     np.testing.assert_allclose(since, np.where(way < 0.0, ago, s[:, 2] + 0.02), rtol=1e-4)
     with pytest.raises(ShapeError, match="its effects lag; give q, qd, qdd"):
         compiled.advance(dq[0], 0.02, s[0])

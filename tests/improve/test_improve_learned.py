@@ -7,7 +7,7 @@ import pytest
 
 from modeler import api
 from modeler.core.errors import DataError
-from modeler.diagnosis import LawAsked, fall_shares
+from modeler.diagnosis import LawAsked
 from modeler.diagnosis.learn import learn
 from modeler.diagnosis.state import SearchData, analysed, state_of
 from modeler.estimation.model_file import load_model, save_model
@@ -54,7 +54,7 @@ def test_the_error_falls_and_physics_stays(learned: tuple[Path, Log, Log]) -> No
     assert last.error < 0.25 * first.error and last.falls and last.learned and not last.doubt
     assert (last.effect, last.joint) == ("learned_2", "2")
     assert last.moved and max(last.moved.values()) < 2.0
-    physics, law = fall_shares(better) or (0.0, 0.0)
+    physics, law = better.fall_shares or (0.0, 0.0)
     assert physics == 0.0 and law == pytest.approx(first.error - last.error)
     (own,) = robot_from_text(better.robot_text, "better").own_effects
     assert own.learned and own.columns[0].equation.law is not None
