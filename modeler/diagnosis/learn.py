@@ -206,16 +206,20 @@ def learn(state: State, j: int, asked: LawAsked = ANY_LAW) -> Learned | None:
     Raises:
         DataError: a quantity that cannot be read.
     """
-    try:
-        every = [_splines(state, j, own) for own in asked.coordinates(state, j)]
-    except RobotError as error:
-        raise DataError(f"--of {','.join(asked.of)}: {error}") from None
-    found = [(_Fit(state, j, own).best(_FIRST), own) for own in every if own is not None]
-    found.sort(key=lambda item: -float(item[0].drop.sum()))
-    found = [(_Fit(state, j, own).best(_SMOOTH, asked.rising), own) for _, own in found[:_NEAR]]
-    if not found:
+    found = []
+    for own in asked.coordinates(state, j):
+        try:
+            splines = _splines(state, j, own)  # of one at a time: they fill memory
+        except RobotError as error:
+            raise DataError(f"--of {','.join(asked.of)}: {error}") from None
+        if splines is not None:
+            found.append((float(_Fit(state, j, splines).best(_FIRST).drop.sum()), own))
+    found.sort(key=lambda item: -item[0])
+    near = [s for _, own in found[:_NEAR] if (s := _splines(state, j, own)) is not None]
+    if not near:
         return None
-    fit, splines = _refined(state, j, *_simplest(found), asked.rising)
+    closely = [(_Fit(state, j, own).best(_SMOOTH, asked.rising), own) for own in near]
+    fit, splines = _refined(state, j, *_simplest(closely), asked.rising)
     return _learned(state, j, splines, fit)
 
 

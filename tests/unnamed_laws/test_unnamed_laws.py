@@ -6,9 +6,10 @@ import pytest
 from tests.hidden_effects.conftest import plant_compiler as plant_compiler
 from tests.hidden_effects.plant import TICK, rate
 from tests.hidden_effects.test_generator import arm
+from tests.unnamed_laws.found import what_is_learned, what_is_proposed
 from tests.unnamed_laws.judge import errors
 from tests.unnamed_laws.laws import LAWS, Motion
-from tests.unnamed_laws.machines import LEAST, MOST, machine, with_law
+from tests.unnamed_laws.machines import CLEAN, LEAST, MOST, machine, with_law
 
 pytestmark = pytest.mark.usefixtures("plant_compiler")
 
@@ -50,3 +51,20 @@ def test_the_true_form_explains_what_is_left(name, encoder, tmp_path):
     written = own.train[0].stat().st_mtime_ns
     assert machine(name, 1, encoder, tmp_path) == own  # and it is not made again
     assert own.train[0].stat().st_mtime_ns == written
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["two_dips", "neighbour_drag", "maxwell_hose"])
+def test_a_law_is_learned_and_an_equation_proposed(name, tmp_path):
+    own = machine(name, 5, "fine", tmp_path)
+    learned = what_is_learned(own)
+    assert float(learned.rsplit(": ", 1)[1].split()[0]) > 0.8, learned
+    proposed = what_is_proposed(own)
+    assert "found)" in proposed, proposed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [2, 3])
+def test_nothing_is_learned_of_a_machine_that_lacks_nothing(seed, tmp_path):
+    told = what_is_learned(machine(CLEAN, seed, "4096", tmp_path)).splitlines()
+    assert all(line.endswith("nothing is learned") for line in told), told
