@@ -27,6 +27,7 @@ from .api import (
     Processing as Processing,
     Robot as Robot,
     add as add,
+    add_discoveries as add_discoveries,
     at_home as at_home,
     auto as auto,
     check_motion as check_motion,

@@ -3,13 +3,12 @@
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import reduce
 from itertools import combinations_with_replacement
 
 import numpy as np
 from scipy.linalg.lapack import sposv
 from scipy.optimize import nnls
-from scipy.sparse import csr_array, diags_array, kron
+from scipy.sparse import csr_array, diags_array
 
 from modeler.core.law import BESIDE, Law
 
@@ -183,26 +182,30 @@ def spline_products(
     return csr_array((weights.ravel(), columns.ravel(), starts), shape=(len(values), size))
 
 
-def curve(x: np.ndarray, count: int = 16) -> np.ndarray:
-    """(n, count) splines over x (n,), which sum to one: any smooth function of it."""
-    return _of_all(x[:, None], count)
+# Curves: columns whose sums are any smooth function of one coordinate.
 
 
-def surface(x: np.ndarray, y: np.ndarray, count: int = 5) -> np.ndarray:
-    """(n, count**2) products of splines over x (n,) and y (n,): any smooth function of both."""
-    return _of_all(np.column_stack([x, y]), count)
+def curve(x: np.ndarray, knots: int = 16) -> np.ndarray:
+    """(n, p) hats over x (n,): straight between knots, half at quantiles, half evenly spread.
 
-
-def _of_all(x: np.ndarray, count: int) -> np.ndarray:
-    """Splines over the columns of x (n, d) that are not constant."""
-    moving = x[:, np.ptp(x, axis=0) > 0.0]
-    if not moving.size:
-        return np.ones((len(x), 1))
-    cells = [count + 1] * moving.shape[1]
-    ends = [beyond(float(a.min()), float(a.max()), count + 1) for a in moving.T]
-    values = np.column_stack([moving, np.ones(len(x))])
-    free = reduce(kron, [flat_ends(count + 1) for _ in cells])
-    return np.asarray((spline_products(values, ends, cells) @ free).toarray())
+    Quantiles put resolution where the data are (around zero velocity), even spacing covers the
+    sparse ends. The hats sum to one.
+    """
+    spread = np.linspace(x.min(), x.max(), knots - knots // 2)
+    dense = np.quantile(x, np.linspace(0.0, 1.0, knots // 2 + 2)[1:-1])
+    places = np.unique(np.concatenate((spread, dense)))
+    span = float(places[-1] - places[0])
+    if span <= 0.0:
+        return np.ones((x.size, 1))
+    # knots closer than 1 % of the range would be one column split in two
+    places = places[np.concatenate(([True], np.diff(places) > 0.01 * span))]
+    right = np.clip(np.searchsorted(places, x, side="right"), 1, places.size - 1)
+    weight = np.clip((x - places[right - 1]) / (places[right] - places[right - 1]), 0.0, 1.0)
+    columns = np.zeros((x.size, places.size))
+    rows = np.arange(x.size)
+    columns[rows, right - 1] = 1.0 - weight
+    columns[rows, right] = weight
+    return columns
 
 
 def friction_curve(v: np.ndarray) -> np.ndarray:
@@ -210,10 +213,10 @@ def friction_curve(v: np.ndarray) -> np.ndarray:
     return np.column_stack((curve(v), np.sign(v)))
 
 
-def drift_curve(time: np.ndarray, run: np.ndarray, count: int = 5) -> np.ndarray:
-    """(n, count * logs) slow functions of time, each log its own."""
+def drift_curve(time: np.ndarray, run: np.ndarray, knots: int = 5) -> np.ndarray:
+    """(n, knots * logs) slow functions of time, each log its own."""
     own = run[:, None] == np.unique(run)
-    return np.hstack([curve(time, count) * rows[:, None] for rows in own.T])
+    return np.hstack([curve(time, knots) * rows[:, None] for rows in own.T])
 
 
 # What the flexible rival reads: functions of all that was measured, whatever their cause.
@@ -225,10 +228,10 @@ SLIPS = (0.001, 0.01, 0.1)
 OWN = ("own", "surface")
 """Sets of functions of the motion of the joint itself."""
 
-_SPLINES = {"q": 12, "v": 14, "a": 8, "load": 9, "torque": 9}
-_OTHER = {"q": 10, "v": 9, "a": 5}
-_SUM = 7  # splines
-_OWN, _WIDE, _PAIRS = 60, 60, 150  # random features
+_KNOTS = {"q": 16, "v": 20, "a": 10, "load": 12, "torque": 12}
+_OTHER = {"q": 14, "v": 12, "a": 6}
+_SUM = 7  # knots
+_OWN, _BENT, _PAIR, _WIDE, _PAIRS = 60, 30, 30, 60, 150  # random features
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,20 +262,20 @@ class Measurements:
 def functions(measured: Measurements) -> Iterator[tuple[str, np.ndarray]]:
     """Sets of functions with names: "own", "surface" of the joint, "0", ... of others, "wide".
 
-    Curves are sums of splines of one coordinate, with and without the direction of the joint:
-    friction and other torques of any shape; surfaces are products of these of two coordinates, and
-    of more random Fourier features (Rahimi and Recht 2007).
+    Curves are sums of hats over one coordinate, with and without the direction of the joint:
+    friction and other torques of any shape. Surfaces are random Fourier features (Rahimi and Recht
+    2007) of several coordinates.
     """
     generator = np.random.default_rng(5)
     m, j = measured, measured.joint
     way = m.direction[:, None]
     own = np.column_stack([x[:, j] for x in (m.q, m.v, m.a, m.load)])
     yield "own", _of_joint(m, way)
-    bent = _fourier(own, _OWN, generator), surface(*own[:, :2].T) * way
+    bent = _fourier(own, _OWN, generator), _fourier(own[:, :2], _BENT, generator) * way
     yield "surface", np.column_stack(bent)
     for k in range(m.q.shape[1]):
         if k != j:
-            yield str(k), _of_other(m, k, way)
+            yield str(k), _of_other(m, k, way, generator)
     near = np.column_stack([m.q, m.v])
     yield "sum", np.hstack([curve(x, _SUM) for x in (*m.q.T, *m.v.T)])
     yield "wide", np.column_stack([near, m.a, m.load, m.torque, _fourier(near, _WIDE, generator)])
@@ -282,17 +285,20 @@ def functions(measured: Measurements) -> Iterator[tuple[str, np.ndarray]]:
 
 def _of_joint(m: Measurements, way: np.ndarray) -> np.ndarray:
     parts = [m.slips, way]
-    for name, count in _SPLINES.items():
-        own = curve(getattr(m, name)[:, m.joint], count)
-        parts += [own] if name == "v" else [own, own * way]
+    for name, knots in _KNOTS.items():
+        hats = curve(getattr(m, name)[:, m.joint], knots)
+        parts += [hats] if name == "v" else [hats, hats * way]
     return np.hstack(parts)
 
 
-def _of_other(m: Measurements, k: int, way: np.ndarray) -> np.ndarray:
-    curves = [curve(getattr(m, name)[:, k], count) for name, count in _OTHER.items()]
+def _of_other(
+    m: Measurements, k: int, way: np.ndarray, generator: np.random.Generator
+) -> np.ndarray:
+    curves = [curve(getattr(m, name)[:, k], knots) for name, knots in _OTHER.items()]
     plain = np.column_stack([x[:, k] for x in (m.v, m.a, m.load, m.torque)])
+    both = np.column_stack([m.q[:, k], m.v[:, k]])
     return np.hstack([*curves, curves[0][:, ::2] * way, plain, np.abs(plain) * way,
-                      np.sign(m.v[:, [k]]), surface(m.q[:, k], m.v[:, k])])  # fmt: skip
+                      np.sign(m.v[:, [k]]), _fourier(both, _PAIR, generator)])  # fmt: skip
 
 
 def _fourier(x: np.ndarray, count: int, generator: np.random.Generator, few: int = 0) -> np.ndarray:

@@ -41,7 +41,7 @@ unit = "N*m*s/rad"
 [own_effects.settling]
 title = "friction that is higher after a reversal"
 columns = {Kt = "sign(v)*exp(-since/w)"}
-shapes = {w = [0.05, 0.2, 0.8]}
+shapes = {w = [0.05, 0.2, 0.8], back = [0.0003]}
 unit = "N*m"
 
 [own_effects.churning]
