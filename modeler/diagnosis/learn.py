@@ -172,9 +172,12 @@ class LawAsked(Brief):
             return [c for c in every if c.factor or not self.odd]
         if len(self.of) > 2:
             raise DataError(f"--of {','.join(self.of)}: expected one or two quantities, as in q,v")
-        if not self.odd:
-            return [Coordinates(self.of)]
-        return [Coordinates(tuple("abs(v)" if x == "v" else x for x in self.of), "sign(v)")]
+        arguments, factor = self.of, ""
+        if self.odd:
+            arguments, factor = tuple("abs(v)" if x == "v" else x for x in self.of), "sign(v)"
+        if "z" not in self.of:
+            return [Coordinates(arguments, factor)]
+        return [Coordinates(arguments, factor, further) for further in _bristles(state, j)]
 
 
 ANY_LAW = LawAsked()
@@ -275,13 +278,20 @@ def _quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
         return found
     others = [name for name in state.names if name != state.names[j]]
     found += [("load", {}), *((f"{letter}{name}", {}) for name in others for letter in "qv")]
-    for share in _TRAVELS:
-        travel = float(f"{share * state.scales[j].range:.3g}")
-        found.append(("z", {"shapes": {"d": [travel]}}))
-        found.append(("sqrt(since)", {"shapes": {TURN: [travel]}}))
+    found += [("z", further) for further in _bristles(state, j)]
+    found += [("sqrt(since)", {"shapes": {TURN: [x]}}) for x in _travels(state, j)]
     for tau in _LAGS:
         found += [("z", {"lag": x, "shapes": {"tau": [tau]}}) for x in ("v", "abs(v)")]
     return found
+
+
+def _travels(state: State, j: int) -> list[float]:
+    return [float(f"{share * state.scales[j].range:.3g}") for share in _TRAVELS]
+
+
+def _bristles(state: State, j: int) -> list[Mapping[str, Any]]:
+    """What a definition that reads z needs."""
+    return [{"shapes": {"d": [travel]}} for travel in _travels(state, j)]
 
 
 def _simplest(found: Sequence[tuple["_Solved", "_Splines"]]) -> tuple["_Solved", "_Splines"]:

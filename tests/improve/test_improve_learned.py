@@ -97,6 +97,7 @@ def test_a_law_as_asked(case: Case) -> None:
     observation = analysed(compiled, [train], fitted.processing)
     state = state_of(SearchData(compiled, observation), (), fitted.beta)
     for asked, equation in (
+        (LawAsked(("z",)), "law(z)"),
         (LawAsked(("q", "v")), "law(q, v)"),
         (LawAsked(("v",), odd=True, rising=1), "sign(v)*law(abs(v))"),
     ):
