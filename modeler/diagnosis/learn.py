@@ -165,13 +165,18 @@ class LawAsked(Brief):
         """To choose from.
 
         Raises:
-            DataError: more than two variables.
+            DataError: more than two variables, or such as laws cannot read in loops.
         """
         if not self.of:
             every = every_coordinates(state, j)
             return [c for c in every if c.factor or not self.odd]
         if len(self.of) > 2:
             raise DataError(f"--of {','.join(self.of)}: expected one or two quantities, as in q,v")
+        if state.spec.closure is not None and not {*self.of} <= {"q", "v", "a"}:
+            raise DataError(
+                f"--of {','.join(self.of)}: {state.spec.robot} has loops, and there a law reads "
+                "the q, v and a of its joint; expected one or two of these"
+            )
         arguments, factor = self.of, ""
         if self.odd:
             arguments, factor = tuple("abs(v)" if x == "v" else x for x in self.of), "sign(v)"
