@@ -74,7 +74,7 @@ def own_effect(robot: Robot, name: str, **definition: Any) -> Robot:
     Args:
         robot: as it is.
         name: id of the effect.
-        definition: title, columns, shapes, unit, nonnegative, acts, lag;
+        definition: title, columns, shapes, unit, nonnegative, acts, lag, law;
             docs/reference/robot-file.md.
 
     Raises:

@@ -1,8 +1,10 @@
 """Cells of a TOML file that people write: where they stand, what they hold, what is wrong there."""
 
 import difflib
+import json
 import math
-from collections.abc import Collection, Iterable, Iterator
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -149,3 +151,22 @@ def near(name: Any, names: Iterable[str]) -> str:
     if not found:
         return ""
     return f" (did you mean {' or '.join(shown(known[key]) for key in found)}?)"
+
+
+def toml_text(value: object) -> str:
+    """A value as it stands in a robot file."""
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, Mapping):
+        entries = ", ".join(f"{toml_key(key)} = {toml_text(entry)}" for key, entry in value.items())
+        return f"{{{entries}}}"
+    if isinstance(value, list):
+        return "[" + ", ".join(toml_text(entry) for entry in value) + "]"
+    return repr(value)
+
+
+def toml_key(key: str) -> str:
+    """A key as it stands there, in quotes where it needs them."""
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key, ensure_ascii=False)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.table import percent
-from modeler.core.toml_cells import Place
+from modeler.core.toml_cells import Place, toml_text
 from modeler.diagnosis.candidates import Candidate, over_grid
 from modeler.diagnosis.discover import JointSearch, Scored
 from modeler.diagnosis.effect_columns import dense
@@ -17,7 +17,7 @@ from modeler.diagnosis.judge import GATE, Judged, compared, holdout_residuals, v
 from modeler.diagnosis.learn import effect_id, free_name, learn
 from modeler.diagnosis.orders import rival
 from modeler.diagnosis.profile import profile_of, values_of
-from modeler.diagnosis.result import Discovery, Finding, Pick, Proposal, toml_text
+from modeler.diagnosis.result import Discovery, Finding, Pick, Proposal
 from modeler.diagnosis.search import Search, Step, extended
 from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of, visible
 from modeler.effects import Acts, read_definition

@@ -1,6 +1,5 @@
 """What a diagnosis says, as plain data; the share of the error that its effects close."""
 
-import json
 import math
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
@@ -13,6 +12,7 @@ from modeler.core.brief import LONGEST, Brief
 from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
 from modeler.core.table import percent, printed
+from modeler.core.toml_cells import toml_text
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck, Key
 from modeler.diagnosis.drive_gains import is_gain
@@ -326,15 +326,6 @@ class Discovery(Brief):
         """Plain data."""
         return {**entries(self, "joint share law why"),
                 "proposals": [p.to_json() for p in self.proposals]}  # fmt: skip
-
-
-def toml_text(value: Any) -> str:
-    """As it stands in a robot file."""
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key} = {toml_text(entry)}" for key, entry in value.items()) + "}"
-    if isinstance(value, list):
-        return f"[{', '.join(map(toml_text, value))}]"
-    return json.dumps(value, ensure_ascii=False)
 
 
 @dataclass(frozen=True)

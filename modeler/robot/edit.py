@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.core.errors import RobotError
-from modeler.core.toml_cells import Place, near
+from modeler.core.toml_cells import Place, near, toml_key, toml_text
 from modeler.effects import CATALOGUE, PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, effect_named
 from modeler.robot.angles import pi_multiple
 from modeler.robot.effects import parameter_owners, read_own_effects
@@ -68,8 +68,8 @@ def with_own_effect(text: str, name: str, definition: Mapping[str, Any]) -> str:
     """
     if name in tomllib.loads(text).get("own_effects", {}):
         raise RobotError(f"[own_effects.{name}]: the robot has it already; choose another name")
-    lines = [f"{_toml_key(key)} = {_toml(value)}" for key, value in definition.items()]
-    return _at_end([text], f"[own_effects.{_toml_key(name)}]", *lines)
+    lines = [f"{toml_key(key)} = {toml_text(value)}" for key, value in definition.items()]
+    return _at_end([text], f"[own_effects.{toml_key(name)}]", *lines)
 
 
 def _catalogue(text: str) -> tuple[Effect, ...]:
@@ -137,7 +137,11 @@ def _with_table(text: str, name: str, table: Mapping[str, Any], how: str) -> str
     head = rf"\[\s*{name}\s*[].]"
     own = [k for k, (line, _) in enumerate(_lines(text)) if re.match(head, line)]
     lines = text.rstrip("\n").split("\n")
-    new = [f"[{name}]", *(f"{_toml_key(key)} = {_toml(entry)}" for key, entry in table.items()), ""]
+    new = [
+        f"[{name}]",
+        *(f"{toml_key(key)} = {toml_text(entry)}" for key, entry in table.items()),
+        "",
+    ]
     kept = [line for k, line in enumerate(lines) if k not in own]
     at = own[0] if own else len(kept)
     before = kept[:at] if own else [*kept, ""]
@@ -232,7 +236,7 @@ def with_effects(text: str, effects: Effects) -> str:
         gone = head == "[parameters]" and entry is not None and not belongs(entry[1])
         if head != "[effects]" and not gone:
             kept.append(line)
-    lines = ["[effects]", *(f"{name} = {_toml(joints)}" for name, joints in effects.items())]
+    lines = ["[effects]", *(f"{name} = {toml_text(joints)}" for name, joints in effects.items())]
     changed = _at_end(kept, *lines)
     if others(tomllib.loads(text)) != others(_document(changed)):
         raise RobotError(
@@ -354,7 +358,7 @@ def with_symbol(text: str, name: str, value: str) -> str:
     for place, (head, line) in enumerate(_lines(text)):
         entry = _ENTRY.fullmatch(line)
         if head == "[symbols]" and entry is not None and entry["name"].strip("\"'") == name:
-            start = f"{entry['key']}{_toml(_cell(value))}"
+            start = f"{entry['key']}{toml_text(_cell(value))}"
             kept = entry["rest"].lstrip()
             lines[place] = f"{start.ljust(len(line) - len(kept))}{kept}".rstrip()
             if kept and not lines[place].startswith(f"{start} "):
@@ -394,23 +398,6 @@ def _cell(text: str) -> str | float:
         return plain
 
 
-def _toml(value: object) -> str:
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False)
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, dict):
-        entries = ", ".join(f"{_toml_key(key)} = {_toml(entry)}" for key, entry in value.items())
-        return f"{{{entries}}}"
-    if isinstance(value, list):
-        return "[" + ", ".join(_toml(entry) for entry in value) + "]"
-    return repr(value)
-
-
-def _toml_key(key: str) -> str:
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key, ensure_ascii=False)
-
-
 # Writing `[home]` into a robot file, and changing nothing else in it.
 
 
@@ -448,7 +435,7 @@ def with_home_text(text: str, stated: Mapping[str, float], home: Mapping[str, fl
 
 def home_lines(home: Mapping[str, float]) -> list[str]:
     """`q2 = -1.2` for every row."""
-    return [f"{_toml_key(f'q{name}')} = {_number(value)}" for name, value in home.items()]
+    return [f"{toml_key(f'q{name}')} = {_number(value)}" for name, value in home.items()]
 
 
 def _written(
