@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from glob import escape
 from pathlib import Path
 
 from modeler.core.builtin import LOG_ENDINGS, OTHER_PROGRAMS
@@ -152,6 +153,17 @@ class Roots:
                 f"--allow {found if found.is_dir() else found.parent}"
             )
 
+    def check_tree(self, place: str, found: Path) -> None:
+        """The same of a place and of all links below it, or whose names begin as its own does.
+
+        A log may be a folder, or several files of which it is the beginning of the names.
+        """
+        self.check(place, found)
+        others = found.rglob("*") if found.is_dir() else found.parent.glob(f"{escape(found.name)}*")
+        for below in others:
+            if below.is_symlink():
+                self.check(str(below), below)
+
     def check_words(self, folder: Path, words: Iterable[str]) -> None:
         """Refuse a command that would read or write elsewhere, whoever wrote its words.
 
@@ -161,12 +173,8 @@ class Roots:
             DataError: a word leads out of the folders; says which.
         """
         for word in words:
-            option, _, value = word.partition("=")
-            texts = [word, value] if option.startswith("--") and option != "--map" else [word]
-            for text in texts:
-                for file in (text, text.rpartition("@")[0]):
-                    with contextlib.suppress(ValueError):  # a NUL: it will not be started
-                        self.check(text, folder / file)
+            for file in {word, word.rpartition("@")[0]} - {""}:
+                self.check_tree(word, folder / file)
 
     def check_links(self, folder: Path, names: Iterable[str]) -> None:
         """Refuse a project whose own places are links that lead out: they are written over.
@@ -179,10 +187,8 @@ class Roots:
             DataError: one is; says which.
         """
         for name in names:
-            below = (folder / name).rglob("*") if name != "logs" else ()
-            for place in (folder / name, *below):
-                if place.is_symlink():
-                    self.check(str(place), place)
+            if name != "logs" or (folder / name).is_symlink():
+                self.check_tree(str(folder / name), folder / name)
 
     def listed(self, folder: Path | str, endings: Sequence[str] = LOG_ENDINGS) -> list[Entry]:
         """Folders, then files that end so; what is hidden or leads out is left out.

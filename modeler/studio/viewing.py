@@ -69,7 +69,7 @@ def _state(place: str) -> tuple[str, int, int]:
     """A file as it is now; a window after it belongs to its name."""
     path = str(log_maps.file_and_span(place)[0])
     if places.READABLE.folders:  # the same rule as for commands
-        places.READABLE.check(path, Path(path))
+        places.READABLE.check_tree(path, Path(path))
     try:
         status = Path(path).stat()
     except OSError as error:

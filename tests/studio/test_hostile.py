@@ -200,6 +200,9 @@ def test_logs_outside_are_neither_run_nor_drawn(tmp_path: Path) -> None:
         (tmp_path / name / "a.csv").write_text(f"time,q1,tau1\n{rows}\n")
     (folder / "linked").symlink_to(tmp_path / "other")
     (folder / "logs/link.csv").symlink_to(tmp_path / "other/a.csv")
+    (folder / "logs/run_q.csv").symlink_to(tmp_path / "other/a.csv")
+    (folder / "logs/many").mkdir()
+    (folder / "logs/many/a.csv").symlink_to(tmp_path / "other/a.csv")
     hub = Hub(Workspace(folder), (tmp_path / "data",), {})
 
     async def told(asked: Awaitable[object]) -> str:
@@ -213,7 +216,13 @@ def test_logs_outside_are_neither_run_nor_drawn(tmp_path: Path) -> None:
         view = Studio(hub, "data").view
         for file in ("logs/a.csv", f"{tmp_path}/data/a.csv"):
             assert await told(view("log_facts", str(folder / file))) == ""
-        for file in (f"{tmp_path}/other/a.csv", "linked/a.csv", "logs/link.csv"):
+        for file in (
+            f"{tmp_path}/other/a.csv",
+            "linked/a.csv",
+            "logs/link.csv",
+            "logs/many",
+            "logs/run",
+        ):
             for asked in (hub.run(Task("log", file=file)), view("log_facts", str(folder / file))):
                 line = await told(asked)
                 assert "outside the folders that this studio may use; start it with" in line
