@@ -15,8 +15,11 @@ from typing import get_args
 import pytest
 
 from modeler import studio
+from modeler.cli import main
 from modeler.cli.commands import parser
+from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError, ModelerError
+from modeler.estimation import load_model, save_model
 from modeler.studio.places import Roots
 from modeler.studio.project import Project, ProjectLog, Workspace, project_from_text, project_text
 from modeler.studio.recipe import notebook, recipe, script
@@ -145,6 +148,49 @@ def test_a_step_that_holds_words_is_no_step() -> None:
     for of in (Task("generate"), Task("page", step=2), Task("simulate", file="logs/a.csv")):
         with pytest.raises(DataError, match="has no report page"):
             command_line(page, (Step(1, 0, of), page))
+
+
+CONSTRUCTOR = """
+#include <stdio.h>
+__attribute__((constructor)) static void harm(void) {{
+    FILE *file = fopen("{}", "w"); if (file) fclose(file);
+}}
+"""
+
+
+def test_changed_c_of_a_model_is_never_run(tmp_path: Path) -> None:
+    """All that a project may do with its model, and all that is drawn of it."""
+    folder, mark = tmp_path / "p", tmp_path / "harmed"
+    (folder / "logs").mkdir(parents=True)
+    (folder / "robot.toml").write_text(builtin_text("emps"))
+    place, log = folder / "models/1.json", (LogPart("logs/a.csv"),)
+    place.parent.mkdir()
+    for words in ("simulate emps --duration 4 --rate 200 --out LOG", "fit emps LOG --out MODEL"):
+        given = words.replace("LOG", str(folder / "logs/a.csv")).replace("MODEL", str(place))
+        assert main(given.split()) == 0
+    model, code = load_model(place), CONSTRUCTOR.format(mark)
+    changed = {**model.sources, "emps.c": model.sources["emps.c"] + code}
+    save_model(place, dataclasses.replace(model, sources=changed))  # with its checksum
+    load_model(place).compile()
+    assert mark.exists()  # it would do harm
+    mark.unlink()
+    Workspace(folder).save(Project("robot.toml", 1, steps=(Step(1, 0, Task("fit", log)),)))
+    hub = Hub(Workspace(folder), (), {})
+
+    async def work() -> None:
+        done = await hub.run(Task("compare", log))
+        await hub.run(Task("page", step=done.number))
+        await hub.run(Task("generate"))
+        await Studio(hub, "fails").view("verdict", "models/1.json", ["logs/a.csv"])
+
+    try:
+        asyncio.run(work())
+    finally:
+        hub.close()
+    assert [step.verb for step in hub.project.steps] == ["fit", "compare", "page", "generate"]
+    assert not mark.exists()
+    written = [path.read_text() for path in (folder / "taken").rglob("*.[ch]")]
+    assert written and not any(str(mark) in text for text in written)
 
 
 @pytest.mark.parametrize("place", ["mapping", "without", "logs"])
