@@ -68,7 +68,7 @@ def fleet(project: Project, parts: Sequence[LogPart], names: str) -> Task:
         parts: of its logs.
         names: how paths end, with machine and period; "": by folders and files.
     """
-    return Task("fleet", tuple(parts), mapping=project.mapping, names=names)
+    return Task("fleet", tuple(parts), mapping=project.mapping, name=names)
 
 
 def guessing(project: Project) -> tuple[str, ...]:

@@ -93,7 +93,7 @@ def _wish(studio: Studio) -> None:
         studio, "Find the motion",
         lambda: Task(
             "excite", between=chosen["between"], duration=chosen["duration"],
-            limits=tuple(changed_limits(studio)),
+            limit=tuple(changed_limits(studio)),
         ),
     )  # fmt: skip
 

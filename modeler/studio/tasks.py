@@ -35,17 +35,6 @@ ABOUT_A_MODEL = ("add", "compare", "contest", "diagnose", "excite", "generate", 
 _COMMANDS: Mapping[str, str] = {"contest": "compare"}  # verbs that are called otherwise there
 _SUFFIX: Mapping[str, str] = {"mjcf": ".xml", "urdf": ".urdf", "sdf": ".sdf"}
 
-OPTIONS: Mapping[str, str] = {
-    "method": "--method", "derivatives": "--derivatives", "cutoff": "--cutoff",
-    "parallel_cutoff": "--parallel-cutoff", "low_speed": "--low-speed",
-    "essential_below": "--essential-below", "effects": "--effects", "joint": "--joint",
-    "between": "--between", "duration": "--duration", "limits": "--limit", "seed": "--seed",
-    "precision": "--precision", "to": "--to", "like": "--like", "joints": "--joints",
-    "template": "--template", "convention": "--convention", "names": "--name",
-    "without": "--without", "held": "--holdout", "mapping": "--map",
-}  # fmt: skip
-"""Fields that are options of a command; a list is given one by one, held-out logs all at once."""
-
 FIXED: Mapping[str, tuple[str, ...]] = {
     "derive": ("--no-terms",),
     "convert": ("--out", ROBOT, "--force"),
@@ -109,10 +98,10 @@ class Task:
         step: whose page is written.
         file: log or robot file that is read, log that is simulated.
         robot: whether the log is judged by the robot.
-        between, duration, limits: of a motion.
+        between, duration, limit: of a motion.
         precision, to, like: of what is generated or exported.
         joints, template, convention: of a new robot.
-        names: how paths of logs end, with machine and period.
+        name: how paths of logs end, with machine and period.
         seed: of a simulation.
     """
 
@@ -136,14 +125,14 @@ class Task:
     robot: bool = False
     between: str = ""
     duration: float | None = None
-    limits: tuple[str, ...] = ()
+    limit: tuple[str, ...] = ()
     precision: str = ""
     to: str = ""
     like: str = ""
     joints: str = ""
     template: str = ""
     convention: str = ""
-    names: str = ""
+    name: str = ""
     seed: int | None = None
 
     @property
@@ -256,16 +245,19 @@ def typed(words: Sequence[str]) -> str:
 
 
 def _options(task: Task) -> Iterator[str]:
-    for name, option in OPTIONS.items():
-        value = getattr(task, name)
-        if name == "held" and value:
+    """Fields that are no places become options of their names; a list is given one by one."""
+    names = {"held": "holdout", "mapping": "map"}
+    for name in FIELDS[task.verb].split():
+        value, option = getattr(task, name), f"--{names.get(name, name).replace('_', '-')}"
+        if name in _PLACES or value in ("", None, ()):
+            continue
+        if name == "held":
             yield from (option, *(part.word for part in value))
-        elif name == "effects" and value:
+        elif name == "effects":
             yield from (option, ",".join(value))
-        elif isinstance(value, tuple):
-            yield from (word for own in value for word in (option, str(own)))
-        elif value not in ("", None):
-            yield from (option, f"{value:.12g}" if isinstance(value, float) else str(value))
+        else:
+            for own in value if isinstance(value, tuple) else (value,):
+                yield from (option, f"{own:.12g}" if isinstance(own, float) else str(own))
 
 
 # What the values of a task may be, whoever wrote them.
@@ -277,7 +269,7 @@ FIELDS: Mapping[str, str] = {
     "compare": "logs mapping",
     "contest": "models logs mapping",
     "diagnose": "logs held mapping without",
-    "excite": "between duration limits",
+    "excite": "between duration limit",
     "generate": "precision",
     "export": "to like",
     "page": "step",
@@ -286,20 +278,21 @@ FIELDS: Mapping[str, str] = {
     "convert": "file",
     "derive": "",
     "simulate": "file seed",
-    "fleet": "logs names mapping",
+    "fleet": "logs name mapping",
 }  # fmt: skip
 """Fields that each verb has."""
+
+_PLACES = ("logs", "file", "effect", "models", "step", "robot")  # they are no options
 
 _NAME = re.compile(r"\w[\w.@-]*")
 _TEXT = re.compile(r"(?!-)[^\x00-\x1f\x7f]+")
 _FILE = re.compile(r"(?!-)(?!(?:.*/)?\.\.(?:/|$))[^\x00-\x1f\x7f\\]+")
-_MAPPING = re.compile(r"auto|(?!-)[^\x00-\x1f\x7f=]+=[^\x00-\x1f\x7f]+")
-_FORMS: Mapping[str, tuple[re.Pattern[str], str]] = {
-    "file": (_FILE, "a file without ..,"), "like": (_FILE, "a file without ..,"),
-    "mapping": (_MAPPING, "NAME=COLUMN[:UNIT] or auto,"), "names": (_TEXT, "a pattern"),
-    "between": (_TEXT, "two effects"), "limits": (_TEXT, "JOINT=LOWER,UPPER,SPEED,ACCELERATION"),
-    "without": (_TEXT, "an effect"),
-}  # fmt: skip
+_FORMS: Mapping[str, re.Pattern[str]] = {
+    "mapping": re.compile(r"auto|(?!-)[^\x00-\x1f\x7f=]+=[^\x00-\x1f\x7f]+"),
+    **dict.fromkeys(("file", "like"), _FILE),
+    **dict.fromkeys(("between", "limit", "without", "name"), _TEXT),
+}
+"""What texts may be where they are no plain names: no option, and files without `..`."""
 
 
 def check_values(name: str, value: Any) -> None:
@@ -312,9 +305,10 @@ def check_values(name: str, value: Any) -> None:
         if isinstance(own, LogPart):
             check_values("file", own.file)
         elif isinstance(own, str) and own:
-            form, expected = _FORMS.get(name, (_NAME, "a name"))
-            if not form.fullmatch(own):
-                raise DataError(f"{name}: got {own[:60]!r}; expected {expected} that is no option")
+            if not _FORMS.get(name, _NAME).fullmatch(own):
+                raise DataError(
+                    f"{name}: got {own[:60]!r}; expected no option, and no file outside"
+                )
         elif own == "" and isinstance(value, tuple):
             raise DataError(f"{name}: got an empty text; expected a value, or nothing")
         elif isinstance(own, float | int) and not 0 <= own < 1e9:

@@ -237,7 +237,7 @@ def test_what_drifted_is_named_with_its_picture(window: Callable[..., Window], t
         told = row.inner_text()
         assert "r2" in told and "jump" in told and "2026-03-03" in told and "sigma" in told
         drawn(own, "Fs2 [N m]")
-        assert studio.project.steps[-1].task.names
+        assert studio.project.steps[-1].task.name
         assert own.complaints == []
 
 

@@ -50,16 +50,16 @@ ALLOWED = {
 }
 
 WORDS = {
-    "mapping": "q1=a:deg", "limits": "1=-1,1,2,3", "between": "a@1,b@2", "effects": "viscous",
+    "mapping": "q1=a:deg", "limit": "1=-1,1,2,3", "between": "a@1,b@2", "effects": "viscous",
     "without": "spring@1", "effect": "spring", "joint": "2", "method": "robust",
     "derivatives": "log", "precision": "single", "to": "urdf", "like": "arm.urdf",
-    "joints": "RRR", "template": "serial", "convention": "craig", "names": "{machine}-{period}.csv",
+    "joints": "RRR", "template": "serial", "convention": "craig", "name": "{machine}-{period}.csv",
 }  # fmt: skip
 HARM = (
     "--run-embedded-c", "-x", "--out=../x", "--report", "-", "../../x", "a/../../x", "/etc/passwd",
     "a\nb", "\x00", "--", "logs/../../a.csv", "..", " --run-embedded-c", "\u2212-x", "a\\..\\b",
 )  # fmt: skip
-MAY_BE = {"file", "like", "logs", "held", "mapping", "limits", "between", "names", "without"}
+MAY_BE = {"file", "like", "logs", "held", "mapping", "limit", "between", "name", "without"}
 
 
 def task_of(verb: Verb, **harm: object) -> Task:

@@ -57,7 +57,7 @@ PROJECT = Project(
         Task("new", joints="RPR", template="serial", convention="craig"),
         Task("convert", file="originals/arm.urdf"),
         Task("derive"),
-        Task("excite", between="spring@1,stribeck@2", duration=5.0, limits=("1=-0.3,0.3,0.5,4",)),
+        Task("excite", between="spring@1,stribeck@2", duration=5.0, limit=("1=-0.3,0.3,0.5,4",)),
     ],
     ids=lambda task: task.title,
 )

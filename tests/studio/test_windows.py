@@ -69,7 +69,7 @@ def test_a_motion_keeps_to_the_limits_that_the_robot_file_has_now(tmp_path: Path
     workspace.project = Project(robot="robot.toml", steps=steps, current=1)
     studio = Studio(Hub(workspace, (), {}), "motion")
     assert changed_limits(studio) == ["1=-0.3,0.3,0.5,4"]
-    task = Task("excite", duration=5.0, limits=tuple(changed_limits(studio)))
+    task = Task("excite", duration=5.0, limit=tuple(changed_limits(studio)))
     words = words_of(studio.project, task)
     assert words[:2] == ("excite", "models/1.json")
     assert words[words.index("--limit") + 1] == "1=-0.3,0.3,0.5,4"
