@@ -94,7 +94,7 @@ def test_what_it_cannot_do_is_one_line(tmp_path, capsys, words, told) -> None:
     (tmp_path / "broken").mkdir()
     (tmp_path / "broken/project.toml").write_text("robot = 3\nx =")
     (tmp_path / "latin").mkdir()
-    (tmp_path / "latin/project.toml").write_bytes(b"without = \"\xe9\"")
+    (tmp_path / "latin/project.toml").write_bytes(b'without = "\xe9"')
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
