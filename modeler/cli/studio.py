@@ -31,7 +31,7 @@ def run_studio(args: argparse.Namespace) -> None:
     folder = Path(args.folder).resolve()
     allowed = [Path.cwd(), *(Path(place).resolve() for place in args.allow)]
 
-    def told(address: str, once: str) -> None:
+    def told(address: str, once: str, warning: str) -> None:
         before = os.umask(0o077)  # who has the token is let in
         try:
             args.tell({"address": address, "folder": str(folder), "pid": os.getpid()})
@@ -41,6 +41,8 @@ def run_studio(args: argparse.Namespace) -> None:
         port = urlsplit(address).port
         say(f"over SSH: ssh -L {port}:127.0.0.1:{port} HOST, and the same address; Ctrl-C ends it")
         flush_stdout()
+        if warning:
+            note(warning)
         if not args.no_open:
             threading.Thread(target=_open, args=[once], daemon=True).start()
 

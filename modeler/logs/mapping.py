@@ -391,13 +391,18 @@ def map_from_table(table: Any, where: str, strict: bool = False) -> LogMap:
     if table.get("rate") is not None and (rate := _float(table, "rate", where)) <= 0.0:
         raise DataError(f"{where}: rate is {rate:g}; expected the samples in a second, such as 500")
     files = table.get("files", {})
-    if not isinstance(files, Mapping) or not all(isinstance(n, str) for n in files.values()):
+    if not isinstance(files, Mapping) or not all(map(_is_ending, files.values())):
         raise DataError(
             f"{where}, files: got {shown(files)}; expected how the names of the files of one log "
             'end, such as {q = "_q.csv", tau = "_tau.csv"}'
         )
     named = {str(joint): name for joint, name in names.items()}
     return LogMap((entries,) if entries else (), named, topic, rate, dict(files))
+
+
+def _is_ending(name: Any) -> bool:
+    """Whether it may end the name of a file: it leads to no other folder."""
+    return isinstance(name, str) and not name.startswith("/") and ".." not in name.split("/")
 
 
 def map_from_words(words: Sequence[str]) -> LogMap:

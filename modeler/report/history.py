@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from modeler.core.figure import Bars, Curve, Panel, Picture
-from modeler.core.style import BLUE, GREEN, ORANGE, PINK, SKY, Style
+from modeler.core.style import BLUE, GREEN, ORANGE, PINK, SKY, VERMILLION, Style
 from modeler.core.table import DIGITS, WORDS, percent, printed
 from modeler.effects import Effect, effect_named
 from modeler.estimation import Addition, IdentifiedModel
@@ -16,7 +16,7 @@ from modeler.report.values import added_names, joints_table, shapes_table, value
 from modeler.robot import Robot, robot_from_text
 
 HELD, FITTED, LEARNED = Style(BLUE), Style(ORANGE), Style(PINK)
-SAME, CHANGED = Style(SKY), Style(GREEN)
+SAME, BETTER, WORSE = Style(SKY), Style(GREEN), Style(VERMILLION)
 _ACROSS = 3  # panels side by side
 
 
@@ -272,8 +272,9 @@ def joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Pic
         f"{SAME.named.capitalize()}: the error of each joint on motion that was not fitted, in "
         "parts of its own rms torque or force, before any effect and after each"
     )
-    if any(set(step.changed) & set(history[-1].joints) for step in history):
-        said += f"; {CHANGED.named}: where it changes beyond chance"
+    drawn = {own.style for panel in panels for own in panel.series if isinstance(own, Bars)}
+    for style, what in ((BETTER, "fall"), (WORSE, "rise")):
+        said += f"; {style.named}: a significant {what}" * (style in drawn)
     return Picture(
         name="waterfall_joints",
         title="Error of every joint after every effect",
@@ -284,14 +285,20 @@ def joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Pic
 
 
 def _joint(history: Sequence[Addition], name: str, unit: str) -> Panel:
-    """Bars of one joint, those that change by chance only and the others."""
+    """Bars of one joint: not significantly changed, lower, higher."""
     steps = [step for step in history if name in step.joints]
     names = tuple(_broken(step) for step in steps)
     errors = np.array([100.0 * step.joints[name][1] for step in steps])
     surely = np.array([name in step.changed for step in steps])
+    rises = np.array([step.joints[name][1] > step.joints[name][0] for step in steps])
+    kinds = (
+        ("not significant", SAME, ~surely),
+        ("significantly lower", BETTER, surely & ~rises),
+        ("significantly higher", WORSE, surely & rises),
+    )
     series = [
         _bars(label, names, np.where(own, errors, np.nan), style)
-        for label, style, own in (("as likely chance", SAME, ~surely), ("changes", CHANGED, surely))
+        for label, style, own in kinds
         if own.any()
     ]
     return Panel(f"Joint {name}", "", f"error [% of {WORDS[unit]}]", tuple(series))

@@ -29,10 +29,11 @@ from modeler.studio import (
     take_screen,
 )
 from modeler.studio.access import REPORTS, Guard
-from modeler.studio.commands import typed
+from modeler.studio.commands import words_of
 from modeler.studio.places import folder_lock
-from modeler.studio.project import Project, Workspace
+from modeler.studio.project import FOREIGN, Project, Workspace
 from modeler.studio.studio import Hub, Studio
+from modeler.studio.tasks import typed
 
 JOBS = {
     "robot": ("Robot", robot_screen.draw),
@@ -60,7 +61,7 @@ def serve(
     allow: Sequence[Path] = (),
     port: int = 0,
     demo: bool = False,
-    told: Callable[[str, str], None] = lambda address, once: None,
+    told: Callable[[str, str, str], None] = lambda address, once, warning: None,
 ) -> None:
     """Serves the studio of a project folder on this machine, until it is interrupted.
 
@@ -69,8 +70,8 @@ def serve(
         allow: folders whose files may be chosen where they lie, besides it.
         port: 0: one that is free.
         demo: True: begin with the built-in arm that has a hidden effect.
-        told: is called when it answers, with the address, its token in it, and one that can be
-            opened once.
+        told: is called when it answers, with the address, its token in it, one that can be
+            opened once, and the line that says that the project is somebody else's, or "".
 
     Raises:
         ModelerError: the folder cannot be used, or the port is taken.
@@ -100,7 +101,8 @@ def serve(
         nicegui_app.on_startup(
             lambda: hub.viewer.ask("forget")
         )  # it is there when the first page asks
-        told(guard.address, guard.once)
+        warning = FOREIGN.format(folder) if workspace.foreign else ""
+        told(guard.address, guard.once, warning)
         try:
             uvicorn.Server(config).run(sockets=[door])
         finally:
@@ -109,7 +111,7 @@ def serve(
 
 def _routes(app: FastAPI, hub: Hub) -> None:
     """What is no page of the studio itself."""
-    dropped.add_route(app, hub.workspace.folder, lambda: hub.workspace.writable)
+    dropped.add_route(app, hub.workspace.folder, lambda: hub.workspace.may_change)
     own = resource_dir("templates") / "studio"
 
     @app.get("/studio.{kind}")
@@ -256,8 +258,8 @@ def _status(studio: Studio) -> None:
                 "dense flat no-caps"
             )
         with ui.row().classes("items-center w-full") as reading:
-            ui.label("this window only reads: the project is open in another one")
-            ui.button("Take over", on_click=lambda: _take_over(studio)).props("dense no-caps")
+            why = ui.label().classes("studio-doubtful")
+            over = ui.button(on_click=lambda: _take_over(studio)).props("dense no-caps")
 
         def told() -> None:
             hub = studio.hub
@@ -271,10 +273,14 @@ def _status(studio: Studio) -> None:
                     bar.props("indeterminate")
                 else:
                     bar.value = hub.running.share
-            words = hub.last or (steps[-1].words if (steps := studio.project.steps) else ())
+            steps = studio.project.steps
+            words = hub.last or (words_of(studio.project, steps[-1]) if steps else ())
             last.visible = bool(words) and hub.running is None
             line.text = typed(words)
             reading.visible = studio.read_only
+            why.text = studio.why_read_only
+            space = hub.workspace
+            over.text = "Accept the project" if space.writable and space.foreign else "Take over"
 
         studio.listeners.append(told)
         told()
@@ -282,7 +288,8 @@ def _status(studio: Studio) -> None:
 
 def _show_commands(studio: Studio) -> None:
     """What was done, as it would be typed in the folder of the project."""
-    lines = [f"{typed(step.words)}  # {step.seconds:.1f} s" for step in studio.project.steps]
+    project = studio.project
+    lines = [f"{typed(words_of(project, s))}  # {s.seconds:.1f} s" for s in project.steps]
     with ui.dialog(value=True), ui.card().classes("studio-card studio-commands"):
         ui.label(f"Commands, in {studio.folder}").classes("studio-part")
         ui.code("\n".join(lines), language="bash")
@@ -296,6 +303,8 @@ def _cancel(studio: Studio) -> None:
 def _take_over(studio: Studio) -> None:
     """This window may change things from now on, the others only read."""
     try:
+        if studio.hub.workspace.foreign and studio.hub.workspace.writable:
+            studio.hub.workspace.accept()
         studio.hub.give_to(studio)
     except ModelerError as error:
         studio.show_error(str(error))

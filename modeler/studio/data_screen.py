@@ -18,6 +18,7 @@ from modeler.studio.places import size_text
 from modeler.studio.project import ProjectLog
 from modeler.studio.project_logs import AUTO, ProjectLogs
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import Task
 from modeler.studio.timeline import ALL, Timeline, by_default, legend, told
 
 _QUIET = 0.5  # s without another file that comes, until the screen is drawn anew
@@ -25,7 +26,10 @@ _FORMATS = (
     "CSV, text, Excel, Parquet, MAT, HDF5, NumPy, MCAP and ROS bags, with the names and units that "
     "your logger wrote."
 )
-_FIRST = "At first the last 30 % of one log is held out, of several logs the last one."
+_FIRST = (
+    "At first the last 30 % of one log is held out, of several that come together the last one; "
+    "a log that comes later is training, and leaves the others as they are."
+)
 
 
 async def draw(studio: Studio) -> None:
@@ -94,7 +98,10 @@ class DataScreen(ProjectLogs):
             self.look()
 
     def _settle(self) -> None:
-        """The mapping, while it is only a guess; roles of logs that came and can be read."""
+        """The mapping, while it is only a guess; roles of logs that came and can be read.
+
+        What was set for the logs that were there stays.
+        """
         project, ends = self.studio.project, {}
         if self.studio.read_only:
             return
@@ -105,14 +112,14 @@ class DataScreen(ProjectLogs):
             self.studio.show_error(str(error))
             every = []
         mapping = every[0] if len(every) == 1 else (AUTO,)
-        if every and project.mapping in ((), (AUTO,), *every) and mapping != project.mapping:
+        guessed = not project.mapped and project.mapping in ((), (AUTO,), *every)
+        if every and guessed and mapping != project.mapping:
             self.studio.change(mapping=mapping)
         ends = {file: known.ends for file, known in self.logs.items() if known.rows}
         new = [log for log in project.logs if not (log.train or log.test) and log.file in ends]
         if new:
-            old = tuple(log for log in project.logs if log.train or log.test)
             usual = by_default(project.logs, ends)
-            if old != by_default(old, ends):
+            if len(new) < len(project.logs):
                 usual = tuple(
                     replace(log, train=ALL) if log in new else log for log in project.logs
                 )
@@ -201,29 +208,29 @@ class DataScreen(ProjectLogs):
                 await asyncio.sleep(0.1)
                 continue
             every = (commands.look(studio.project, file) for file in self.logs)
-            left = [a for a in every if a.words not in failed and self._unseen(a.words)]
+            left = [task for task in every if task not in failed and self._unseen(task)]
             if not left:
                 return
             studio.listeners.append(leave)
             try:
                 step = await hub.run(left[0], keep=False, aside=True)
-                old = self.checked(step.words[1])
+                old = self.checked(step.task.file)
                 steps = [own for own in studio.project.steps if own is not old]
                 studio.change(steps=(*steps, step))
             except ModelerError as error:
                 if str(error).endswith(": cancelled") or not self.live:
                     return
-                failed.add(left[0].words)
+                failed.add(left[0])
                 studio.show_error(str(error))
             finally:
                 studio.listeners.remove(leave)
             if self.live:
-                self.row(left[0].words[1])
-                if self.view is not None and self.view.file == left[0].words[1]:
+                self.row(left[0].file)
+                if self.view is not None and self.view.file == left[0].file:
                     self.view.judged()
 
-    def _unseen(self, words: tuple[str, ...]) -> bool:
-        file, step = words[1], self.checked(words[1])
+    def _unseen(self, task: Task) -> bool:
+        file, step = task.file, self.checked(task.file)
         if self.logs[file].error or step is None or self.studio.newer(file, step):
             return not self.logs[file].error
-        return step.words != words and file == self.studio.kept["log"]
+        return step.task != task and file == self.studio.kept["log"]

@@ -8,11 +8,11 @@ from nicegui import ui
 from modeler.core.picture_file import pictures_from_json
 from modeler.core.table import percent
 from modeler.studio import commands, figures
-from modeler.studio.commands import Asked
 from modeler.studio.elements import go_button, head, part, run_button, table
 from modeler.studio.fails_screen import asked, zooms
-from modeler.studio.project import MAKING, ProjectLog, Step, Stretch
+from modeler.studio.project import ProjectLog
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import LogPart, Step, Stretch, Task
 
 _TIME = "days"  # that pictures of several models share
 
@@ -46,13 +46,13 @@ def _lacks(studio: Studio, line: str, title: str, screen: str) -> None:
     go_button(studio, title, screen)
 
 
-def _words(log: ProjectLog) -> list[str]:
+def _parts(log: ProjectLog) -> list[LogPart]:
     """All of a log but what is left out of it."""
-    return [own.word(log.file) for own in Stretch().without(log.out)]
+    return [LogPart(log.file, own) for own in Stretch().without(log.out)]
 
 
 def _choice(
-    kept: dict[str, Any], name: str, known: Mapping[str, str], default: str,
+    kept: dict[str, Any], name: str, known: Mapping[Any, str], default: Any,
     changed: Callable[[], Any],
 ) -> None:  # fmt: skip
     """A menu; what is chosen is kept under its name, which is its label too."""
@@ -79,9 +79,9 @@ async def _logs(studio: Studio, kept: dict[str, Any]) -> None:
         for name, default in zip(("first log", "second log"), known, strict=False):
             _choice(kept, name, known, default, studio.redraw)
     chosen = {kept["first log"], kept["second log"]}
-    words = [word for log in project.logs if log.file in chosen for word in _words(log)]
-    run_button(studio, "Compare", lambda: commands.compare(project, words), small=True)
-    judged = [*words, *commands.guessing(project)]
+    parts = [part for log in project.logs if log.file in chosen for part in _parts(log)]
+    run_button(studio, "Compare", lambda: commands.compare(project, parts), small=True)
+    judged = commands.judged_on(project, parts)
     verdict = await studio.view("verdict", project.model, judged)
     errors = await studio.view("log_errors", project.model, judged)
     with part("Relative error"):
@@ -112,9 +112,9 @@ async def _logs(studio: Studio, kept: dict[str, Any]) -> None:
 async def _models(studio: Studio, kept: dict[str, Any]) -> None:
     """Two models of the project on the same logs: who is better where, beyond doubt."""
     project = studio.project
-    models = [step for step in project.steps if step.kind in MAKING]
-    known = {step.model: f"{step.number}  {step.title}" for step in models}
-    logs = project.words("test") or project.words("train")
+    models = [step for step in project.steps if step.model]
+    known = {step.number: f"{step.number}  {step.task.title}" for step in models}
+    logs = project.parts("test") or project.parts("train")
     if len(known) < 2 or not logs:
         line = "The project has fewer than two models: fit another one, or add an effect first."
         return _lacks(studio, line, "What is missing", "missing")
@@ -125,18 +125,18 @@ async def _models(studio: Studio, kept: dict[str, Any]) -> None:
     if pair[0] == pair[1]:
         ui.label("Choose two different models.")
         return None
-    judged = [*logs, *commands.guessing(project)]
-    words = ("compare", *pair, *judged)
-    wanted = Asked("contest", words, "compare two models")
+    judged = commands.judged_on(project, logs)
+    wanted = commands.contest(project, pair)
     run_button(studio, "Compare both", lambda: wanted)
-    own = [s for s in project.steps if (s.kind, s.words) == (wanted.kind, wanted.words)]
+    own = [step for step in project.steps if step.task == wanted]
     if own:
         _contest(studio, own[-1])
-    found = await studio.view("verdict", pair[0], judged)
+    files = [f"models/{number}.json" for number in pair]
+    found = await studio.view("verdict", files[0], judged)
 
     async def window(*ends: float) -> Any:
         return await asked(
-            studio, "torque_picture", pair, judged, kept["joint shown"], *ends, kind="days torque"
+            studio, "torque_picture", files, judged, kept["joint shown"], *ends, kind="days torque"
         )
 
     async def torques() -> None:
@@ -180,13 +180,10 @@ async def _drift(studio: Studio, kept: dict[str, Any]) -> None:
     if not project.robot or len(project.logs) < 2:
         line = "Drift needs a robot and two logs at least, of several days or machines."
         return _lacks(studio, line, "Data", "data")
-    logs = [word for log in project.logs for word in _words(log)]
-    maps = [word for own in project.mapping for word in ("--map", own)]
+    parts = [part for log in project.logs for part in _parts(log)]
 
-    def wanted() -> Asked:
-        named = ["--name", kept["pattern"]] if kept.get("pattern") else []
-        words = ("fleet", commands.robot_copy(project), *logs, *named, *maps)
-        return Asked("fleet", words, "what drifted", about=0)
+    def wanted() -> Task:
+        return commands.fleet(project, parts, kept.get("pattern", ""))
 
     def typed(event: Any) -> None:
         kept["pattern"] = event.value.strip()
@@ -199,7 +196,7 @@ async def _drift(studio: Studio, kept: dict[str, Any]) -> None:
         "their names."
     ).classes("studio-soft")
     renew = run_button(studio, "Look for drift", wanted)
-    steps = [step for step in project.steps if step.kind == "fleet"]
+    steps = [step for step in project.steps if step.verb == "fleet"]
     if steps:
         _fleet(studio, steps[-1])
     return None

@@ -1,7 +1,6 @@
 """What several screens are made of: command lines, buttons that run them, lights, doubts."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from itertools import pairwise, takewhile
 from typing import Literal
 
 from nicegui import ui
@@ -10,11 +9,10 @@ from nicegui.elements.mixins.text_element import TextElement
 
 from modeler.core.errors import ModelerError
 from modeler.core.table import percent
-from modeler.studio import commands
 from modeler.studio.access import REPORTS
-from modeler.studio.commands import Asked, typed
-from modeler.studio.project import Step
+from modeler.studio.commands import words_of
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import ROBOT, Step, Task, typed
 
 Light = Literal["good", "doubtful", "bad"]
 
@@ -39,10 +37,15 @@ def part(title: str) -> Element:
     return card
 
 
-def command_line(words: Sequence[str]) -> ui.label:
+def step_line(studio: Studio, step: Step) -> None:
+    """The command line of a step, beside a button that copies it."""
+    command_line(typed(words_of(studio.project, step)))
+
+
+def command_line(text: str) -> ui.label:
     """A command line beside a button that copies it; `text` of the label makes it another one."""
     with ui.row().classes("items-center no-wrap studio-line"):
-        line = ui.label(typed(words)).classes("studio-command").props("tabindex=0")
+        line = ui.label(text).classes("studio-command").props("tabindex=0")
         copy = ui.button(icon="content_copy", on_click=lambda: ui.clipboard.write(line.text))
         copy.props("dense flat round size=sm aria-label='copy the command line'")
     return line
@@ -51,7 +54,7 @@ def command_line(words: Sequence[str]) -> ui.label:
 def run_button(
     studio: Studio,
     title: str,
-    asked: Callable[[], Asked],
+    asked: Callable[[], Task],
     then: Callable[[Step], object] = lambda step: None,
     current: bool = True,
     small: bool = False,
@@ -88,11 +91,15 @@ def run_button(
         button = ui.button(title, on_click=pressed).props("no-caps unelevated")
         button.props("outline dense" if small else "size=lg")
         busy_with(studio, button)
-        line = command_line(asked().words)
+        line = command_line("")
 
     def renew() -> None:
-        line.text = typed(asked().words)
+        try:
+            line.text = typed(words_of(studio.project, asked()))
+        except ModelerError as error:
+            line.text = str(error)
 
+    renew()
     return renew
 
 
@@ -124,7 +131,7 @@ _LEFT: Mapping[str, tuple[Light | None, str]] = {
 def what_is_left(joint: str, error: float, kind: str) -> None:
     """Of a joint: its error, and a light for what `modeler compare` says of the residual."""
     which, said = _LEFT[kind]
-    text = f"joint {joint}: {percent(error)}, {said}"
+    text = f"joint {joint}: error {percent(error)}, {said}"
     if which is None:
         ui.label(text)
     else:
@@ -143,13 +150,10 @@ def stale(studio: Studio) -> None:
     """Says where the current model is not that of the project as it is now."""
     project, way = studio.project, studio.project.path()
     first, last = way[0], way[-1]
-    copy = first.words[1]
-    logs = takewhile(lambda word: word[:1] != "-", last.words[2 if last is first else 3 :])
-    maps = [word for option, word in pairwise(first.words) if option == "--map"]
     changed = {
-        "the robot was": studio.text(copy) != studio.text(project.robot),
-        "the mapping of columns was": (*maps,) != project.mapping,
-        "the training stretches were": [*logs] != project.words("train"),
+        "the robot was": studio.hub.robot_of(last) != studio.text(ROBOT),
+        "the mapping of columns was": first.task.mapping != project.mapping,
+        "the training stretches were": last.task.logs != project.parts("train"),
     }
     lines = [f"{what} changed since this model was fitted" for what, so in changed.items() if so]
     newer = [log.file for log in project.logs if studio.newer(log.file, last)]
@@ -216,13 +220,14 @@ def _cell(text: str) -> None:
 def page_button(studio: Studio, step: Step) -> None:
     """The page of a step, self-contained: written when it is asked for, shown in a tab."""
     written = studio.project.about("page", step.number)
-    if written is None or not (studio.folder / written.model).is_file():
-        run_button(studio, "Report page", lambda: commands.again(studio.project, step), small=True)
+    if written is None or not (studio.folder / written.output).is_file():
+        page = Task("page", step=step.number)
+        run_button(studio, "Report page", lambda: page, small=True)
         return
     with ui.row().classes("items-center no-wrap w-full"):
-        address = studio.hub.sheet(studio.text(written.model), REPORTS)
+        address = studio.hub.sheet(studio.text(written.output), REPORTS)
         ui.link("Open the report page", address, new_tab=True)
-        command_line(written.words)
+        step_line(studio, written)
 
 
 def lacks_model(studio: Studio) -> None:

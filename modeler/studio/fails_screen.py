@@ -12,9 +12,9 @@ from modeler.core.errors import ModelerError
 from modeler.core.picture_file import pictures_from_json
 from modeler.studio import commands, figures
 from modeler.studio.elements import go_button, head, part, run_button, stale, told, what_is_left
-from modeler.studio.project import Step
 from modeler.studio.robot_frame import RobotFrame, robot_frame
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import Step
 from modeler.studio.timeline import Timeline
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ async def draw(studio: Studio) -> None:
     kept = studio.kept.setdefault("fails", {})
     if kept.get("role") not in roles:
         kept["role"] = next(iter(roles))
-    logs = project.words(kept["role"])
+    logs = project.parts(kept["role"])
     with ui.row().classes("items-center w-full"):
 
         def chosen(event: Any) -> None:
@@ -56,7 +56,7 @@ async def draw(studio: Studio) -> None:
         with ui.element("div").classes("col"):
             run_button(studio, "Compare", lambda: commands.compare(project, logs), small=True)
     stale(studio)
-    judged = [*logs, *commands.guessing(project)]
+    judged = commands.judged_on(project, logs)
     with ui.row().classes("items-center") as waiting:
         ui.spinner(size="sm")
         ui.label("predicting ...")
@@ -68,7 +68,7 @@ async def draw(studio: Studio) -> None:
         await _Fails(studio, project.model, judged, found, kept).draw()
     told(found.unjudged)
     step = project.about("compare")
-    if step is not None and step.words[2:] == tuple(judged):
+    if step is not None and step.task == commands.compare(project, logs):
         more = ui.expansion("All that the command drew: spectra, waves per turn, shares")
         more.classes("w-full").on_value_change(lambda: _more(studio, more, step))
 

@@ -9,16 +9,18 @@ from modeler.core.errors import ModelerError
 from modeler.core.picture_file import pictures_from_json
 from modeler.core.table import percent
 from modeler.studio import elements, figures
-from modeler.studio.commands import guessing
-from modeler.studio.project import MAKING, Step
+from modeler.studio.commands import judged_on
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import Step
 
 
 async def draw(studio: Studio) -> None:
     """Draws it."""
     project, path = studio.project, studio.project.path()
     elements.head(
-        "Watch it fall", "The error after every step; press a bar, or a step, to go back to it."
+        "Watch it fall",
+        "The error after every step. Press a bar, or a step, to go back to it: the robot file goes "
+        "along, unless it was edited since.",
     )
     if not path:
         elements.lacks_model(studio)
@@ -28,14 +30,14 @@ async def draw(studio: Studio) -> None:
         _pictures(studio, path)
         for step in path:
             _step(studio, step, "" if step is path[-1] else f"Undo to step {step.number}")
-    aside = [step for step in project.steps if step.kind in MAKING and step not in path]
+    aside = [step for step in project.steps if step.model and step not in path]
     if aside:
         with elements.part("Set aside"):
             for step in aside:
                 _step(studio, step, f"Go to step {step.number}")
-    logs = project.words("test") or project.words("train")
+    logs = judged_on(project, project.parts("test") or project.parts("train"))
     with elements.part("What is left" + (" on held-out motion" if project.words("test") else "")):
-        found = await studio.view("verdict", project.model, [*logs, *guessing(project)])
+        found = await studio.view("verdict", project.model, logs)
         for joint, error, kind, sentence in zip(
             found.joints, found.errors, found.kinds, found.sentences, strict=True
         ):
@@ -85,14 +87,14 @@ def _step(studio: Studio, step: Step, way: str) -> None:
     """One step: what it made of the error, the way to it, its command."""
     with ui.row().classes("items-center no-wrap w-full"):
         origin = f", from step {step.parent}" if step.parent else ""
-        ui.label(f"{step.number}  {step.title}{origin}").classes("studio-step")
+        ui.label(f"{step.number}  {step.task.title}{origin}").classes("studio-step")
         ui.label(_error(studio, step)).classes("studio-step-error")
         if way:
             button = ui.button(way, on_click=lambda: _back(studio, step))
             elements.busy_with(studio, button.props("no-caps outline dense icon=history"))
         else:
             ui.label("you are here").classes("studio-soft")
-        elements.command_line(step.words)
+        elements.step_line(studio, step)
 
 
 def _error(studio: Studio, step: Step) -> str:
@@ -103,15 +105,15 @@ def _error(studio: Studio, step: Step) -> str:
     if "waterfall" not in result:
         own = [one["relative_error"] for one in result["joints"].values()]
         squares = [error**2 for error in own if error is not None]  # rms of joints, as bars have it
-        return f"{percent((sum(squares) / len(squares)) ** 0.5)} fitted" if squares else ""
+        return f"{percent((sum(squares) / len(squares)) ** 0.5)} training" if squares else ""
     last = result["waterfall"][-1]
-    where = "held out" if last["held_out"] else "left out in turn"
-    return f"{percent(last['error'])} {where}, {percent(last['training_error'])} fitted"
+    where = "held-out" if last["held_out"] else "cross-validated"
+    return f"{percent(last['error'])} {where}, {percent(last['training_error'])} training"
 
 
 def _back(studio: Studio, step: Step) -> None:
     if studio.hub.running is not None and not studio.hub.gives_way:  # it is about the current model
         title = studio.hub.running.title
         studio.show_error(f"step {step.number}: {title} runs still; wait for it, or cancel it")
-    elif studio.change(redraw=True, current=step.number):
+    elif studio.take(step):
         studio.show_error("")

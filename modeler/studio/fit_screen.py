@@ -1,6 +1,6 @@
 """The screen "fit": values from the training stretches, and what they are worth, joint by joint."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from nicegui import ui
@@ -12,10 +12,11 @@ from modeler.core.json import built
 from modeler.core.manifest import BaseSpec
 from modeler.core.table import percent
 from modeler.report import relation
+from modeler.robot import robot_from_text
 from modeler.studio import commands, elements
 from modeler.studio.elements import LIGHTS, Light, Markup, number
-from modeler.studio.project import MAKING, Step
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import ROBOT, Step, Task
 
 _LIGHT: Mapping[str | None, Light] = {"physics": "good", "like motion": "doubtful"}
 _BUILT: Mapping[bool | None, tuple[Light, str]] = {
@@ -37,12 +38,24 @@ async def draw(studio: Studio) -> None:
         return
     step = project.step(project.current)
     with elements.part("What is fitted"):
-        chosen: dict[str, str] = studio.kept.setdefault("fit", {})
-        renew = elements.run_button(
-            studio, "Fit", lambda: commands.fit(studio.project, _options(chosen))
-        )
-        _advanced(chosen, renew)
-    if step is None or step.kind not in MAKING or not step.result:
+        chosen: dict[str, Any] = studio.kept.setdefault("fit", {})
+
+        def task() -> Task:
+            own = {name: value for name, value in chosen.items() if value not in ("", None)}
+            return commands.fit(studio.project, tuple(own.items()))
+
+        def changed() -> None:
+            renew()
+            lost.refresh()
+
+        @ui.refreshable  # type: ignore[untyped-decorator, unused-ignore]
+        def lost() -> None:
+            elements.doubt_lines(lost_effects(studio, task()))
+
+        renew = elements.run_button(studio, "Fit", task)
+        lost()
+        _advanced(chosen, changed)
+    if step is None:
         return
     fit = studio.result(step)
     _stale(studio, step)
@@ -53,18 +66,36 @@ async def draw(studio: Studio) -> None:
     elements.go_button(studio, "Look for what is missing", "missing")
 
 
-def _advanced(chosen: dict[str, str], renew: Callable[[], None]) -> None:
+def lost_effects(studio: Studio, task: Task) -> Iterator[str]:
+    """Effects that the current model has, and a fit would not have."""
+    if not studio.project.model:
+        return
+    known = robot_from_text(str(studio.model(studio.made)["robot_text"]), "model")
+    robot = robot_from_text(studio.text(ROBOT), ROBOT)
+    for use in known.effects:
+        joints = [one.joint for one in use.instances]
+        if use.effect in task.effects:
+            continue
+        lost = [j for j in joints if task.effects or not robot.has_effect(use.effect, j)]
+        if lost:
+            yield (
+                f"this fit leaves out {use.effect} of joint {', '.join(lost)}, which the current "
+                "model has; add it to the robot to keep it"
+            )
+
+
+def _advanced(chosen: dict[str, Any], renew: Callable[[], None]) -> None:
     """Estimator, band, weights: what there is, and what is taken where nothing is said."""
     every = [*ABOUT.values(), *(about for about in APART if about.id == TWO_STEPS)]
 
     def kept(name: str, value: Any) -> None:
-        chosen[name] = "" if value is None else str(value).strip()
+        chosen[name] = value
         renew()
         _estimator.refresh()
 
     @ui.refreshable  # type: ignore[untyped-decorator, unused-ignore]
     def _estimator() -> None:
-        about = next((a for a in every if a.id == chosen.get("--method")), every[0])
+        about = next((a for a in every if a.id == chosen.get("method")), every[0])
         told = {"what it solves": about.law, "source": about.source,
                 "the wrong one": about.avoid, "of the motion": about.motion}  # fmt: skip
         ui.label(about.title).classes("studio-part")
@@ -74,30 +105,29 @@ def _advanced(chosen: dict[str, str], renew: Callable[[], None]) -> None:
         with ui.row().classes("items-end w-full"):
             names = {"": f"{every[0].title} (default)"}
             names |= {about.id: about.title for about in every[1:]}
-            taken = [effect for effect in chosen.get("--effects", "").split(",") if effect]
             fields = {
-                "--method": ui.select(names, label="estimator").classes("w-80"),
-                "--derivatives": ui.select(["", "log", "position"], label="velocities from"),
-                **{name: ui.input(label, placeholder="chosen") for name, label in _NUMBERS.items()},
-            }
+                "method": ui.select(names, label="estimator", value="").classes("w-80"),
+                "derivatives": ui.select(
+                    ["", "log", "position"], label="velocities from", value=""
+                ),
+                **{name: ui.number(label, min=0, placeholder="chosen")
+                   for name, label in _NUMBERS.items()},
+            }  # fmt: skip
             for name, field in fields.items():
-                field.value = chosen.get(name, "")
+                field.value = chosen.get(name, field.value)
                 field.on_value_change(lambda e, to=name: kept(to, e.value)).classes("min-w-48")
             label = "effects, in place of the robot file's"
+            taken = list(chosen.get("effects", ()))
             effects = ui.select(list(EFFECTS), label=label, multiple=True, value=taken)
-            effects.on_value_change(lambda e: kept("--effects", ",".join(e.value or ())))
+            effects.on_value_change(lambda e: kept("effects", tuple(e.value or ())))
             effects.classes("w-96").props("use-chips clearable")
         _estimator()
 
 
 _NUMBERS = {
-    "--cutoff": "position filter [Hz]", "--parallel-cutoff": "parallel filter [Hz]",
-    "--low-speed": "low speed [share of top]", "--essential-below": "essential below [% sigma]",
+    "cutoff": "position filter [Hz]", "parallel_cutoff": "parallel filter [Hz]",
+    "low_speed": "low speed [share of top]", "essential_below": "essential below [% sigma]",
 }  # fmt: skip
-
-
-def _options(chosen: Mapping[str, str]) -> list[str]:
-    return [word for name, value in chosen.items() if value for word in (name, value)]
 
 
 def _stale(studio: Studio, step: Step) -> None:
@@ -105,7 +135,7 @@ def _stale(studio: Studio, step: Step) -> None:
     elements.stale(studio)
     with ui.row().classes("items-center no-wrap w-full"):
         ui.label("these values come from").classes("studio-soft")
-        elements.command_line(step.words)
+        elements.step_line(studio, step)
 
 
 def _verdict(fit: Mapping[str, Any]) -> None:
@@ -124,7 +154,7 @@ def _verdict(fit: Mapping[str, Any]) -> None:
                     ui.label(f"joint {name}").classes("studio-part")
                     elements.light(judged["light"])
                     left, rms = percent(joint["relative_error"]), number(joint["rms"])
-                    text = f"{left} of its torque is left, {rms} {joint['unit']} rms"
+                    text = f"error {left}, residual {rms} {joint['unit']} rms"
                     ui.label(text).classes("studio-soft")
                     elements.told(judged["reasons"])
         ui.label("Can such a machine be built?").classes("studio-part")

@@ -13,13 +13,14 @@ from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.files import read_text, resource_dir
 from modeler.core.json import parse_toml
 from modeler.core.style import BLACK, BLUE, GREEN, ORANGE, PINK, VERMILLION, Style
-from modeler.studio import commands, figures, timeline
+from modeler.studio import figures, timeline
 from modeler.studio.elements import command_line, doubt_lines, folded, part, table
 from modeler.studio.log_mapping import Choice, as_mapped, kind_of, words_of
 from modeler.studio.mapping_table import MappingTable
-from modeler.studio.project import ProjectLog, Stretch
+from modeler.studio.project import ProjectLog
 from modeler.studio.project_logs import ProjectLogs
 from modeler.studio.robot_frame import robot_frame
+from modeler.studio.tasks import ROBOT, Stretch, Task
 from modeler.studio.timeline import Timeline
 
 _POINTS = 1500  # of a curve, at most
@@ -80,7 +81,7 @@ class LogView:
             self._about = ui.column().classes("w-full gap-1")
             joints, columns = self.project_logs.joints, self.guess.columns
             self._table = MappingTable(joints, columns, self.chosen, self._ranged(), self._mapped)
-            self._said = command_line(())
+            self._said = command_line("")
         with part("What modeler log says"):
             self._words = ui.column().classes("w-full gap-1")
         self._say()
@@ -181,9 +182,9 @@ class LogView:
         _small("Describe it", lambda: self.studio.go("robot"))
 
     async def _start(self) -> None:
-        asked = commands.new_robot(len(self.project_logs.joints))
-        if await self.studio.run(asked) is not None:
-            self.studio.change(redraw=True, robot=asked.words[1])
+        task = Task("new", joints="R" * max(1, len(self.project_logs.joints)))
+        if await self.studio.run(task) is not None:
+            self.studio.change(redraw=True, robot=ROBOT)
 
     # The time.
 
@@ -247,8 +248,9 @@ class LogView:
 
     def _say(self) -> None:
         """What the mapping is, in words of people and of commands."""
-        words = commands.mapped(self.studio.project)
-        self._said.text = " ".join(words) if words else "columns as they are called"
+        words = self.studio.project.mapping
+        said = " ".join(f"--map {word}" for word in words)
+        self._said.text = said or "columns as they are called"
         self._about.clear()
         lacking = [own for own, one in self.chosen.items() if one.column not in self.guess.columns]
         with self._about:
@@ -270,7 +272,7 @@ class LogView:
                 as_mapped(np.empty(0), "", one, own, joints)  # says which units cannot be
             words = words_of(chosen, project_logs.under(self.guess), joints)
             words = (*project_logs.kept(self.guess), *words)
-            changed = self.studio.change(mapping=words)
+            changed = self.studio.change(mapping=words, mapped=True)
         except ModelerError as error:
             self.studio.show_error(str(error))
             changed = False

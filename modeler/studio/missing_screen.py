@@ -18,8 +18,9 @@ from modeler.estimation import spread_text
 from modeler.studio import commands, elements, figures
 from modeler.studio.elements import Light
 from modeler.studio.fails_screen import zooms
-from modeler.studio.project import Project, Step
+from modeler.studio.project import Project
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import Step, Task
 
 Found = Mapping[str, Any]
 """An effect, as the JSON of a diagnosis has it."""
@@ -47,7 +48,7 @@ async def draw(studio: Studio) -> None:
         elements.run_button(studio, "Look", lambda: commands.diagnose(studio.project))
         _bans(studio)
     if step is not None:
-        if not commands.as_it_was(commands.diagnose(project), step):
+        if commands.diagnose(project) != step.task:
             elements.doubt_lines(
                 ["stretches or bans were changed since this was found; look again"]
             )
@@ -58,6 +59,7 @@ async def draw(studio: Studio) -> None:
 async def _diagnosis(studio: Studio, step: Step) -> None:
     """What was found, ranked, and what the data cannot tell."""
     found, project = studio.result(step), studio.project
+    kind = "held-out error" if step.task.held else "cross-validated error"
     named = {(one["effect"], one["joint"]) for one in found["effects"]}
     every = [*found["effects"], *found["refinements"]]
     pictures: Mapping[str, Picture] = {}
@@ -69,11 +71,11 @@ async def _diagnosis(studio: Studio, step: Step) -> None:
         if every:
             elements.folded("In the words of the command", found["sentences"])
         else:
-            _left(found["joints"])
+            _left(found["joints"], kind)
     ranked = sorted(every, key=lambda one: _RANKS.index(one["status"]))
     for one in ranked:
         refines = (one["effect"], one["joint"]) not in named
-        await _card(studio, one, pictures, refines, first=one is ranked[0])
+        await _card(studio, one, pictures, refines, kind, first=one is ranked[0])
     with elements.part("What else"):
         if any(one["status"] != "perhaps" for one in every):
             every_one = partial(commands.add, project, "auto", None)
@@ -87,8 +89,9 @@ async def _diagnosis(studio: Studio, step: Step) -> None:
 
 
 async def _card(
-    studio: Studio, one: Found, pictures: Mapping[str, Picture], refines: bool, first: bool
-) -> None:
+    studio: Studio, one: Found, pictures: Mapping[str, Picture], refines: bool, kind: str,
+    first: bool,
+) -> None:  # fmt: skip
     """One effect: what it is, how large, what it gains, why, and what to do with it."""
     effect, joint = one["effect"], one["joint"]
     which, status = _STATUS[one["status"]]
@@ -100,7 +103,7 @@ async def _card(
                 ui.label("refines a law of the model").classes("studio-soft")
         with ui.row().classes("items-baseline"):
             ui.label(_fall(one["error_before"], one["error_after"])).classes("studio-figure")
-            ui.label("expected error of its joints on motion that was not fitted")
+            ui.label(f"{kind} of its joints, without and with it")
         law = effect_named(effect)
         meant = (
             {}
@@ -163,7 +166,7 @@ def _deeds(studio: Studio, effect: str, joint: str | None) -> None:
         with ui.row().classes("items-center no-wrap w-full"):
             button = ui.button("Add", on_click=lambda: _taken(studio, ready))
             elements.busy_with(studio, button.props("no-caps unelevated"))
-            elements.command_line(ready.words)
+            elements.step_line(studio, ready)
     with ui.row():
         for ban in dict.fromkeys([f"{effect}@{joint}" if joint else effect, effect]):
             where = "this joint" if "@" in ban else "this robot"
@@ -175,12 +178,12 @@ def tried(project: Project, effect: str, joint: str | None) -> Step | None:
     """The step that has added an effect to the current model, as it would be added now."""
     asked = commands.add(project, effect, joint)
     own = [step for step in project.steps if step.parent == project.current]
-    return next((step for step in reversed(own) if commands.as_it_was(asked, step)), None)
+    return next((step for step in reversed(own) if step.task == asked), None)
 
 
 def _taken(studio: Studio, step: Step) -> None:
     """The model of a step is the current one, and one sees the error fall."""
-    if studio.project.current == step.number or studio.change(current=step.number):
+    if studio.project.current == step.number or studio.take(step):
         studio.go("fall")
 
 
@@ -204,21 +207,21 @@ def _bans(studio: Studio) -> None:
 
 
 async def _ghost(studio: Studio, effect: str, joint: str | None) -> None:
-    """Measured, predicted, and predicted with the effect, once it was tried."""
+    """Measured, predicted, and predicted with the effect, once it was tried; both errors."""
     project = studio.project
     step = tried(project, effect, joint)
     if step is None:
         return
-    falls = studio.result(step)["waterfall"][-1]["joints"]
-    most = max(falls, key=lambda name: falls[name]["before"] - falls[name]["after"])
-    shown = joint if joint in falls else most
-    logs = [*(project.words("test") or project.words("train")), *commands.guessing(project)]
+    logs = commands.judged_on(project, project.parts("test") or project.parts("train"))
     models = [project.model, step.model]
-    where = "held-out" if project.words("test") else "the fitted"
-    ui.label(f"As `modeler add` fits it, in its band, on {where} logs:").classes("studio-soft")
-    elements.told(
-        f"joint {name}: {_fall(own['before'], own['after'])}" for name, own in falls.items()
-    )
+    verdicts = [await studio.view("verdict", model, logs) for model in models]
+    before, after = (dict(zip(own.joints, own.errors, strict=True)) for own in verdicts)
+    falls = {name: (before[name], after[name]) for name in before if name in after}
+    most = max(falls, key=lambda name: falls[name][0] - falls[name][1])
+    shown = joint if joint in falls else most
+    where = "held-out" if project.words("test") else "fitted"
+    ui.label(f"Error on the {where} logs, without and with it:").classes("studio-soft")
+    elements.told(f"joint {name}: {_fall(*errors)}" for name, errors in falls.items())
 
     async def window(*ends: float) -> Picture:
         picture: Picture = await studio.view("torque_picture", models, logs, shown, *ends)
@@ -235,11 +238,11 @@ def _named(picture: Picture, models: Sequence[str], effect: str) -> Picture:
     return dataclasses.replace(picture, title=title, caption=caption)
 
 
-def _left(joints: Mapping[str, Mapping[str, float | None]]) -> None:
+def _left(joints: Mapping[str, Mapping[str, float | None]], kind: str) -> None:
     """Where nothing is missing: what is left of each joint's torque."""
     names = ("error_before", "explained", "systematic", "noise")
     rows = [(joint, *(percent(own[name]) for name in names)) for joint, own in joints.items()]
-    elements.table(("joint", "error", "explained", "of physics", "noise (of the variance)"), rows)
+    elements.table(("joint", kind, "explained", "of physics", "noise (of the variance)"), rows)
 
 
 def _by_hand(studio: Studio) -> None:
@@ -261,7 +264,7 @@ def _by_hand(studio: Studio) -> None:
         effect.classes("w-96")
         joint.classes("w-56")
 
-        def asked() -> commands.Asked:
+        def asked() -> Task:
             return commands.add(studio.project, chosen["effect"], chosen["joint"] or None)
 
         def word() -> str:

@@ -1,6 +1,6 @@
 """The screen "next motion": the one that tells most, or tells two effects apart."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +10,11 @@ from modeler import excitation
 from modeler.core.errors import ModelerError
 from modeler.robot import robot_from_text
 from modeler.studio import figures
-from modeler.studio.commands import Asked, robot_copy
 from modeler.studio.elements import go_button, head, part, run_button, stale, table
-from modeler.studio.project import Project, Step
 from modeler.studio.robot_frame import robot_frame
 from modeler.studio.robot_views import MotionLook
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import Step, Task
 from modeler.studio.timeline import Timeline
 
 _SECONDS = 10.0
@@ -44,30 +43,12 @@ async def draw(studio: Studio) -> None:
         return
     try:
         found = studio.result(step)
-        look: MotionLook = await studio.view("motion_look", _file(step), step.result)
-        with part(f"Found: {step.title}"):
+        look: MotionLook = await studio.view("motion_look", step.output, step.result)
+        with part(f"Found: {step.task.title}"):
             _found(studio, step, found)
         await _shown(studio, step, look)
     except ModelerError as error:
         ui.label(str(error)).classes("studio-error").props("role=alert")
-
-
-def excite(project: Project, between: str, duration: float, limits: Sequence[str] = ()) -> Asked:
-    """The search for a motion.
-
-    Args:
-        project: with a robot; its current model knows which parameters are essential.
-        between: two effects to be told apart, "a@1,b@2"; "": all parameters.
-        duration: s, from rest to rest.
-        limits: words of `--limit`.
-    """
-    words = ["excite", project.model or robot_copy(project)]
-    words += [word for own in limits for word in ("--limit", own)]
-    words += ["--between", between] if between else []
-    words += ["--duration", f"{duration:g}", "--out", f"motions/{project.next_number}.csv"]
-    one, _, other = between.partition(",")
-    title = f"motion that tells {one} from {other}" if between else "motion that tells most"
-    return Asked("excite", tuple(words), title)
 
 
 def questions(result: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
@@ -110,8 +91,9 @@ def _wish(studio: Studio) -> None:
         ui.button("Change them", on_click=change).props("no-caps flat icon-right=east")
     renew = run_button(
         studio, "Find the motion",
-        lambda: excite(
-            studio.project, chosen["between"], chosen["duration"], changed_limits(studio)
+        lambda: Task(
+            "excite", between=chosen["between"], duration=chosen["duration"],
+            limit=tuple(changed_limits(studio)),
         ),
     )  # fmt: skip
 
@@ -140,10 +122,6 @@ def changed_limits(studio: Studio) -> list[str]:
     ]
 
 
-def _file(step: Step) -> str:
-    return step.words[step.words.index("--out") + 1]
-
-
 def _found(studio: Studio, step: Step, found: Mapping[str, Any]) -> None:
     random = found["random"]
     ui.label(
@@ -163,7 +141,7 @@ def _found(studio: Studio, step: Step, found: Mapping[str, Any]) -> None:
     table(("joint", *_USED), rows)
 
     async def as_parquet() -> None:
-        place = Path(_file(step))
+        place = Path(step.output)
         try:
             content = await studio.view("motion_parquet", str(place), step.result)
         except ModelerError as error:
@@ -172,8 +150,7 @@ def _found(studio: Studio, step: Step, found: Mapping[str, Any]) -> None:
         ui.download.content(content, f"{place.stem}.parquet")
 
     with ui.row():
-        name = f"motion-{Path(_file(step)).stem}.csv"
-        place = studio.folder / _file(step)
+        name, place = f"motion-{step.number}.csv", studio.folder / step.output
         ui.button("Download CSV", on_click=lambda: ui.download.file(place, name)).props("no-caps")
         ui.button("Download Parquet", on_click=as_parquet).props("no-caps")
 
@@ -189,7 +166,7 @@ def _between(told: Mapping[str, Any] | None) -> list[str]:
 
 async def _shown(studio: Studio, step: Step, look: MotionLook) -> None:
     """The motion in 3-D and over time, with one cursor."""
-    name = _file(step)
+    name = step.output
     with ui.element("div").classes("studio-split"):
         with ui.column().classes("w-full"):
             figures.draw(look.picture, name)

@@ -6,11 +6,13 @@ import os
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from glob import escape
 from pathlib import Path
 
 from modeler.core.builtin import LOG_ENDINGS, OTHER_PROGRAMS
 from modeler.core.errors import DataError, ModelerError
-from modeler.studio.project import FOLDERS, MAKING, Project
+from modeler.studio.project import FOLDERS, Project
+from modeler.studio.tasks import MAKING
 
 ROBOT_ENDINGS = (".toml", *OTHER_PROGRAMS)
 """How the name of a robot file ends."""
@@ -128,15 +130,39 @@ class Roots:
             found = Path(place).resolve(strict=True)
         except (OSError, ValueError, RuntimeError):  # ValueError: a NUL; RuntimeError: a ring
             raise DataError(f"{place}: no such file; choose another one") from None
-        self._check(str(place), found)
+        self.check(str(place), found)
         return found
 
-    def _check(self, place: str, found: Path) -> None:
+    def check(self, place: str, found: Path) -> None:
+        """Refuses a place that is in none of the folders.
+
+        Args:
+            place: as it is called.
+            found: the same; its links are followed.
+
+        Raises:
+            DataError: it is not; says how to allow it.
+        """
+        try:
+            found = found.resolve()
+        except (OSError, RuntimeError):  # RuntimeError: a ring of links
+            raise DataError(f"{place}: its links lead nowhere; remove them") from None
         if not any(found.is_relative_to(folder.resolve()) for folder in self.folders):
             raise DataError(
                 f"{place}: lies outside the folders that this studio may use; start it with "
                 f"--allow {found if found.is_dir() else found.parent}"
             )
+
+    def check_tree(self, place: str, found: Path) -> None:
+        """The same of a place and of all links below it, or whose names begin as its own does.
+
+        A log may be a folder, or several files of which it is the beginning of the names.
+        """
+        self.check(place, found)
+        others = found.rglob("*") if found.is_dir() else found.parent.glob(f"{escape(found.name)}*")
+        for below in others:
+            if below.is_symlink():
+                self.check(str(below), below)
 
     def check_words(self, folder: Path, words: Iterable[str]) -> None:
         """Refuse a command that would read or write elsewhere, whoever wrote its words.
@@ -147,27 +173,22 @@ class Roots:
             DataError: a word leads out of the folders; says which.
         """
         for word in words:
-            option, _, value = word.partition("=")
-            texts = [word, value] if option.startswith("--") and option != "--map" else [word]
-            for text in texts:
-                for file in (text, text.rpartition("@")[0]):
-                    with contextlib.suppress(ValueError):  # a NUL: it will not be started
-                        self._check(text, (folder / file).resolve())
+            for file in {word, word.rpartition("@")[0]} - {""}:
+                self.check_tree(word, folder / file)
 
     def check_links(self, folder: Path, names: Iterable[str]) -> None:
         """Refuse a project whose own places are links that lead out: they are written over.
 
         Args:
             folder: of the project.
-            names: of files, and of folders with all that is in them.
+            names: of files, and of folders with all that is in them; logs are only read.
 
         Raises:
             DataError: one is; says which.
         """
         for name in names:
-            for place in (folder / name, *_files(folder / name)):
-                if place.is_symlink():
-                    self._check(str(place), place.resolve())
+            if name != "logs" or (folder / name).is_symlink():
+                self.check_tree(str(folder / name), folder / name)
 
     def listed(self, folder: Path | str, endings: Sequence[str] = LOG_ENDINGS) -> list[Entry]:
         """Folders, then files that end so; what is hidden or leads out is left out.
@@ -193,6 +214,10 @@ class Roots:
         except (DataError, OSError):
             pass
         return None
+
+
+READABLE = Roots(())
+"""Where the process of the viewer may read; without folders everywhere."""
 
 
 # Disk: what a project uses, and what of it nobody needs.
@@ -237,18 +262,15 @@ def spare(folder: Path, project: Project) -> Spare:
     steps = tuple(
         step
         for step in project.steps
-        if step.number in way or (step.kind not in MAKING and step.parent in {0, *way})
+        if step.number in way or (step.verb not in MAKING and step.parent in {0, *way})
     )
-    needed = {step.number for step in steps}
-    named = {name for step in steps for name in (step.model, step.result, step.pictures)}
-    named |= {word.partition("@")[0] for step in steps for word in step.words} | {project.robot}
+    needed = {n for step in steps for n in (step.number, *step.task.models)}
     files = [
         f"{name}/{found.name}"
         for name in ("robots", "models", "results")
         for found in _files(folder / name)
         if (match := _OF_STEP.fullmatch(found.name)) and int(match[1]) not in needed
     ]
-    files = [file for file in files if file not in named]
     size = sum((folder / file).lstat().st_size for file in files)
     return Spare(replace(project, steps=steps), tuple(files), size)
 

@@ -10,49 +10,34 @@ and writes the next. The file is written in one piece, so that whoever is killed
 the step that ran.
 """
 
+import contextlib
 import dataclasses
+import hmac
 import json
-import math
-import re
-from collections.abc import Iterator, Sequence
+import os
+import secrets
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import read_text, write_atomically
 from modeler.core.json import UndeclaredEntry, built, parse_toml
+from modeler.runtime import cache_folder
+from modeler.studio.tasks import (
+    ABOUT_A_MODEL,
+    MAKING,
+    LogPart,
+    Step,
+    Stretch,
+    Task,
+    check_values,
+    command_line,
+)
 
 FILE = "project.toml"
-ROBOT = "robot.toml"
 FOLDERS = ("robots", "logs", "models", "results", "motions", "pages", "taken")
-
-MAKING = ("fit", "add", "undo")
-"""Kinds of steps that end in a model; other steps say something about one."""
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """Seconds of a log, as `FILE@START:END` counts them; without ends all of it."""
-
-    start: float = -math.inf
-    end: float = math.inf
-
-    def word(self, file: str) -> str:
-        """It, as a command takes it."""
-        ends = [f"{side:.15g}" if math.isfinite(side) else "" for side in (self.start, self.end)]
-        return f"{file}@{':'.join(ends)}" if any(ends) else file
-
-    def without(self, gaps: Sequence["Stretch"]) -> "list[Stretch]":
-        """What is left of it between gaps."""
-        left, start = [], self.start
-        for gap in sorted(gaps, key=lambda gap: gap.start):
-            if gap.end <= max(start, gap.start) or gap.start >= self.end:
-                continue
-            if gap.start > start:
-                left.append(Stretch(start, gap.start))
-            start = max(start, gap.end)
-        return left + ([Stretch(start, self.end)] if start < self.end else [])
 
 
 @dataclass(frozen=True)
@@ -71,39 +56,10 @@ class ProjectLog:
     test: tuple[Stretch, ...] = ()
     out: tuple[Stretch, ...] = ()
 
-    def words(self, role: str) -> list[str]:
-        """Its stretches of one role, "train" or "test", as a command takes them."""
+    def parts(self, role: str) -> list[LogPart]:
+        """Its stretches of one role, "train" or "test"."""
         parts: tuple[Stretch, ...] = getattr(self, role)
-        return [own.word(self.file) for part in parts for own in part.without(self.out)]
-
-
-@dataclass(frozen=True)
-class Step:
-    """A command that was carried out.
-
-    Attributes:
-        number: of the step; files that it wrote are called so.
-        parent: the step whose model it is about, or went on from; 0: none.
-        kind: the command, or "undo".
-        words: after `modeler`, with paths relative to the folder.
-        title: for people.
-        model: file that it wrote; "" if it made none.
-        result: its JSON; "" if it has none.
-        pictures: they, as plain data; "" if it drew none.
-        seconds: that it took.
-        made: when, ISO 8601.
-    """
-
-    number: int
-    parent: int
-    kind: str
-    words: tuple[str, ...]
-    title: str = ""
-    model: str = ""
-    result: str = ""
-    pictures: str = ""
-    seconds: float = 0.0
-    made: str = ""
+        return [LogPart(self.file, own) for part in parts for own in part.without(self.out)]
 
 
 @dataclass(frozen=True)
@@ -111,17 +67,19 @@ class Project:
     """What `project.toml` says.
 
     Attributes:
-        robot: file that is edited, relative to the folder; "" before there is one.
+        robot: file that is edited, in the folder; "" before there is one.
         current: the step whose model is looked at; 0 before there is one.
         mapping: words of `--map`, for every log.
+        mapped: whether the user has chosen the mapping; else it is a guess.
         without: effects that this robot does not have, as of `--without`.
         logs: in the order in which they came.
         steps: in the order in which they were taken; those that were undone stay.
     """
 
-    robot: str = ""
+    robot: Literal["", "robot.toml"] = ""
     current: int = 0
     mapping: tuple[str, ...] = ()
+    mapped: bool = False
     without: tuple[str, ...] = ()
     logs: tuple[ProjectLog, ...] = ()
     steps: tuple[Step, ...] = ()
@@ -150,15 +108,24 @@ class Project:
             step = self.step(step.parent) if step.parent < step.number else None
         return found
 
-    def about(self, kind: str, number: int | None = None) -> Step | None:
-        """The last step of that kind about a model; None of `number`: the current one."""
+    def about(self, verb: str, number: int | None = None) -> Step | None:
+        """The last step of that verb about a model; None of `number`: the current one."""
         parent = self.current if number is None else number
-        own = [step for step in self.steps if step.kind == kind and step.parent == parent]
+        own = [step for step in self.steps if step.verb == verb and step.parent == parent]
         return own[-1] if own else None
 
+    def parts(self, role: str) -> tuple[LogPart, ...]:
+        """All stretches of one role, "train" or "test"."""
+        return tuple(part for log in self.logs for part in log.parts(role))
+
     def words(self, role: str) -> list[str]:
-        """All stretches of one role, "train" or "test", as a command takes them."""
-        return [word for log in self.logs for word in log.words(role)]
+        """The same as a command takes them."""
+        return [part.word for part in self.parts(role)]
+
+    def next_step(self, task: Task) -> Step:
+        """What a task would be as the next step."""
+        parent = self.current if task.verb in ABOUT_A_MODEL else task.step
+        return Step(self.next_number, parent, task)
 
 
 def project_text(project: Project) -> str:
@@ -174,15 +141,21 @@ def _lines(project: Project) -> Iterator[str]:
     for title, entries in (("logs", project.logs), ("steps", project.steps)):
         for entry in entries:
             yield f"\n[[{title}]]"
-            plain = dataclasses.asdict(entry)
-            yield from (f"{name} = {_toml(value)}" for name, value in plain.items())
+            yield from (f"{name} = {_toml(value)}" for name, value in vars(entry).items())
 
 
 def _toml(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, dict):
-        return f"{{ {', '.join(f'{name} = {_toml(item)}' for name, item in value.items())} }}"
+    if dataclasses.is_dataclass(value):  # what is as usual is left out
+        own = {
+            field.name: getattr(value, field.name)
+            for field in dataclasses.fields(value)
+            if getattr(value, field.name) != field.default
+        }
+        return f"{{ {', '.join(f'{name} = {_toml(item)}' for name, item in own.items())} }}"
     if isinstance(value, list | tuple):
         return f"[{', '.join(_toml(item) for item in value)}]"
     return repr(value)
@@ -196,25 +169,34 @@ def project_from_text(text: str, where: str) -> Project:
     """
     try:
         project: Project = built(Project, parse_toml(text))
-        for file in _files(project):
-            if file and not _OWN.fullmatch(file):
-                raise ValueError(f"{file} is no file of this folder")
+        _check(project)
         return project
-    except (UndeclaredEntry, ValueError) as error:
+    except (UndeclaredEntry, ValueError, DataError) as error:
         raise DataError(
             f"{where}: {error}; expected a file that `modeler studio` wrote; mend it, or move it "
             "away to begin anew beside the same files"
         ) from None
 
 
-_OWN = re.compile(r"(?:(?!\.\.?/)[\w.+-]+/)*(?!\.\.?$)[\w.+-]+")
-"""Files that the studio calls its own: below the folder, and of harmless letters."""
+def _check(project: Project) -> None:
+    """Refuses values that no studio writes: names that are options or lead out, other numbers.
 
-
-def _files(project: Project) -> Iterator[str]:
-    yield project.robot
+    Raises:
+        DataError: names the first.
+    """
+    for name in ("mapping", "without"):
+        check_values(name, getattr(project, name))
+    for log in project.logs:
+        check_values("file", (log.file,))
     for step in project.steps:
-        yield from (step.model, step.result, step.pictures)
+        command_line(step, project.steps)
+        if not 0 <= step.parent < 1e9 or not 0 < step.number < 1e9:
+            raise DataError(f"step {step.number}: got such a number; expected 1 to 999999999")
+    if len({step.number for step in project.steps}) < len(project.steps):
+        raise DataError("steps: two have the same number; expected each number once")
+    making = [step.number for step in project.steps if step.verb in MAKING]
+    if project.current not in (0, *making):
+        raise DataError(f"current: got {project.current}; expected a step that made a model, or 0")
 
 
 class Workspace:
@@ -224,6 +206,7 @@ class Workspace:
         folder: of the project.
         project: as it is now.
         writable: False where somebody else has the folder open.
+        foreign: True of a project that no studio of this user wrote as it is now; it is only read.
     """
 
     def __init__(self, folder: Path, writable: bool = True) -> None:
@@ -234,10 +217,15 @@ class Workspace:
             ModelerError: the folder cannot be made.
         """
         self.folder, self.writable = folder, writable
-        place = folder / FILE
-        self.project = (
-            project_from_text(read_text(place), str(place)) if place.exists() else Project()
-        )
+        self.foreign = False
+        self.project = Project()
+        self.reread()
+        self.foreign = (folder / FILE).exists() and not self._is_ours()
+
+    @property
+    def may_change(self) -> bool:
+        """Whether the project can be changed here."""
+        return self.writable and not self.foreign
 
     def save(self, project: Project) -> None:
         """Makes another project the valid one.
@@ -251,11 +239,69 @@ class Workspace:
                 f"{self.folder}: is open in another window, which alone may change it; go on "
                 "there, or close it and take over here"
             )
-        write_atomically(self.folder / FILE, project_text(project))
+        if self.foreign:
+            raise DataError(FOREIGN.format(self.folder))
+        text = project_text(project)
+        write_atomically(self.folder / FILE, f"{_SEAL}{_sealed(text)}\n{text}")
         self.project = project
 
+    def accept(self) -> None:
+        """From now on the project is one of this user.
+
+        Raises:
+            ModelerError: as `save`.
+        """
+        self.foreign = False
+        try:
+            self.save(self.project)
+        except ModelerError:
+            self.foreign = True
+            raise
+
     def reread(self) -> None:
-        """What the file says now, where another process writes it."""
+        """What the file says now, where another process writes it.
+
+        Raises:
+            DataError: it cannot be read.
+        """
         place = self.folder / FILE
-        if place.exists():
-            self.project = project_from_text(read_text(place), str(place))
+        if os.path.lexists(place):
+            self.project = project_from_text(self._text(), str(place))
+
+    def _text(self) -> str:
+        place = self.folder / FILE
+        try:
+            return read_text(place)
+        except UnicodeDecodeError as error:
+            why = f"is not valid UTF-8 (byte {error.start + 1})"
+        except OSError as error:
+            why = f"cannot be read ({error.strerror})"
+        raise DataError(f"{place}: {why}; put the file back, or move it away to begin anew")
+
+    def _is_ours(self) -> bool:
+        head, _, text = self._text().partition("\n")
+        return hmac.compare_digest(head.encode(), (_SEAL + _sealed(text)).encode())
+
+
+FOREIGN = (
+    "{}: the project was made by another user or on another machine, or project.toml was changed "
+    "by hand; look at it, and accept it to go on"
+)
+_KEY = 32  # bytes
+_SEAL = "# seal of the user who wrote this file: "
+
+
+def _sealed(text: str) -> str:
+    """What only this user's studio can write above a text, with a key that lies in the cache."""
+    place = cache_folder() / "studio.key"
+    with contextlib.suppress(OSError):
+        place.parent.mkdir(parents=True, exist_ok=True)
+        begun = os.open(place, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600)
+        os.write(begun, secrets.token_bytes(_KEY))
+        os.close(begun)
+    key = b""
+    with contextlib.suppress(OSError):
+        key = place.read_bytes()
+    if len(key) != _KEY:  # without one no project is known again
+        key = secrets.token_bytes(_KEY)
+    return hmac.new(key, text.encode(), "sha256").hexdigest()

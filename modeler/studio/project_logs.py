@@ -12,8 +12,9 @@ from modeler.core.json import entries
 from modeler.core.manifest import JointSpec
 from modeler.logs import map_from_words
 from modeler.studio.log_mapping import Choice, LogGuess, anybody, choices, said, words_of
-from modeler.studio.project import ProjectLog, Step
+from modeler.studio.project import ProjectLog
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import Step
 
 AUTO = "auto"
 """The mapping by which each log is taken by its own guess."""
@@ -137,8 +138,10 @@ class ProjectLogs:
         return own and bool(guess.choices)
 
     def guess_each(self) -> None:
-        """Every log by its own guess."""
-        self.studio.change(redraw=True, mapping=(AUTO,))
+        """Every log by its own guess, below what was chosen."""
+        chosen = self.studio.project.mapping if self.studio.project.mapped else ()
+        words = (AUTO, *(word for word in chosen if word != AUTO))
+        self.studio.change(redraw=True, mapping=words)
 
     def log(self, file: str) -> ProjectLog:
         """As the project has it."""
@@ -147,7 +150,7 @@ class ProjectLogs:
     def checked(self, file: str) -> Step | None:
         """The last look at a log."""
         steps = self.studio.project.steps
-        return next((s for s in reversed(steps) if s.kind == "log" and s.words[1] == file), None)
+        return next((s for s in reversed(steps) if s.verb == "log" and s.task.file == file), None)
 
     def result(self, file: str) -> dict[str, Any]:
         """What it said; nothing before there is one."""

@@ -11,17 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeler.studio.commands import out_of
-from modeler.studio.project import MAKING, Project, Step
+from modeler.studio.project import Project
+from modeler.studio.tasks import FIXED, LogPart, Step, Task, command_line
 
 _ABOUT = ("compare", "diagnose")
-"""Kinds of steps that say something about a model, and are told again."""
-
-_MANY = ("--holdout",)
-"""Options that take all words up to the next option."""
-
-_WORDS = ("--method", "--derivatives")
-"""Options of a fit whose value is no number."""
+"""Verbs that say something about a model, and are told again."""
 
 
 @dataclass(frozen=True)
@@ -55,18 +49,16 @@ def recipe(project: Project, folder: Path, robots: Mapping[str, str]) -> Recipe:
     """
     way = project.path()
     numbers = {step.number for step in way}
-    about = [project.about(kind, number) for kind in _ABOUT for number in sorted(numbers)]
-    used = {word.partition("@")[0] for step in way for word in step.words}
-    made = [step for step in project.steps if step.kind == "simulate"]
-    made = [step for step in made if out_of(step.words) in used]
+    about = [project.about(verb, number) for verb in _ABOUT for number in sorted(numbers)]
+    used = {part.file for step in way for part in (*step.task.logs, *step.task.held)}
+    made = [step for step in project.steps if step.verb == "simulate" and step.output in used]
     steps = [*made, *way, *(step for step in about if step is not None)]
     logs = frozenset(file for file in used if file.startswith("logs/"))
     logs |= {log.file for log in project.logs if not Path(log.file).is_absolute()}
-    own = {word for step in steps for word in step.words if word in robots}
+    own = sorted({step.robot for step in steps} & {*robots})
     return Recipe(
         folder, tuple(sorted(steps, key=lambda step: step.number)),
-        {name: robots[name] for name in sorted(own)},
-        logs - {out_of(step.words) for step in made},
+        {name: robots[name] for name in own}, logs - {step.output for step in made},
     )  # fmt: skip
 
 
@@ -93,16 +85,11 @@ def script(own: Recipe) -> str:
             end += "_"
         lines.append(f"cat > {shlex.quote(name)} <<'{end}'\n{text.rstrip()}\n{end}\n")
     for step in own.steps:
-        words = [_shell_word(own, word) for word in step.words]
-        result = f" --json results/{step.number}.json"
+        words = [_shell_word(own, word) for word in command_line(step)]
         lines.append(
-            f"# {step.number}: {_one_line(step.title)}\n$MODELER {' '.join(words)}{result}\n"
+            f"# {step.number}: {step.task.title}\n$MODELER {' '.join(words)} --json {step.result}\n"
         )
     return "\n".join(lines)
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())
 
 
 def _shell_word(own: Recipe, word: str) -> str:
@@ -114,29 +101,13 @@ def _shell_word(own: Recipe, word: str) -> str:
 # As a notebook.
 
 
-def _parsed(words: Sequence[str]) -> tuple[list[str], dict[str, list[str]]]:
-    """Words of a command: what stands by itself, and options with what follows each."""
-    plain: list[str] = []
-    options: dict[str, list[str]] = {}
-    taking: list[str] | None = None
-    rest = iter(words[1:])
-    for word in rest:
-        if word.startswith("--"):
-            own = options.setdefault(word, [])
-            taking = own if word in _MANY else None
-            own += [] if word in _MANY else [next(rest)]
-        else:
-            (plain if taking is None else taking).append(word)
-    return plain, options
-
-
 def notebook(own: Recipe) -> str:
     """The recipe as .ipynb, in the words of the Python interface."""
     cells = [_cell("markdown", "# The steps of a project of `modeler studio`\n\n"
                    "Run it in an empty folder; `LOGS` is the folder of the project."),
              _cell("code", "\n".join(_preparation(own)))]  # fmt: skip
     for step in own.steps:
-        cells.append(_cell("markdown", f"{step.number}. {_one_line(step.title)}"))
+        cells.append(_cell("markdown", f"{step.number}. {step.task.title}"))
         cells.append(_cell("code", "\n".join(_code(own, step))))
     for k, cell in enumerate(cells):
         cell["id"] = f"step-{k}"
@@ -172,59 +143,46 @@ def _log(own: Recipe, word: str) -> str:
     return repr(word)
 
 
-def _logs(own: Recipe, words: Sequence[str]) -> str:
-    return f"[{', '.join(_log(own, word) for word in words)}]"
+def _logs(own: Recipe, parts: Sequence[LogPart]) -> str:
+    return f"[{', '.join(_log(own, part.word) for part in parts)}]"
 
 
 def _code(own: Recipe, step: Step) -> Iterator[str]:
-    plain, options = _parsed(step.words)
-    out, held = out_of(step.words), _logs(own, options.get("--holdout", []))
-    first, made = _name(plain[0]), _name(out)
-    mapped = f", mapping={options['--map']!r}" if "--map" in options else ""
-    if step.kind == "simulate":
-        yield f"robot = modeler.open_robot({plain[0]!r})"
-        yield f"modeler.simulate(robot, {out!r}, {_simulated(options)})"
-    elif step.kind == "fit":
-        yield f"robot = modeler.open_robot({plain[0]!r})"
-        yield from _fitted(options)
-        effects = options.get("--effects", [""])[-1]
-        given = mapped + (f", effects={effects!r}" if effects else "")
-        yield f"{made} = modeler.identify(robot, {_logs(own, plain[1:])}{given})"
-    elif step.kind == "add":
-        joint = options.get("--joint", [None])[-1]
-        logs = f"logs={_logs(own, plain[2:])}, held_out={held}"
-        yield f"{made} = {first}.add({plain[1]!r}, joint={joint!r}, {logs}{mapped})"
-    elif step.kind == "diagnose":
-        logs, bans = _logs(own, plain[1:]), options.get("--without", [])
-        yield f"{first}.missing(held_out={held}, logs={logs}, without={bans!r}{mapped})"
+    task, logs = step.task, _logs(own, step.task.logs)
+    made, before = f"model_{step.number}", f"model_{step.parent}"
+    held = _logs(own, task.held)
+    mapped = f", mapping={[*task.mapping]!r}" if task.mapping else ""
+    if step.verb == "simulate":
+        yield f"robot = modeler.open_robot({step.robot!r})"
+        yield f"modeler.simulate(robot, {task.file!r}, {_simulated(task)})"
+    elif step.verb == "fit":
+        yield f"robot = modeler.open_robot({step.robot!r})"
+        stated = {name: getattr(task, name) for name in _STATED}
+        stated = {name: value for name, value in stated.items() if value not in ("", None)}
+        if stated:
+            yield f"robot = dataclasses.replace(robot, fit={{**robot.fit, **{stated!r}}})"
+        effects = f", effects={','.join(task.effects)!r}" if task.effects else ""
+        yield f"{made} = modeler.identify(robot, {logs}{mapped}{effects})"
+    elif step.verb == "add":
+        where = f"joint={task.joint or None!r}, logs={logs}, held_out={held}"
+        yield f"{made} = {before}.add({task.effect!r}, {where}{mapped})"
+    elif step.verb == "diagnose":
+        bans = f"logs={logs}, without={[*task.without]!r}"
+        yield f"{before}.missing(held_out={held}, {bans}{mapped})"
     else:
-        yield f"{first}.compare({_logs(own, plain[1:])}{mapped})"
-    if step.kind in MAKING:
-        yield f"modeler.save({made}, {out!r})"
+        yield f"{before}.compare({logs}{mapped})"
+    if step.model:
+        yield f"modeler.save({made}, {step.model!r})"
         yield made
 
 
-def _name(model: str) -> str:
-    return f"model_{Path(model).stem}"
+_STATED = (
+    "method", "derivatives", "cutoff", "parallel_cutoff", "low_speed", "essential_below"
+)  # fmt: skip
+"""What of a fit the robot is told, as its table [fit] would."""
 
 
-def _simulated(options: Mapping[str, list[str]]) -> str:
-    names = {"--duration": "duration", "--seed": "seed", "--noise": "torque_noise"}
-    given = [f"hide={options.get('--hide', [])!r}"]
-    for word, name in names.items():
-        for value in options.get(word, [])[-1:]:  # a number, whoever wrote the project
-            given.append(f"{name}={int(value) if value.isdecimal() else float(value)!r}")
-    return ", ".join(given)
-
-
-def _fitted(options: Mapping[str, list[str]]) -> Iterator[str]:
-    """What of `modeler fit` the robot is told, as its table [fit] would."""
-    words = [word for word in options if word not in ("--out", "--map", "--effects")]
-    stated = {
-        word[2:].replace("-", "_"): options[word][-1]
-        if word in _WORDS
-        else float(options[word][-1])
-        for word in words
-    }
-    if stated:
-        yield f"robot = dataclasses.replace(robot, fit={{**robot.fit, **{stated!r}}})"
+def _simulated(task: Task) -> str:
+    fixed = dict(zip(FIXED["simulate"][::2], FIXED["simulate"][1::2], strict=True))
+    numbers = f"duration={fixed['--duration']}, seed={task.seed}, torque_noise={fixed['--noise']}"
+    return f"hide={[fixed['--hide']]!r}, {numbers}"

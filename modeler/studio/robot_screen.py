@@ -24,13 +24,12 @@ from modeler.robot import (
     without_row,
 )
 from modeler.studio import robot_start
-from modeler.studio.commands import Asked, robot_copy
 from modeler.studio.elements import head, run_button
-from modeler.studio.project import ROBOT, Step
 from modeler.studio.robot_frame import RobotFrame
 from modeler.studio.robot_text import DRAFT, RobotText, keep
 from modeler.studio.robot_views import BASIC_EFFECTS, RobotLook
-from modeler.studio.studio import READ_ONLY, Studio
+from modeler.studio.studio import Studio
+from modeler.studio.tasks import ROBOT, Step, Task
 
 _PAUSE = 0.2  # s after the last stroke in the text
 _LIMITS = ("joint", "lower", "upper", "speed", "acceleration")
@@ -159,7 +158,7 @@ class _RobotEditor:
         """A robot that came from elsewhere."""
         try:
             if self.studio.read_only:
-                raise ModelerError(READ_ONLY)
+                raise ModelerError(self.studio.why_read_only)
             self.kept.change(text)
             self.studio.kept["robot notes"] = notes
             look: RobotLook = await self.studio.view("robot_look", text)
@@ -368,7 +367,7 @@ class _RobotEditor:
         """The button, and what the last derivation found."""
         studio = self.studio
         with ui.column().classes("w-full"):
-            run_button(studio, "Derive", lambda: derive(studio))
+            run_button(studio, "Derive", lambda: Task("derive"))
             self.stale = ui.label("of an earlier table: derive again").classes("studio-doubtful")
             self.stale.set_visibility(False)
             self.step_shown = _last(studio)
@@ -376,7 +375,7 @@ class _RobotEditor:
                 return
             step = self.step_shown
             try:
-                html, told = await studio.view("relations_of", step.result, step.words[1])
+                html, told = await studio.view("relations_of", step.result, step.robot)
             except ModelerError as error:
                 ui.label(str(error)).classes("studio-error")
                 return
@@ -386,15 +385,9 @@ class _RobotEditor:
 
     def _stale(self) -> None:
         step = self.step_shown
-        there = step is not None and (self.studio.folder / step.words[1]).exists()
-        old = there and step is not None and self.studio.text(step.words[1]) != self.kept.text
+        there = step is not None and (self.studio.folder / step.robot).exists()
+        old = there and step is not None and self.studio.text(step.robot) != self.kept.text
         self.stale.set_visibility(old)
-
-
-def derive(studio: Studio) -> Asked:
-    """The derivation of the robot as it is."""
-    words = ("derive", robot_copy(studio.project), "--no-terms")
-    return Asked("derive", words, "derive", about=0)
 
 
 def _told(text: str) -> None:
@@ -403,7 +396,7 @@ def _told(text: str) -> None:
 
 
 def _last(studio: Studio) -> Step | None:
-    own = [step for step in studio.project.steps if step.kind == "derive"]
+    own = [step for step in studio.project.steps if step.verb == "derive"]
     return own[-1] if own else None
 
 

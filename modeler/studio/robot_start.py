@@ -1,5 +1,6 @@
 """Where a robot comes from: a pasted table, a template, another program, the built-in ones."""
 
+import dataclasses
 from collections.abc import Awaitable, Callable
 from pathlib import Path
 
@@ -9,11 +10,10 @@ from modeler.core.builtin import CONVENTIONS, TEMPLATES, builtin_names, builtin_
 from modeler.core.errors import ModelerError
 from modeler.robot import pasted_robot, pasted_table, with_pasted
 from modeler.studio.chooser import choose
-from modeler.studio.commands import Asked
 from modeler.studio.dropped import drop_zone
 from modeler.studio.elements import part
-from modeler.studio.project import ROBOT
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import ROBOT, Task
 
 Taken = Callable[[str, tuple[str, ...]], Awaitable[None]]
 """Is called with the text of a robot file, and notes on how it was made."""
@@ -84,10 +84,10 @@ def _template(studio: Studio, taken: Taken) -> None:
         whose.classes("w-36").bind_visibility_from(kind, "value", value="serial")
 
     async def begin() -> None:
-        words = ["new", ROBOT, "--template", str(kind.value), "--force"]
+        task = Task("new", template=str(kind.value))
         if kind.value == "serial":
-            words += ["--joints", str(joints.value), "--convention", str(whose.value)]
-        await _made(studio, words, f"begin {ROBOT}", taken)
+            task = dataclasses.replace(task, joints=str(joints.value), convention=str(whose.value))
+        await _made(studio, task, taken)
 
     ui.button("Begin", on_click=begin).props("no-caps unelevated")
 
@@ -101,8 +101,7 @@ def _file(studio: Studio, taken: Taken) -> None:
             except ModelerError as error:
                 studio.show_error(str(error))
             return
-        words = ["convert", file, "--out", ROBOT, "--force"]
-        await _made(studio, words, f"convert {Path(file).name}", taken)
+        await _made(studio, Task("convert", file=file), taken)
 
     ui.label("URDF, MJCF, SYMORO's .par, or a robot file").classes("studio-soft")
     zone = drop_zone(
@@ -128,10 +127,9 @@ def _builtin(taken: Taken) -> None:
         ui.button("Take it", on_click=take).props("no-caps unelevated")
 
 
-async def _made(studio: Studio, words: list[str], title: str, taken: Taken) -> None:
+async def _made(studio: Studio, task: Task, taken: Taken) -> None:
     """A robot file that a command writes."""
-    asked = Asked(words[0], tuple(words), title, about=0)
     room = studio.room
-    if await studio.run(asked, keep=False) is not None and room is not None:
+    if await studio.run(task, keep=False) is not None and room is not None:
         with room:
             await taken(studio.text(ROBOT), ())

@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 from modeler.core.files import write_atomically
-from modeler.studio.project import ROBOT
+from modeler.studio.tasks import ROBOT
 
 DRAFT = "robot.draft.toml"
 _MOST = 500  # steps back

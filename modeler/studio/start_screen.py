@@ -8,9 +8,9 @@ from nicegui import ui
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import ModelerError
 from modeler.core.files import write_atomically
-from modeler.studio import commands
-from modeler.studio.project import ROBOT, ProjectLog, Stretch
-from modeler.studio.studio import READ_ONLY, Hub, Studio
+from modeler.studio.project import ProjectLog
+from modeler.studio.studio import Hub, Studio
+from modeler.studio.tasks import ROBOT, Stretch, Task
 
 _RUNS = (("logs/train.parquet", 1), ("logs/held_out.parquet", 2))
 
@@ -51,7 +51,7 @@ async def begin(studio: Studio) -> None:
     """The demonstration; what is wrong is told in the window."""
     try:
         if studio.read_only:
-            raise ModelerError(READ_ONLY)
+            raise ModelerError(studio.why_read_only)
         await begin_demo(studio.hub)
     except ModelerError as error:
         studio.show_error(str(error))
@@ -73,7 +73,7 @@ async def begin_demo(hub: Hub) -> None:
         )
     write_atomically(hub.workspace.folder / ROBOT, builtin_text("demo-arm"))
     for log, seed in _RUNS:
-        await hub.run(commands.demo(hub.project, log, seed))
+        await hub.run(Task("simulate", file=log, seed=seed))
     train, held = (log for log, _ in _RUNS)
     logs = ProjectLog(train, train=(Stretch(),)), ProjectLog(held, test=(Stretch(),))
     hub.workspace.save(dataclasses.replace(hub.project, robot=ROBOT, logs=logs))

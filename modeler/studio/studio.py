@@ -22,9 +22,10 @@ from modeler.core.files import read_text, write_atomically
 from modeler.core.json import JsonError, parse_json
 from modeler.studio import commands
 from modeler.studio.places import Roots
-from modeler.studio.project import FILE, FOLDERS, MAKING, ROBOT, Project, Step, Workspace
+from modeler.studio.project import FILE, FOLDERS, FOREIGN, Project, Workspace
 from modeler.studio.robot_text import DRAFT
 from modeler.studio.running import Running
+from modeler.studio.tasks import MAKING, ROBOT, Step, Task, bookkeeping
 from modeler.studio.viewer import Viewer
 
 Screen = Callable[["Studio"], Awaitable[None]]
@@ -56,9 +57,8 @@ class Hub:
     ) -> None:
         self.workspace, self.allowed, self.screens = workspace, allowed, screens
         self._roots = Roots((workspace.folder, *allowed))
-        own = (FILE, ROBOT, DRAFT, *(name for name in FOLDERS if name != "logs"))
-        self._roots.check_links(workspace.folder, own)
-        self.viewer = Viewer(workspace.folder)
+        self._roots.check_links(workspace.folder, (FILE, ROBOT, DRAFT, *FOLDERS, "originals"))
+        self.viewer = Viewer(workspace.folder, self._roots.folders)
         self.running: Running | None = None
         self.own: Callable[[], bool] = lambda: False
         self.gives_way = False
@@ -110,12 +110,12 @@ class Hub:
             studio.told()
 
     async def run(
-        self, asked: commands.Asked, current: bool = True, keep: bool = True, aside: bool = False
+        self, task: Task, current: bool = True, keep: bool = True, aside: bool = False
     ) -> Step:
-        """Carries out a command, and keeps it as a step.
+        """Carries out a task, and keeps it as a step.
 
         Args:
-            asked: command.
+            task: to be carried out.
             current: True if a model that it makes is looked at from now on.
             keep: False for what is no step of the project.
             aside: True for what nobody waits for: it is cancelled when another command comes.
@@ -126,17 +126,16 @@ class Hub:
         await self._way()
         if self.running is not None:
             raise ModelerError(
-                f"{asked.title}: {self.running.title} runs still; wait for it, or cancel it"
+                f"{task.title}: {self.running.title} runs still; wait for it, or cancel it"
             )
-        if not self.workspace.writable:
+        if not self.workspace.may_change:
             self.workspace.save(self.project)  # says why not
-        self._roots.check_words(self.workspace.folder, asked.words)
-        number = self.project.next_number
-        parent = self.project.current if asked.about is None else asked.about
-        more, result, pictures = commands.bookkeeping(asked.words, number)
-        self._prepare(asked, number)
-        self.gives_way, self.last = aside, asked.words
-        self.running = Running([*asked.words, *more], self.workspace.folder, asked.title)
+        step = self.project.next_step(task)
+        words = commands.words_of(self.project, step)
+        self._roots.check_words(self.workspace.folder, words)
+        self._prepare(step)
+        self.gives_way, self.last = aside, words
+        self.running = Running([*words, *bookkeeping(step)], self.workspace.folder, task.title)
         self.tell()
         begun = time.perf_counter()
         try:
@@ -145,17 +144,36 @@ class Hub:
             self.running = None
             self.tell()
         if outcome.status != 0 or (aside and not self.gives_way):
-            raise ModelerError(outcome.error or f"{asked.title}: cancelled")
-        step = Step(
-            number, parent, asked.kind, asked.words, asked.title, asked.model, result, pictures,
-            round(time.perf_counter() - begun, 2), datetime.now(UTC).isoformat(timespec="seconds"),
-        )  # fmt: skip
+            raise ModelerError(outcome.error or f"{task.title}: cancelled")
+        seconds, made = round(time.perf_counter() - begun, 2), datetime.now(UTC)
+        step = dataclasses.replace(step, seconds=seconds, made=made.isoformat(timespec="seconds"))
         if keep:
             steps = (*self.project.steps, step)
-            now = number if current and asked.kind in MAKING else self.project.current
-            self.workspace.save(dataclasses.replace(self.project, steps=steps, current=now))
+            self.workspace.save(dataclasses.replace(self.project, steps=steps))
+            if current and step.model:
+                self.take(step)
             self.refresh()
         return step
+
+    def take(self, step: Step) -> None:
+        """Makes the model of a step the current one; an unedited robot file goes along.
+
+        Raises:
+            ModelerError: something cannot be written.
+        """
+        before = self.project.step(self.project.current)
+        place = self.workspace.folder / ROBOT
+        now = self.robot_of(step)
+        if before is not None and now and read_text(place) == self.robot_of(before):
+            write_atomically(place, now)
+        self.workspace.save(dataclasses.replace(self.project, current=step.number))
+
+    def robot_of(self, step: Step) -> str:
+        """The robot of a model, with effects that were added; "" where its file is gone."""
+        with contextlib.suppress(OSError, ValueError, TypeError, KeyError):
+            text = read_text(self.workspace.folder / (step.robot or step.model))
+            return text if step.robot else str(parse_json(text)["robot_text"])
+        return ""
 
     async def _way(self) -> None:
         """What gives way ends."""
@@ -166,14 +184,13 @@ class Hub:
             while self.running is before:
                 await asyncio.sleep(0.02)
 
-    def _prepare(self, asked: commands.Asked, number: int) -> None:
+    def _prepare(self, step: Step) -> None:
         """Folders, and the robot as it is now if the command works on a copy of it."""
         for name in FOLDERS:
             (self.workspace.folder / name).mkdir(parents=True, exist_ok=True)
-        copy = f"robots/{number}.toml"
-        if copy in asked.words:
-            text = read_text(self.workspace.folder / (self.project.robot or ROBOT))
-            write_atomically(self.workspace.folder / copy, text)
+        if step.robot:
+            text = read_text(self.workspace.folder / ROBOT)
+            write_atomically(self.workspace.folder / step.robot, text)
 
     def sheet(self, html: str, place: str = "/sheet/") -> str:
         """The address of a page of its own, for a frame inside the page.
@@ -242,8 +259,14 @@ class Studio:
 
     @property
     def read_only(self) -> bool:
-        """True in all windows but the first, and where another process has the folder open."""
-        return not self.hub.workspace.writable or self.hub.studios[:1] != [self]
+        """True in all windows but the first, where another process writes, in foreign projects."""
+        return not self.hub.workspace.may_change or self.hub.studios[:1] != [self]
+
+    @property
+    def why_read_only(self) -> str:
+        """The line that says it."""
+        foreign = self.hub.workspace.foreign
+        return FOREIGN.format(self.folder) if foreign else READ_ONLY
 
     def change(self, redraw: bool = False, **fields: Any) -> bool:
         """Makes the project another one; other windows show it.
@@ -257,7 +280,7 @@ class Studio:
         """
         try:
             if self.read_only:
-                raise ModelerError(READ_ONLY)
+                raise ModelerError(self.why_read_only)
             self.hub.workspace.save(dataclasses.replace(self.project, **fields))
         except ModelerError as error:
             self.show_error(str(error))
@@ -268,16 +291,26 @@ class Studio:
             studio.told()
         return True
 
-    async def run(
-        self, asked: commands.Asked, current: bool = True, keep: bool = True
-    ) -> Step | None:
-        """Carries out a command; None if it failed, whose line is shown then. See `Hub.run`."""
+    def take(self, step: Step) -> bool:
+        """Makes the model of a step the current one, in all windows; False if it cannot be."""
+        try:
+            if self.read_only:
+                raise ModelerError(self.why_read_only)
+            self.hub.take(step)
+        except ModelerError as error:
+            self.show_error(str(error))
+            return False
+        self.hub.refresh()
+        return True
+
+    async def run(self, task: Task, current: bool = True, keep: bool = True) -> Step | None:
+        """Carries out a task; None if it failed, whose line is shown then. See `Hub.run`."""
         if self.read_only:
-            self.show_error(READ_ONLY)
+            self.show_error(self.why_read_only)
             return None
         self.show_error("")
         try:
-            return await self.hub.run(asked, current, keep)
+            return await self.hub.run(task, current, keep)
         except ModelerError as error:
             self.show_error(str(error))
             return None
@@ -326,7 +359,7 @@ class Studio:
             DataError: there is none.
         """
         step = self.project.step(self.project.current)
-        if step is None or step.kind not in MAKING:
+        if step is None or step.verb not in MAKING:
             raise DataError("there is no model yet; fit one first")
         return step
 

@@ -8,9 +8,10 @@ from nicegui import ui
 
 from modeler.core.errors import ModelerError
 from modeler.robot import with_fitted
-from modeler.studio import commands, elements, recipe
+from modeler.studio import elements, recipe
 from modeler.studio.places import disk_use, size_text, spare
 from modeler.studio.studio import Studio
+from modeler.studio.tasks import Task
 
 _FORMATS = {"urdf": "URDF", "mjcf": "MJCF (MuJoCo)", "sdf": "SDF (Gazebo)"}
 _LIKE = (".urdf", ".xml", ".mjcf", ".sdf")
@@ -52,7 +53,7 @@ def _commanded(studio: Studio, name: str) -> None:
     with elements.part("C for the controller"):
         precision = ui.toggle(["double", "single"]).bind_value(chosen, "precision")
         renew = elements.run_button(
-            studio, "Write C", lambda: commands.generate(studio.project, chosen["precision"])
+            studio, "Write C", lambda: Task("generate", precision=chosen["precision"])
         )
         precision.props("no-caps").on_value_change(renew)
         _written(studio, "generate", f"{name}_c")
@@ -61,22 +62,24 @@ def _commanded(studio: Studio, name: str) -> None:
             to = ui.select(_FORMATS, label="format").bind_value(chosen, "to").classes("w-48")
             like = ui.select(kinds, label="into the bytes of").bind_value(chosen, "like")
         renew = elements.run_button(
-            studio, "Export", lambda: commands.export(studio.project, chosen["to"], chosen["like"])
+            studio,
+            "Export",
+            lambda: Task("export", to="" if chosen["like"] else chosen["to"], like=chosen["like"]),
         )
         to.on_value_change(renew)
         like.classes("w-64").on_value_change(renew)
         _written(studio, "export", name)
 
 
-def _written(studio: Studio, kind: str, name: str) -> None:
-    """What the last command of that kind wrote of this model, to be downloaded."""
-    step = studio.project.about(kind)
+def _written(studio: Studio, verb: str, name: str) -> None:
+    """What the last command of that verb wrote of this model, to be downloaded."""
+    step = studio.project.about(verb)
     if step is not None:
-        place, name = studio.folder / step.model, name + Path(step.model).suffix
+        place, name = studio.folder / step.output, name + Path(step.output).suffix
         with ui.row().classes("items-center no-wrap w-full"):
             title = f"Download {name}{'.zip' if place.is_dir() else ''}"
             _download(studio, title, name, lambda: place)
-            elements.command_line(step.words)
+            elements.step_line(studio, step)
 
 
 def _files(studio: Studio, name: str) -> None:
@@ -102,8 +105,7 @@ def _again(studio: Studio) -> None:
     """The steps as a script and as a notebook."""
 
     def own() -> recipe.Recipe:
-        names = [word for step in studio.project.steps for word in step.words]
-        copies = {name for name in names if commands.is_copy(name)}
+        copies = {step.robot for step in studio.project.steps} - {""}
         robots = {name: studio.text(name) for name in copies if (studio.folder / name).is_file()}
         return recipe.recipe(studio.project, studio.folder, robots)
 
@@ -116,7 +118,7 @@ def _again(studio: Studio) -> None:
             _download(studio, "Shell script", "steps.sh", lambda: recipe.script(own()).encode())
             _download(studio, "Notebook", "steps.ipynb", lambda: recipe.notebook(own()).encode())
         for step in own().steps:
-            elements.command_line(step.words)
+            elements.step_line(studio, step)
 
 
 def _disk(studio: Studio) -> None:

@@ -10,7 +10,8 @@ from nicegui import ui
 from nicegui.element import Element
 
 from modeler.core.files import resource_dir
-from modeler.studio.project import ProjectLog, Stretch
+from modeler.studio.project import ProjectLog
+from modeler.studio.tasks import Stretch
 
 ROLES: Mapping[str, str] = {"train": "training", "test": "held out", "out": "left out"}
 """What people call them."""

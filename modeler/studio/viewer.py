@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 import multiprocessing
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
@@ -12,6 +12,7 @@ from typing import Any
 
 from modeler.core.errors import DataError, ModelerError, short_of_memory
 from modeler.core.jobs import attend
+from modeler.studio import places
 
 
 class Viewer:
@@ -21,9 +22,14 @@ class Viewer:
     out), and ends with this one, even if that is killed. The event loop never waits.
     """
 
-    def __init__(self, folder: Path = Path()) -> None:
-        """Names of files are relative to the folder."""
-        self._folder = folder
+    def __init__(self, folder: Path = Path(), allowed: Sequence[Path] = ()) -> None:
+        """Names of files are relative to the folder.
+
+        Args:
+            folder: of the project.
+            allowed: folders in which files may be read; none: everywhere.
+        """
+        self._places = folder, tuple(allowed)
         self._pool: ProcessPoolExecutor | None = None
         self._turn = asyncio.Lock()
         self._newest: dict[str, int] = {}
@@ -66,7 +72,7 @@ class Viewer:
         if self._pool is None:
             context = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(
-                1, mp_context=context, initializer=_begun, initargs=(str(self._folder),)
+                1, mp_context=context, initializer=_begun, initargs=self._places
             )
         loop = asyncio.get_running_loop()
         return await loop.run_in_executor(self._pool, answer, function, arguments)
@@ -80,10 +86,11 @@ class Viewer:
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _begun(folder: str) -> None:
+def _begun(folder: Path, allowed: tuple[Path, ...]) -> None:
     """At the start of the process."""
     attend()
     os.chdir(folder)
+    places.READABLE = places.Roots(allowed)
 
 
 def answer(function: str, arguments: tuple[Any, ...]) -> Any:

@@ -34,6 +34,7 @@ from modeler.logs import (
 from modeler.observation import FINGER, LONG
 from modeler.robot import Robot, read_robot
 from modeler.runtime import CompiledModel
+from modeler.studio import places
 from modeler.studio.log_mapping import LogGuess, anybody, guess_from
 from modeler.validation import Prediction, running_time
 
@@ -67,6 +68,8 @@ def _kept(kind: str, key: Any, make: Callable[[], T], most: int = _HELD) -> T:
 def _state(place: str) -> tuple[str, int, int]:
     """A file as it is now; a window after it belongs to its name."""
     path = str(log_maps.file_and_span(place)[0])
+    if places.READABLE.folders:  # the same rule as for commands
+        places.READABLE.check_tree(path, Path(path))
     try:
         status = Path(path).stat()
     except OSError as error:

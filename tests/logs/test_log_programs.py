@@ -123,6 +123,13 @@ def test_files_of_log_are_read_by_what_they_hold(ending, case, tmp_path):
     assert found.names == ("time", "q1", "q2", "q3", "tau1", "tau2", "tau3")
 
 
+@pytest.mark.parametrize("end", ["/etc/q.csv", "../q.csv", "_/../../q.csv", 3])
+def test_files_of_log_lie_beside_it(end):
+    """A robot file of somebody else names no file elsewhere."""
+    with pytest.raises(DataError, match=r"files: got .*expected how the names of the files"):
+        map_from_table({"files": {"q": end}}, "[log]")
+
+
 def two(folder, q, tau, clocks=(0.0, 0.0)):
     """q.csv and tau.csv with these clocks, s later."""
     for name, rows, late in (("q", q, clocks[0]), ("tau", tau, clocks[1])):

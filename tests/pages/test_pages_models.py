@@ -1,5 +1,6 @@
 """Pages of a fit, of effects added and of models side by side, from the command line."""
 
+import dataclasses
 import json
 import re
 from dataclasses import dataclass
@@ -12,7 +13,14 @@ import pytest
 from modeler.cli import main
 from modeler.estimation.model_file import IdentifiedModel, load_model
 from modeler.report.fit import correlated_pairs
-from modeler.report.history import additions_page, joints_picture, waterfall_picture
+from modeler.report.history import (
+    BETTER,
+    SAME,
+    WORSE,
+    additions_page,
+    joints_picture,
+    waterfall_picture,
+)
 from modeler.report.page import write_page
 from modeler.report.values import relation
 from tests.captions import assert_all_named
@@ -202,3 +210,23 @@ def test_captions_of_waterfalls_name_their_colours(made: Made) -> None:
     values = np.concatenate([s.values for s in drawn.series])
     errors = [100.0 * step.joints["3"][1] for step in made.after.history]
     np.testing.assert_allclose(sorted(values[np.isfinite(values)]), sorted(errors))
+
+
+def test_a_joint_that_got_worse_has_another_colour(made: Made) -> None:
+    """A significant rise is no good news: it was drawn as a fall."""
+    first, *_, last = made.after.history
+    joints = {"1": (0.02, 0.03), "2": (0.03, 0.02), "3": (0.02, 0.0201)}
+    step = dataclasses.replace(last, joints=joints, changed=("1", "2"))
+    picture = joints_picture((first, step), dict.fromkeys("123", "N m"))
+    found = {
+        panel.title: {own.label: own.style for own in panel.series if np.isfinite(own.values[-1])}
+        for row in picture.panels
+        for panel in row
+    }
+    assert found == {
+        "Joint 1": {"significantly higher": WORSE},
+        "Joint 2": {"significantly lower": BETTER},
+        "Joint 3": {"not significant": SAME},
+    }
+    assert len({own.color for own in (SAME, BETTER, WORSE)}) == 3
+    assert_all_named(picture)

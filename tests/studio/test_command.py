@@ -86,12 +86,15 @@ def test_a_window_that_is_open_does_not_hold_it(tmp_path: Path) -> None:
         (("{}/file",), "cannot be used as a project folder"),
         (("{}", "--port", "{port}"), "cannot be opened (Address already in use); choose another"),
         (("{}/broken",), "expected a file that `modeler studio` wrote"),
+        (("{}/latin",), "project.toml: is not valid UTF-8 (byte 12); put the file back"),
     ],
 )
 def test_what_it_cannot_do_is_one_line(tmp_path, capsys, words, told) -> None:
     (tmp_path / "file").write_text("")
     (tmp_path / "broken").mkdir()
     (tmp_path / "broken/project.toml").write_text("robot = 3\nx =")
+    (tmp_path / "latin").mkdir()
+    (tmp_path / "latin/project.toml").write_bytes(b'without = "\xe9"')
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()

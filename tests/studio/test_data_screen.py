@@ -13,7 +13,8 @@ import scipy.io
 
 from modeler.cli import main
 from modeler.core.builtin import builtin_text
-from modeler.studio.project import Stretch
+from modeler.studio.project import Project, Workspace
+from modeler.studio.tasks import Stretch
 from tests.studio.window import Served, Window, served
 from tests.turns import in_turn
 
@@ -59,7 +60,7 @@ def project(folder: Path, robot: str = "demo-arm") -> Path:
     folder.mkdir(exist_ok=True)
     if robot:
         (folder / "robot.toml").write_text(builtin_text(robot), encoding="utf-8")
-        (folder / "project.toml").write_text('robot = "robot.toml"\n', encoding="utf-8")
+        Workspace(folder).save(Project("robot.toml"))
     return folder
 
 

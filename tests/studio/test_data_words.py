@@ -12,7 +12,8 @@ from modeler.core.manifest import JointSpec
 from modeler.logs import map_from_table, map_from_words
 from modeler.studio import timeline
 from modeler.studio.log_mapping import Choice, as_mapped, choices, units_of, words_of
-from modeler.studio.project import ProjectLog, Stretch
+from modeler.studio.project import ProjectLog
+from modeler.studio.tasks import Stretch
 from modeler.studio.viewing import log_film, log_guess, log_window
 
 
@@ -164,14 +165,18 @@ def test_every_instant_has_one_role(seed: int) -> None:
     np.testing.assert_array_equal(inside(timeline.painted(left, held, "in").out, times), out & ~own)
 
 
+def words(log: ProjectLog, role: str) -> list[str]:
+    return [part.word for part in log.parts(role)]
+
+
 def test_first_roles() -> None:
     a, b, c = (ProjectLog(name) for name in ("a", "b", "c"))
     ends = {"a": (0.0, 10.0), "b": (5.0, 6.0)}
     (only,) = timeline.by_default((a,), ends)
-    assert only.words("train") == ["a@:7"] and only.words("test") == ["a@7:"]
+    assert words(only, "train") == ["a@:7"] and words(only, "test") == ["a@7:"]
     first, second, broken = timeline.by_default((a, b, c), ends)
-    assert first.words("train") == ["a"] and second.words("test") == ["b"]
-    assert broken.words("train") == broken.words("test") == []
+    assert words(first, "train") == ["a"] and words(second, "test") == ["b"]
+    assert words(broken, "train") == words(broken, "test") == []
 
 
 # Where doubts lie.

@@ -14,13 +14,14 @@ from modeler.api import load, simulate
 from modeler.core.builtin import builtin_text
 from modeler.robot import robot_from_text
 from modeler.robot.edit import with_parameters
-from modeler.studio.project import FOLDERS, Project, ProjectLog, Step, Stretch, Workspace
+from modeler.studio.project import FOLDERS, Project, ProjectLog, Workspace
+from modeler.studio.tasks import LogPart, Step, Stretch, Task, command_line
 from tests.studio.window import Served, Window, served
 from tests.turns import in_turn
 
-FIT = ("fit", "robot.toml", "logs/monday.parquet", "--out", "models/1.json")
-ADD = ("add", "models/1.json", "load_friction", "logs/monday.parquet", "--joint", "2", "--holdout",
-       "logs/tuesday.parquet", "--out", "models/2.json")  # fmt: skip
+MONDAY, TUESDAY = (LogPart(f"logs/{day}.parquet") for day in ("monday", "tuesday"))
+FIT = Step(1, 0, Task("fit", (MONDAY,)))
+ADD = Step(2, 1, Task("add", (MONDAY,), (TUESDAY,), effect="load_friction", joint="2"))
 RANGES = """() => [...document.querySelectorAll('.js-plotly-plot')]
     .filter((p) => p._fullLayout && p._fullLayout.meta.time)
     .map((p) => p._fullLayout.xaxis.range.map(Number))"""
@@ -44,18 +45,15 @@ def studio(tmp_path_factory) -> Iterator[Served]:
     for seed, day in enumerate(("monday", "tuesday"), start=31):
         log = f"logs/{day}.parquet"
         command(folder, "simulate", "demo-arm", *hidden, "--seed", str(seed), "--out", log)
-    command(folder, *FIT)
-    command(folder, *ADD)
+    (folder / FIT.robot).write_text(builtin_text("demo-arm"))
+    for step in (FIT, ADD):
+        command(folder, *command_line(step))
     whole = (Stretch(),)
     logs = (
         ProjectLog("logs/monday.parquet", train=whole),
         ProjectLog("logs/tuesday.parquet", test=whole),
     )
-    steps = (
-        Step(1, 0, "fit", FIT, "fit", "models/1.json"),
-        Step(2, 1, "add", ADD, "add load_friction@2", "models/2.json"),
-    )
-    Workspace(folder).save(Project("robot.toml", 1, logs=logs, steps=steps))
+    Workspace(folder).save(Project("robot.toml", 1, logs=logs, steps=(FIT, ADD)))
     with served(folder) as running:
         yield running
 
@@ -197,14 +195,15 @@ def test_days_models_and_drift_are_compared(look, studio) -> None:
     drawn(own, "Joint 2: what each model leaves")
     drawn(own, "Joint 2: measured and predicted")
     contest = studio.project.steps[-1]
-    assert contest.words == ("compare", "models/1.json", "models/2.json", "logs/tuesday.parquet")
+    words = ("compare", "models/1.json", "models/2.json", "logs/tuesday.parquet")
+    assert command_line(contest) == words
     assert studio.project.current == 1  # a comparison makes no model
     page.get_by_role("tab", name="What drifted").click()
     own.click("Look for drift")
     own.sees("What drifted, leapt or is apart")
     own.sees("nothing drifts")
     drawn(own, "Changes")
-    assert studio.project.steps[-1].words[0] == "fleet"
+    assert studio.project.steps[-1].verb == "fleet"
     assert own.complaints == []
 
 
@@ -238,7 +237,7 @@ def test_what_drifted_is_named_with_its_picture(window: Callable[..., Window], t
         told = row.inner_text()
         assert "r2" in told and "jump" in told and "2026-03-03" in told and "sigma" in told
         drawn(own, "Fs2 [N m]")
-        assert "--name" in studio.project.steps[-1].words
+        assert studio.project.steps[-1].task.name
         assert own.complaints == []
 
 

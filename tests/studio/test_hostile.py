@@ -2,92 +2,295 @@
 
 import ast
 import asyncio
+import dataclasses
+import itertools
 import json
-from dataclasses import replace
+import os
+import random
+import subprocess
+from collections.abc import Awaitable
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 from modeler import studio
+from modeler.cli import main
+from modeler.cli.commands import parser
+from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError, ModelerError
-from modeler.studio.commands import Asked
+from modeler.estimation import load_model, save_model
 from modeler.studio.places import Roots
-from modeler.studio.project import (
-    Project,
-    ProjectLog,
-    Step,
-    Stretch,
-    Workspace,
-    project_from_text,
-    project_text,
+from modeler.studio.project import Project, ProjectLog, Workspace, project_from_text, project_text
+from modeler.studio.recipe import notebook, recipe, script
+from modeler.studio.studio import Hub, Studio
+from modeler.studio.tasks import FIELDS, LogPart, Step, Stretch, Task, Verb, command_line
+
+# What a project of somebody else may do, once it is accepted: these commands, with these options.
+FIT = (
+    "--map --method --derivatives --cutoff --parallel-cutoff --low-speed --essential-below "
+    "--effects"
 )
-from modeler.studio.recipe import notebook, recipe
-from modeler.studio.studio import Hub
+ALLOWED = {
+    "fit": f"{FIT} --out",
+    "add": "--holdout --map --joint --out",
+    "compare": "--map",
+    "contest": "--map",
+    "diagnose": "--holdout --map --without",
+    "excite": "--between --duration --limit --out",
+    "generate": "--precision --out",
+    "export": "--to --like --out",
+    "page": f"{FIT} --holdout --without --joint --out --report",
+    "log": "--robot --map",
+    "new": "--joints --template --convention --force",
+    "convert": "--out --force",
+    "derive": "--no-terms",
+    "simulate": "--duration --noise --hide --seed --out",
+    "fleet": "--name --map",
+}
 
-
-@pytest.mark.parametrize(
-    "file",
-    [
-        "/etc/passwd", "../robot.toml", "models/../../x.json", "models/..", "..", "~/x", "a\nb",
-        "models/1;import os.json", 'x"y', "-x y", "models//x", "./x",
-    ],
+WORDS = {
+    "mapping": "q1=a:deg", "limit": "1=-1,1,2,3", "between": "a@1,b@2", "effects": "viscous",
+    "without": "spring@1", "effect": "spring", "joint": "2", "method": "robust",
+    "derivatives": "log", "precision": "single", "to": "urdf", "like": "arm.urdf",
+    "joints": "RRR", "template": "serial", "convention": "craig", "name": "{machine}-{period}.csv",
+}  # fmt: skip
+HARM = (
+    "--run-embedded-c", "-x", "--out=../x", "--report", "-", "../../x", "a/../../x", "/etc/passwd",
+    "a\nb", "\x00", "--", "logs/../../a.csv", "..", " --run-embedded-c", "\u2212-x", "a\\..\\b",
 )  # fmt: skip
-@pytest.mark.parametrize("field", ["robot", "model", "result", "pictures"])
-def test_a_project_names_no_file_outside(file: str, field: str) -> None:
-    step = Step(1, 0, "fit", ("fit",))
-    project = Project(steps=(step,))
-    project = (
-        Project(robot=file)
-        if field == "robot"
-        else replace(project, steps=(replace(step, **{field: file}),))
-    )
-    with pytest.raises(DataError, match=r"is no file of this folder; expected a file that"):
+MAY_BE = {"file", "like", "logs", "held", "mapping", "limit", "between", "name", "without"}
+
+
+def task_of(verb: Verb, **harm: object) -> Task:
+    """One with all the values that its verb may have."""
+    own: dict[str, object] = {}
+    for field in dataclasses.fields(Task)[1:]:
+        if field.name not in FIELDS[verb].split():
+            continue
+        if field.name in ("logs", "held"):
+            own[field.name] = (LogPart("logs/a.csv", Stretch(0.0, 2.0)),)
+        elif field.name == "file":
+            own["file"] = "logs/a.csv"
+        elif field.name == "robot":
+            own["robot"] = True
+        elif field.name == "models":
+            own["models"] = (1, 2)
+        elif field.name in WORDS:
+            many = isinstance(field.default, tuple)
+            own[field.name] = (WORDS[field.name],) if many else WORDS[field.name]
+        else:
+            own[field.name] = 1
+    if verb == "export":
+        del own["like"]
+    return Task(verb, **{**own, **harm})  # type: ignore[arg-type]
+
+
+STEPS = tuple(
+    Step(n, min(n - 1, 1), task_of(verb))
+    for n, verb in enumerate(("fit", "add", "compare", "diagnose"), start=1)
+)
+
+
+PARSER = parser()
+
+
+def check_harmless(verb: Verb, words: tuple[str, ...]) -> None:
+    """No option but those of the list, and argparse finds no other one either."""
+    options = {word for word in words if word.startswith("-")}
+    assert options <= set(ALLOWED[verb].split()), words
+    assert not vars(PARSER.parse_args(words)).get("run_embedded_c"), words
+
+
+@pytest.mark.parametrize("verb", get_args(Verb))
+def test_what_a_project_of_somebody_else_may_do(verb: Verb) -> None:
+    """The whole list: a step holds values, and these are all options that they become."""
+    assert set(FIELDS) == set(ALLOWED) == set(get_args(Verb))
+    for of in STEPS if verb == "page" else STEPS[:1]:
+        task = Task("page", step=of.number) if verb == "page" else task_of(verb)
+        words = command_line(Step(9, 1, task), STEPS)
+        check_harmless(verb, words)
+        assert [word for word in words if word.startswith("-")]
+
+
+@pytest.mark.parametrize("verb", get_args(Verb))
+def test_no_value_is_an_option_or_leads_out(verb: Verb, tmp_path: Path) -> None:
+    """A value is refused, or it is that value of that option, and its files are inside."""
+    roots = Roots((tmp_path,))
+    for field, harm in itertools.product(dataclasses.fields(Task)[1:], HARM):
+        if field.default in (0, False, None) or field.name == "models":
+            continue  # numbers
+        many = isinstance(field.default, tuple)
+        value = LogPart(harm) if field.name in ("logs", "held") else harm
+        step = Step(9, 1, task_of(verb, **{field.name: (value,) if many else value}))
+        text = project_text(Project(steps=(*STEPS, step)))
+        try:
+            words = command_line(step, STEPS)
+        except DataError:
+            with pytest.raises(DataError):
+                project_from_text(text, "project.toml")
+            continue
+        assert project_from_text(text, "project.toml").steps[-1] == step
+        assert field.name in MAY_BE
+        check_harmless(verb, words)
+        if field.name in ("file", "like", "logs", "held") and harm.startswith("/"):
+            with pytest.raises(DataError, match="outside the folders that this studio may use"):
+                roots.check_words(tmp_path, words)
+
+
+def test_a_step_that_holds_words_is_no_step() -> None:
+    """The words of a step were run again for its report page: they compiled C of a model file."""
+    for more in ('words = ["compare", "--run-embedded-c"]', 'model = "--run-embedded-c"'):
+        text = f"[[steps]]\nnumber = 1\nparent = 0\ntask = {{ verb = 'compare' }}\n{more}\n"
+        with pytest.raises(DataError, match="is unknown"):
+            project_from_text(text, "project.toml")
+    page = Step(2, 1, Task("page", step=1))
+    for of in (Task("generate"), Task("page", step=2), Task("simulate", file="logs/a.csv")):
+        with pytest.raises(DataError, match="has no report page"):
+            command_line(page, (Step(1, 0, of), page))
+
+
+CONSTRUCTOR = """
+#include <stdio.h>
+__attribute__((constructor)) static void harm(void) {{
+    FILE *file = fopen("{}", "w"); if (file) fclose(file);
+}}
+"""
+
+
+def test_changed_c_of_a_model_is_never_run(tmp_path: Path) -> None:
+    """All that a project may do with its model, and all that is drawn of it."""
+    folder, mark = tmp_path / "p", tmp_path / "harmed"
+    (folder / "logs").mkdir(parents=True)
+    (folder / "robot.toml").write_text(builtin_text("emps"))
+    place, log = folder / "models/1.json", (LogPart("logs/a.csv"),)
+    place.parent.mkdir()
+    for words in ("simulate emps --duration 4 --rate 200 --out LOG", "fit emps LOG --out MODEL"):
+        given = words.replace("LOG", str(folder / "logs/a.csv")).replace("MODEL", str(place))
+        assert main(given.split()) == 0
+    model, code = load_model(place), CONSTRUCTOR.format(mark)
+    changed = {**model.sources, "emps.c": model.sources["emps.c"] + code}
+    save_model(place, dataclasses.replace(model, sources=changed))  # with its checksum
+    load_model(place).compile()
+    assert mark.exists()  # it would do harm
+    mark.unlink()
+    Workspace(folder).save(Project("robot.toml", 1, steps=(Step(1, 0, Task("fit", log)),)))
+    hub = Hub(Workspace(folder), (), {})
+
+    async def work() -> None:
+        done = await hub.run(Task("compare", log))
+        await hub.run(Task("page", step=done.number))
+        await hub.run(Task("generate"))
+        await Studio(hub, "fails").view("verdict", "models/1.json", ["logs/a.csv"])
+
+    try:
+        asyncio.run(work())
+    finally:
+        hub.close()
+    assert [step.verb for step in hub.project.steps] == ["fit", "compare", "page", "generate"]
+    assert not mark.exists()
+    written = [path.read_text() for path in (folder / "taken").rglob("*.[ch]")]
+    assert written and not any(str(mark) in text for text in written)
+
+
+@pytest.mark.parametrize("place", ["mapping", "without", "logs"])
+@pytest.mark.parametrize("harm", ["--run-embedded-c", "-x", "a\nb", "", "../x.toml"])
+def test_nor_do_the_values_beside_the_steps(place: str, harm: str) -> None:
+    if (place, harm) == ("without", "../x.toml"):
+        return  # an effect, which there is not
+    value = (ProjectLog(harm, (Stretch(),)),) if place == "logs" else (harm,)
+    project = dataclasses.replace(Project(), **{place: value})
+    with pytest.raises(DataError, match=r"expected|empty"):
         project_from_text(project_text(project), "project.toml")
 
 
-def test_files_of_the_studio_itself_are_its_own() -> None:
-    step = Step(
-        3, 0, "fit", ("fit",), "", "models/3.json", "results/3.json", "results/3.pictures.json"
-    )
-    project = Project(robot="robot.toml", steps=(step, replace(step, number=4, model="taken/4_c")))
-    assert project_from_text(project_text(project), "project.toml") == project
+def test_numbers_name_files(tmp_path: Path) -> None:
+    for number, parent in ((0, 0), (-1, 0), (10**9, 0), (1, -3)):
+        text = project_text(Project(steps=(Step(number, parent, Task("derive")),)))
+        with pytest.raises(DataError, match="expected 1 to 999999999"):
+            project_from_text(text, "project.toml")
 
 
-@pytest.mark.parametrize(
-    ("words", "outside"),
-    [
-        (("fit", "robots/1.toml", "logs/a.csv@1:2", "--out", "models/1.json"), False),
-        (("log", "{0}/data/a.csv", "--map", "q1=/joint_states.position[0]:rad"), False),
-        (("log", "{0}/data/a.csv@0:5"), False),
-        (("log", "{0}/other/a.csv"), True), (("log", "{0}/other/a.csv@0:5"), True),
-        (("log", "../other/a.csv"), True), (("log", "logs/../../other/a.csv"), True),
-        (("derive", "emps", "--coefficients-out", "{0}/.bashrc.md"), True),
-        (("derive", "emps", "--coefficients-out=../.bashrc.md"), True),
-        (("log", "logs/a.csv", "--map", "/etc/passwd"), True),
-        (("fit", "emps", "logs/a.csv", "--out", "models/out.json"), True),
-        (("fit", "emps", "linked/a.csv", "--out", "models/1.json"), True),
-    ],
-)  # fmt: skip
-def test_words_lead_nowhere_else(tmp_path: Path, words: tuple[str, ...], outside: bool) -> None:
-    """Neither those of a project.toml, nor links that came with the folder."""
+def test_thousands_of_mutated_projects_end_in_a_line(tmp_path: Path) -> None:
+    """Bytes of a sound file changed: it is read, or one line says what is wrong."""
+    steps = (*STEPS, *(Step(n + 3, 1, task_of(verb)) for n, verb in enumerate(("add", "excite"))))
+    log = ProjectLog("logs/a.csv", (Stretch(0.0, 2.0),))
+    sound = project_text(Project("robot.toml", 1, ("q1=a",), logs=(log,), steps=steps)).encode()
+    draw = random.Random(45)
+    place = tmp_path / "project.toml"
+    for _ in range(500):
+        content = bytearray(sound)
+        for _ in range(draw.randrange(1, 4)):
+            at = draw.randrange(len(content))
+            content[at : at + draw.choice((0, 1, 9))] = draw.choice(
+                (b"", b'"', b"-", b"\xff", b"[", b"1e999", b"--out", b"\n", b"{", b"../")
+            )
+        place.write_bytes(content)
+        try:
+            project = Workspace(tmp_path).project
+        except DataError as error:
+            assert "\n" not in str(error)
+        else:
+            for step in project.steps:
+                words = command_line(step, project.steps)
+                assert "--run-embedded-c" not in words and "--out" not in words[1:-2]
+
+
+def test_logs_outside_are_neither_run_nor_drawn(tmp_path: Path) -> None:
+    """One rule for commands and for what is drawn, whoever lists the log."""
     folder = tmp_path / "project"
-    for name in ("project/models", "project/logs", "data", "other"):
+    for name in ("project/logs", "data", "other"):
         (tmp_path / name).mkdir(parents=True)
-    given = tuple(word.format(tmp_path) if "{0}" in word else word for word in words)
-    hub = Hub(Workspace(folder), (tmp_path / "data",), {})
-    (folder / "models/out.json").symlink_to(tmp_path / ".profile")
+    rows = "\n".join(f"{0.01 * k},{0.1 * k},{k % 7}" for k in range(50))
+    for name in ("project/logs", "data", "other"):
+        (tmp_path / name / "a.csv").write_text(f"time,q1,tau1\n{rows}\n")
     (folder / "linked").symlink_to(tmp_path / "other")
-    if not outside:
-        Roots((folder, tmp_path / "data")).check_words(folder, given)
-        return
-    with pytest.raises(ModelerError, match=r"outside the folders that this studio may use; start"):
-        asyncio.run(hub.run(Asked(given[0], given, "do harm")))
-    assert not (tmp_path / ".profile").exists() and not list(folder.glob("results/*"))
+    (folder / "logs/link.csv").symlink_to(tmp_path / "other/a.csv")
+    (folder / "logs/run_q.csv").symlink_to(tmp_path / "other/a.csv")
+    (folder / "logs/many").mkdir()
+    (folder / "logs/many/a.csv").symlink_to(tmp_path / "other/a.csv")
+    hub = Hub(Workspace(folder), (tmp_path / "data",), {})
+
+    async def told(asked: Awaitable[object]) -> str:
+        try:
+            await asked
+        except ModelerError as error:
+            return str(error)
+        return ""
+
+    async def every() -> None:
+        view = Studio(hub, "data").view
+        for file in ("logs/a.csv", f"{tmp_path}/data/a.csv"):
+            assert await told(view("log_facts", str(folder / file))) == ""
+        for file in (
+            f"{tmp_path}/other/a.csv",
+            "linked/a.csv",
+            "logs/link.csv",
+            "logs/many",
+            "logs/run",
+        ):
+            for asked in (hub.run(Task("log", file=file)), view("log_facts", str(folder / file))):
+                line = await told(asked)
+                assert "outside the folders that this studio may use; start it with" in line
+
+    try:
+        asyncio.run(every())
+    finally:
+        hub.close()
 
 
 @pytest.mark.parametrize(
     "name",
-    ["robot.toml", "robot.draft.toml", "project.toml", "models", "robots/1.toml", "taken/3_c"],
+    [
+        "robot.toml",
+        "robot.draft.toml",
+        "models",
+        "robots/1.toml",
+        "taken/3_c",
+        "logs",
+        "originals",
+        "taken/4_c/deep/model.c",
+    ],
 )
 def test_a_project_whose_places_are_links_is_not_opened(tmp_path: Path, name: str) -> None:
     """They would be written over: a robot that is edited ended in somebody's profile."""
@@ -112,38 +315,28 @@ def test_no_file_outside_is_downloaded(tmp_path: Path) -> None:
             hub.download(tmp_path / "p" / name, "x")
 
 
-def test_a_notebook_holds_words_as_words(tmp_path: Path) -> None:
+def test_a_notebook_and_a_script_hold_values_as_values(tmp_path: Path) -> None:
     """What is taken away is run elsewhere, by somebody who trusts it."""
-    evil = "__import__('pathlib').Path('evil').write_text('x')"
-    simulate = ("simulate", f"robots/1.toml{evil}", "--out", f"logs/{evil}.csv", "--hide", evil)
-    fit = ("fit", "robots/2.toml", f"logs/{evil}.csv", "--map", f"q1={evil}", "--method", evil,
-           "--out", "models/2.json")  # fmt: skip
-    add = (
-        "add",
-        "models/2.json",
-        evil,
-        f"logs/{evil}.csv",
-        "--joint",
-        evil,
-        "--out",
-        "models/3.json",
-    )
-    steps = (
-        Step(1, 0, "simulate", simulate, f"a\n{evil}"),
-        Step(2, 0, "fit", fit, evil, "models/2.json"),
-        Step(3, 2, "add", add, evil, "models/3.json"),
-    )
+    evil = "__import__('pathlib').Path('evil').write_text('x') $(touch evil) `touch evil`"
+    logs = (LogPart(f"logs/{evil}.csv"),)
+    tasks = (Task("fit", logs, mapping=(f"q1={evil}",)), Task("diagnose", logs, without=(evil,)),
+             Task("add", logs, logs, effect="spring"))  # fmt: skip
+    steps = tuple(Step(k, min(k - 1, 1), task) for k, task in enumerate(tasks, start=1))
     project = Project("robot.toml", 3, steps=steps, logs=(ProjectLog("logs/a.csv", (Stretch(),)),))
-    book = json.loads(notebook(recipe(project, tmp_path / evil, {})))
-    for cell in book["cells"]:
+    own = recipe(project, tmp_path / evil, {})
+    for cell in json.loads(notebook(own))["cells"]:
         if cell["cell_type"] == "code":
             for node in ast.walk(ast.parse("".join(cell["source"]))):
                 assert not (isinstance(node, ast.Name) and node.id == "__import__")
-    number = replace(
-        steps[0], words=("simulate", "emps", "--duration", evil, "--out", f"logs/{evil}.csv")
-    )
-    with pytest.raises(ValueError, match="could not convert"):
-        notebook(recipe(replace(project, steps=(number, *steps[1:]), logs=()), tmp_path, {}))
+    (tmp_path / "steps.sh").write_text(script(own))
+    environment = {"PATH": os.environ["PATH"], "MODELER": "true"}
+    done = subprocess.run(["sh", "../steps.sh"], cwd=empty(tmp_path), env=environment)
+    assert done.returncode == 0 and not list(tmp_path.rglob("evil"))
+
+
+def empty(folder: Path) -> Path:
+    (folder / "fresh").mkdir()
+    return folder / "fresh"
 
 
 # Parts of an attribute that are no names of anybody's.

@@ -10,8 +10,9 @@ from modeler.cli import main
 from modeler.core.builtin import builtin_text
 from modeler.studio import commands
 from modeler.studio.app import JOBS
-from modeler.studio.project import Project, ProjectLog, Stretch, Workspace
+from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub
+from modeler.studio.tasks import Stretch
 from tests.studio.window import served
 
 RUN = "window.pwned=1"

@@ -63,7 +63,7 @@ class Person:
         self.until(lambda: self.count("log") > before)
 
     def count(self, kind: str) -> int:
-        return sum(step.kind == kind for step in self.studio.project.steps)
+        return sum(step.verb == kind for step in self.studio.project.steps)
 
     def until(self, holds: Callable[[], bool], seconds: float = 120.0) -> None:
         for _ in range(int(5 * seconds)):
@@ -115,7 +115,7 @@ class Person:
         self.window.sees("Verdict")
         self.page.wait_for_timeout(1000)
         self.keep("missing")
-        step = next(step for step in self.studio.project.steps if step.kind == "diagnose")
+        step = next(step for step in self.studio.project.steps if step.verb == "diagnose")
         found = self.studio.result(step)
         return [f"{one['effect']}@{one['joint']}" for one in found["effects"]]
 
@@ -253,6 +253,6 @@ def test_measured_logs(tmp_path, window, measured_folder: Path) -> None:
         person.chooses(folder / "pulses.parquet")
         all_of(person)
         assert studio.project.logs[0].file == str(folder / "train.parquet")
-        fit = next(step for step in studio.project.steps if step.kind == "fit")
+        fit = next(step for step in studio.project.steps if step.verb == "fit")
         values = {one["name"]: one["value"] for one in studio.result(fit)["parameters"]}
         assert values["Fs1"] == pytest.approx(20.0, rel=0.05)  # as published, N

@@ -19,14 +19,15 @@ from modeler.core.errors import ModelerError
 from modeler.estimation import load_model
 from modeler.studio import commands
 from modeler.studio.places import folder_lock
-from modeler.studio.project import FILE, FOLDERS, Project, ProjectLog, Stretch, Workspace
+from modeler.studio.project import FILE, FOLDERS, Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub
+from modeler.studio.tasks import Stretch
 from tests.studio.test_dropped import wait_until
 from tests.turns import IN_TURN
 
 # What windows do to a project, without windows: a fit, an effect more, back again, and so on.
 WORKING = """
-import asyncio, dataclasses, sys
+import asyncio, sys
 from pathlib import Path
 from modeler.studio import commands
 from modeler.studio.places import folder_lock
@@ -39,7 +40,7 @@ async def work(hub):
         print(hub.project.next_number - 1, flush=True)
         await hub.run(commands.add(hub.project, "spring", None))
         print(hub.project.next_number - 1, flush=True)
-        hub.workspace.save(dataclasses.replace(hub.project, current=hub.project.next_number - 2))
+        hub.take(hub.project.step(hub.project.next_number - 2))
 
 folder = Path(sys.argv[1])
 with folder_lock(folder) as own:

@@ -11,7 +11,8 @@ import pytest
 
 from modeler.core.errors import DataError, ModelerError
 from modeler.studio.places import ROBOT_ENDINGS, Roots, disk_use, folder_lock, size_text, spare
-from modeler.studio.project import Project, Step
+from modeler.studio.project import Project
+from modeler.studio.tasks import Step, Task
 
 
 @pytest.fixture
@@ -134,19 +135,11 @@ def test_disk_is_counted_by_what_it_is_for(tmp_path: Path) -> None:
     assert [size_text(n) for n in (999, 1500, 2.5e9, 3e12)] == ["999 B", "1.5 kB", "2.5 GB", "3 TB"]
 
 
-def step(number: int, parent: int, kind: str, **more: str) -> Step:
-    words = (kind, f"robots/{number}.toml")
-    return Step(number, parent, kind, words, result=f"results/{number}.json", **more)
-
-
 def test_tidying_takes_what_no_step_on_the_way_needs(tmp_path: Path) -> None:
     """1 fit, 2 diagnose, 3 add, then back to 1: 4 add; 5 and 6 are about models; 7 never ended."""
-    made = {n: {"model": f"models/{n}.json"} for n in (1, 3, 4)}
-    steps = (
-        step(1, 0, "fit", **made[1]), step(2, 1, "diagnose"), step(3, 1, "add", **made[3]),
-        step(4, 1, "add", **made[4]), step(5, 3, "compare"), step(6, 4, "compare"),
-        step(8, 0, "simulate"),
-    )  # fmt: skip
+    way = ((1, 0, "fit"), (2, 1, "diagnose"), (3, 1, "add"), (4, 1, "add"), (5, 3, "compare"),
+           (6, 4, "compare"), (8, 0, "simulate"))  # fmt: skip
+    steps = tuple(Step(number, parent, Task(verb)) for number, parent, verb in way)
     project = Project(robot="robot.toml", current=4, steps=steps)
     for folder in ("robots", "models", "results", "logs"):
         (tmp_path / folder).mkdir()
@@ -171,10 +164,13 @@ def test_tidying_takes_what_no_step_on_the_way_needs(tmp_path: Path) -> None:
 
 
 def test_what_another_step_names_stays(tmp_path: Path) -> None:
+    """A comparison of the current model with one that was set aside."""
     (tmp_path / "models").mkdir()
-    (tmp_path / "models/2.json").write_text("x")
-    steps = (step(1, 0, "fit", model="models/2.json"),)
-    assert spare(tmp_path, Project(current=1, steps=steps)).files == ()
+    for n in (1, 2, 3):
+        (tmp_path / f"models/{n}.json").write_text("x")
+    fits = tuple(Step(n, 0, Task("fit")) for n in (1, 2, 3))
+    steps = (*fits, Step(4, 1, Task("contest", models=(1, 2))))
+    assert spare(tmp_path, Project(current=1, steps=steps)).files == ("models/3.json",)
 
 
 def test_the_lock_of_windows(tmp_path: Path, monkeypatch) -> None:

@@ -15,32 +15,44 @@ from modeler.studio.project import (
     FILE,
     Project,
     ProjectLog,
-    Step,
-    Stretch,
     Workspace,
     project_from_text,
     project_text,
 )
+from modeler.studio.tasks import LogPart, Step, Stretch, Task
 from modeler.studio.timeline import told
 
-_TEXT = st.text(st.characters(exclude_categories=["Cs"]), max_size=12)
-_FILE = st.from_regex(r"([a-z][\w.+-]{0,9}/){0,2}[a-z][\w.+-]{0,9}", fullmatch=True) | st.just("")
+_NAME = st.from_regex(r"[a-z]\w{0,9}", fullmatch=True)
+_FILE = st.from_regex(r"([\w ][\w.+'\" -]{0,9}/){0,2}[a-z\u00e9][\w.+ ]{0,9}", fullmatch=True)
 _SECOND = st.floats(0.0, 1e4, allow_nan=False) | st.sampled_from([-math.inf, math.inf])
-_STRETCHES = st.lists(st.builds(Stretch, _SECOND, _SECOND), max_size=3).map(tuple)
-_LOGS = st.lists(st.builds(ProjectLog, _TEXT, _STRETCHES, _STRETCHES, _STRETCHES), max_size=3)
+_STRETCH = st.builds(Stretch, _SECOND, _SECOND)
+_STRETCHES = st.lists(_STRETCH, max_size=3).map(tuple)
+_LOGS = st.lists(st.builds(ProjectLog, _FILE, _STRETCHES, _STRETCHES, _STRETCHES), max_size=3)
+_PARTS = st.lists(st.builds(LogPart, _FILE, _STRETCH), max_size=3).map(tuple)
+_MAPPING = st.lists(_NAME.map(lambda name: f'{name}=a "b" [{name}]:deg'), max_size=3).map(tuple)
+_NUMBER = st.none() | st.floats(0.0, 1e5)
+_NAMES = st.lists(_NAME, max_size=3).map(tuple)
+_TASK = st.one_of(
+    st.builds(Task, st.just("fit"), _PARTS, mapping=_MAPPING, method=_NAME, cutoff=_NUMBER,
+              low_speed=_NUMBER, effects=_NAMES),
+    st.builds(Task, st.just("add"), _PARTS, _PARTS, _MAPPING, effect=_NAME, joint=_NAME),
+    st.builds(Task, st.just("diagnose"), _PARTS, _PARTS, without=_NAMES),
+    st.builds(Task, st.just("log"), file=_FILE, robot=st.booleans(), mapping=_MAPPING),
+    st.builds(Task, st.just("contest"), models=st.tuples(st.integers(1, 9), st.integers(1, 9))),
+)  # fmt: skip
 _STEPS = st.lists(
     st.builds(
-        Step, st.integers(1, 99), st.integers(0, 99), _TEXT, st.lists(_TEXT, max_size=4).map(tuple),
-        _TEXT, _FILE, _FILE, _FILE, st.floats(0.0, 1e5, allow_nan=False), _TEXT,
+        Step, st.integers(1, 99), st.integers(0, 99), _TASK, st.floats(0.0, 1e5, allow_nan=False),
+        st.text(st.characters(exclude_categories=["Cs"]), max_size=12),
     ),
-    max_size=3,
+    max_size=3, unique_by=lambda step: step.number,
 )  # fmt: skip
 
 
 @given(
     st.builds(
-        Project, _FILE, st.integers(0, 99), st.lists(_TEXT, max_size=3).map(tuple),
-        st.lists(_TEXT, max_size=3).map(tuple), _LOGS.map(tuple), _STEPS.map(tuple),
+        Project, st.sampled_from(["", "robot.toml"]), st.just(0), _MAPPING, st.booleans(), _NAMES,
+        _LOGS.map(tuple), _STEPS.map(tuple),
     )
 )  # fmt: skip
 def test_whatever_a_project_holds_is_read_back(project: Project) -> None:
@@ -53,7 +65,12 @@ def test_whatever_a_project_holds_is_read_back(project: Project) -> None:
     ("text", "told"),
     [
         ("robot = ", "Invalid value"),
-        ("robot = 3", "robot is 3, expected text"),
+        ("robot = 3", "robot is 3, expected"),
+        ("robot = '/etc/passwd'", "robot is '/etc/passwd', expected"),
+        ("current = 3", "current: got 3; expected a step that made a model, or 0"),
+        ("[[steps]]\nnumber = 1\nparent = 0\ntask = 3", "steps[0].task is 3, expected an object"),
+        ("[[steps]]\nnumber = 1\nparent = 0\ntask = { verb = 'rm' }", "steps[0].task.verb is 'rm'"),
+        (2 * "[[steps]]\nnumber = 1\nparent = 0\ntask = { verb = 'derive' }\n", "the same number"),
         ("color = 'blue'", "'color' is unknown"),
         ("[[logs]]\ntrain = []", "logs[0].file is missing"),
         ("[[steps]]\nnumber = 1.5", "steps[0]"),
@@ -87,20 +104,18 @@ def test_what_is_left_of_a_stretch_is_all_but_its_gaps() -> None:
 def test_stretches_are_written_as_commands_take_them() -> None:
     whole, middle = Stretch(), Stretch(2.0, 8.5)
     log = ProjectLog("logs/a.csv", train=(whole,), test=(middle,), out=(Stretch(3.0, 4.0),))
-    assert log.words("train") == ["logs/a.csv@:3", "logs/a.csv@4:"]
-    assert log.words("test") == ["logs/a.csv@2:3", "logs/a.csv@4:8.5"]
-    assert ProjectLog("a.csv", train=(whole,)).words("train") == ["a.csv"]
-    assert ProjectLog("a.csv", train=(whole,), out=(whole,)).words("train") == []
+    project = Project(logs=(log, ProjectLog("a.csv", train=(whole,))))
+    assert project.words("train") == ["logs/a.csv@:3", "logs/a.csv@4:", "a.csv"]
+    assert project.words("test") == ["logs/a.csv@2:3", "logs/a.csv@4:8.5"]
+    assert ProjectLog("a.csv", train=(whole,), out=(whole,)).parts("train") == []
 
 
 def _steps() -> Project:
-    steps = (
-        Step(1, 0, "simulate", ()), Step(2, 0, "fit", (), model="models/2.json"),
-        Step(3, 2, "diagnose", ()), Step(4, 2, "add", (), model="models/4.json"),
-        Step(5, 2, "diagnose", ()), Step(6, 2, "add", (), model="models/6.json"),
-        Step(7, 6, "compare", ()),
-    )  # fmt: skip
-    return Project(steps=steps, current=6)
+    way = ((1, 0, "simulate"), (2, 0, "fit"), (3, 2, "diagnose"), (4, 2, "add"), (5, 2, "diagnose"),
+           (6, 2, "add"), (7, 6, "compare"))  # fmt: skip
+    simulated = Task("simulate", file="logs/a.csv")
+    steps = (Step(n, p, simulated if n == 1 else Task(verb)) for n, p, verb in way)
+    return Project(steps=tuple(steps), current=6)
 
 
 def test_the_path_is_that_of_the_current_model() -> None:
@@ -117,7 +132,7 @@ def test_the_path_is_that_of_the_current_model() -> None:
 
 
 def test_a_step_that_claims_to_come_from_itself_ends_the_path() -> None:
-    project = Project(steps=(Step(3, 3, "fit", (), model="m.json"),), current=3)
+    project = Project(steps=(Step(3, 3, Task("fit")),), current=3)
     assert [step.number for step in project.path()] == [3]
 
 
@@ -148,8 +163,77 @@ def test_a_stretch_of_a_clock_that_counts_from_1970_keeps_its_ends() -> None:
     log = ProjectLog(
         "a.csv", (Stretch(end=begun + 8.4123),), out=(Stretch(begun + 3.1, begun + 3.35),)
     )
-    assert log.words("train") == ["a.csv@:1732600003.35", "a.csv@1732600003.6:1732600008.6623"]
+    words = [part.word for part in log.parts("train")]
+    assert words == ["a.csv@:1732600003.35", "a.csv@1732600003.6:1732600008.6623"]
     assert told(log) == (
         "training: up to 1732600008.662 s; left out: 1732600003.35 s to 1732600003.6 s"
     )
     assert Stretch(0.1, 14.7).word("b.csv") == "b.csv@0.1:14.7"
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"robot = '\xe9'", "is not valid UTF-8 (byte 10); put the file back"),
+        (b"\xff\xfer\x00o\x00", "is not valid UTF-8 (byte 1)"),
+        (b"\x00" * 9, "expected a file that `modeler studio` wrote"),
+        (b"a = " + b"[" * 5000, "expected a file that `modeler studio` wrote"),
+        (None, "cannot be read"),
+    ],
+    ids=["Latin-1", "UTF-16", "NUL", "deep", "a folder"],
+)  # fmt: skip
+def test_a_file_that_is_no_text_is_one_line(tmp_path: Path, content: bytes | None, told: str):
+    place = tmp_path / FILE
+    if content is None:
+        place.mkdir()
+    else:
+        place.write_bytes(content)
+    with pytest.raises(DataError) as caught:
+        Workspace(tmp_path)
+    line = str(caught.value)
+    assert line.startswith(f"{place}: ") and told in line and "\n" not in line
+
+
+# Whose it is.
+
+
+def test_a_project_of_this_user_is_known_wherever_it_lies(tmp_path: Path) -> None:
+    (tmp_path / "mine").mkdir()
+    own = Workspace(tmp_path / "mine")
+    assert not own.foreign  # an empty folder is nobody's
+    own.save(_steps())
+    assert not Workspace(tmp_path / "mine").foreign
+    (tmp_path / "mine").rename(tmp_path / "moved")
+    assert not Workspace(tmp_path / "moved").foreign
+
+
+@pytest.mark.parametrize("how", ["edited", "without a seal", "another key", "another user"])
+def test_a_project_of_somebody_else_is_only_read_until_it_is_accepted(
+    tmp_path: Path, monkeypatch, how: str
+) -> None:
+    monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "cache"))
+    Workspace(tmp_path).save(_steps())
+    place = tmp_path / FILE
+    if how == "edited":
+        place.write_text(place.read_text().replace("without = []", 'without = ["spring"]'))
+    elif how == "without a seal":
+        place.write_text(place.read_text().partition("\n")[2])
+    elif how == "another key":
+        (tmp_path / "cache/studio.key").write_bytes(bytes(32))
+    else:
+        monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "theirs"))
+    here = Workspace(tmp_path)
+    before = place.read_text()
+    assert here.foreign and here.project.steps == _steps().steps
+    with pytest.raises(DataError, match="made by another user or on another machine, or"):
+        here.save(Project())
+    assert place.read_text() == before
+    here.accept()
+    assert not here.foreign and not Workspace(tmp_path).foreign
+
+
+def test_the_key_is_nobody_elses_to_read(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "cache"))
+    Workspace(tmp_path).save(Project())
+    key = tmp_path / "cache/studio.key"
+    assert key.stat().st_mode & 0o077 == 0 and len(key.read_bytes()) == 32

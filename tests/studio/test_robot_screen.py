@@ -14,8 +14,10 @@ from modeler.core.builtin import builtin_text
 from modeler.report import posture_json, show
 from modeler.report.robot_closing import gaps_of
 from modeler.robot import robot_from_text
-from modeler.studio.motion_screen import excite, questions
-from modeler.studio.project import Project, Step, project_text
+from modeler.studio.commands import words_of
+from modeler.studio.motion_screen import questions
+from modeler.studio.project import Project, Workspace
+from modeler.studio.tasks import Step, Task
 from tests.studio.window import Window, served, until
 from tests.turns import in_turn
 
@@ -29,7 +31,7 @@ STANDING = "document.querySelector('iframe.studio-robot').standing"
 def project(folder: Path, robot: str) -> Path:
     folder.mkdir()
     (folder / "robot.toml").write_text(builtin_text(robot), encoding="utf-8")
-    (folder / "project.toml").write_text(project_text(Project(robot="robot.toml")))
+    Workspace(folder).save(Project("robot.toml"))
     return folder
 
 
@@ -284,12 +286,13 @@ def test_a_tie_of_a_diagnosis_becomes_the_words_of_a_motion() -> None:
     assert pairs == {
         "load_friction@2,spring@2": "tell load friction on joint 2 from spring on joint 2"
     }
-    step = Step(3, 0, "fit", ("fit",), model="models/3.json")
-    asked = excite(Project("robot.toml", 3, steps=(step,)), *pairs, 5.0)
-    parsed = parser().parse_args(list(asked.words))
+    made = Project("robot.toml", 3, steps=(Step(3, 0, Task("fit")),))
+    (between,) = pairs
+    parsed = parser().parse_args(words_of(made, Task("excite", between=between, duration=5.0)))
     assert parsed.between == "load_friction@2,spring@2" and parsed.robot == "models/3.json"
     assert (parsed.duration, parsed.out) == (5.0, "motions/4.csv")
-    assert excite(Project("robot.toml"), "", 2.0).words[:2] == ("excite", "robots/1.toml")
+    first = words_of(Project("robot.toml"), Task("excite", duration=2.0))
+    assert first[:2] == ("excite", "robots/1.toml")
 
 
 def test_a_full_disk_and_another_window_lose_nothing(window, tmp_path) -> None:

@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from modeler.studio import commands, studio as hubs
-from modeler.studio.project import Project, Step, Workspace
+from modeler.studio.project import Project, Workspace
 from modeler.studio.running import Outcome
 from modeler.studio.studio import Hub, Studio
+from modeler.studio.tasks import Step, Task
 
 
 class Slow:
@@ -26,11 +27,11 @@ class Slow:
 
 def test_a_step_is_about_the_model_that_it_began_with(tmp_path: Path, monkeypatch) -> None:
     hub = Hub(Workspace(tmp_path), (), {})
-    steps = tuple(Step(n, n - 1, "fit", ("fit",), model=f"models/{n}.json") for n in (1, 2))
+    steps = tuple(Step(n, n - 1, Task("fit")) for n in (1, 2))
     hub.workspace.save(Project("robot.toml", 2, steps=steps))
     monkeypatch.setattr(hubs, "Running", lambda *given: Slow(hub))
     step = asyncio.run(hub.run(commands.diagnose(hub.project)))
-    assert step.words[1] == "models/2.json" and step.parent == 2
+    assert step.parent == 2
     assert hub.project.current == 1
 
 
@@ -41,6 +42,6 @@ def test_a_file_that_was_written_after_a_step(tmp_path: Path, made: str, later: 
     (tmp_path / "a.csv").write_text("time\n")
     os.utime(tmp_path / "a.csv", (1.79e9, 1.79e9))
     studio = Studio(Hub(Workspace(tmp_path), (), {}), "fit")
-    step = Step(1, 0, "fit", ("fit",), made=made)
+    step = Step(1, 0, Task("fit"), made=made)
     assert studio.newer("a.csv", step) is later
     assert not studio.newer("none.csv", step)

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from modeler.studio.commands import words_of
 from tests.studio.window import Served, Window, served
 from tests.turns import in_turn
 
@@ -65,9 +66,9 @@ def five_clicks_to_a_named_effect(studio, seat):
     seat.sees("fact: it is stated as missing")
     assert seat.page.evaluate("window.clicks") <= 5
     drawn(seat, 2)  # evidence, and the torque before and after
-    (step,) = [step for step in studio.project.steps if step.kind == "diagnose"]
-    assert step.words == ("diagnose", "models/3.json", "logs/train.parquet", "--holdout",
-                          "logs/held_out.parquet")  # fmt: skip
+    (step,) = [step for step in studio.project.steps if step.verb == "diagnose"]
+    words = ("diagnose", "models/3.json", "logs/train.parquet")
+    assert words_of(studio.project, step) == (*words, "--holdout", "logs/held_out.parquet")
 
 
 def a_ban_is_remembered_and_taken_back(studio, seat):
@@ -89,7 +90,7 @@ def a_preview_is_a_ghost_and_add_takes_it(studio, seat):
     seat.sees("Preview. Joint 2: measured and predicted")
     drawn(seat, 3)
     tried = studio.project.steps[-1]
-    assert studio.project.current == before.current and tried.kind == "add"
+    assert studio.project.current == before.current and tried.verb == "add"
     assert (studio.folder / tried.model).is_file()
     seat.click("Add", exact=True)
     seat.sees("The way of this model")
@@ -104,7 +105,7 @@ def the_error_falls_and_undo_loses_nothing(studio, seat):
     seat.click(f"Undo to step {studio.project.path()[0].number}")
     seat.sees("Set aside")
     assert studio.project.steps == steps
-    assert studio.project.path()[-1].kind == "fit"
+    assert studio.project.path()[-1].verb == "fit"
     seat.click(f"Go to step {last}")
     seat.sees("Error after every effect")
     assert (studio.project.steps, studio.project.current) == (steps, last)
@@ -114,7 +115,7 @@ def the_error_falls_and_undo_loses_nothing(studio, seat):
     box = bar.bounding_box()
     seat.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     seat.sees("Set aside")
-    assert studio.project.path()[-1].kind == "fit"
+    assert studio.project.path()[-1].verb == "fit"
     seat.click(f"Go to step {last}")
     seat.sees("Error after every effect")
 
@@ -147,8 +148,9 @@ def the_report_page_opens_in_a_tab(studio, seat):
     assert coming.value.title() == "demo-arm: effects added"
     coming.value.close()
     kept = studio.project.path()[-1]
-    assert studio.project.steps[-1].words != kept.words  # it wrote no model over that one
-    assert studio.project.steps[-1].parent == kept.number
+    page = studio.project.steps[-1]
+    assert page.parent == kept.number
+    assert kept.model not in words_of(studio.project, page)  # it wrote no model over that one
 
 
 def the_script_of_the_demonstration_makes_the_same(studio, seat, tmp_path):

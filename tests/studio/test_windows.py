@@ -3,10 +3,14 @@
 import json
 from pathlib import Path
 
+import numpy as np
+
 from modeler.core.builtin import builtin_text
-from modeler.studio.motion_screen import changed_limits, excite
-from modeler.studio.project import Project, Step, Workspace
+from modeler.studio.commands import words_of
+from modeler.studio.motion_screen import changed_limits
+from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub, Studio
+from modeler.studio.tasks import Step, Stretch, Task
 from tests.studio.window import served
 from tests.turns import in_turn
 
@@ -58,13 +62,58 @@ def test_a_motion_keeps_to_the_limits_that_the_robot_file_has_now(tmp_path: Path
     (tmp_path / "robot.toml").write_text(
         text.replace("1 = [-2.6, 2.6, 2.5, 10.0]", "1 = [-0.3, 0.3, 0.5, 4]"), encoding="utf-8"
     )
-    (tmp_path / "1.json").write_text(json.dumps(model), encoding="utf-8")
-    steps = (Step(1, 0, "fit", (), model="1.json"),)
+    (tmp_path / "models").mkdir()
+    (tmp_path / "models/1.json").write_text(json.dumps(model), encoding="utf-8")
+    steps = (Step(1, 0, Task("fit")),)
     workspace = Workspace(tmp_path)
     workspace.project = Project(robot="robot.toml", steps=steps, current=1)
     studio = Studio(Hub(workspace, (), {}), "motion")
     assert changed_limits(studio) == ["1=-0.3,0.3,0.5,4"]
-    words = excite(studio.project, "", 5.0, changed_limits(studio)).words
-    assert words[:4] == ("excite", "1.json", "--limit", "1=-0.3,0.3,0.5,4")
+    task = Task("excite", duration=5.0, limit=tuple(changed_limits(studio)))
+    words = words_of(studio.project, task)
+    assert words[:2] == ("excite", "models/1.json")
+    assert words[words.index("--limit") + 1] == "1=-0.3,0.3,0.5,4"
     (tmp_path / "robot.toml").write_text(text, encoding="utf-8")
     assert changed_limits(studio) == []
+
+
+TOPIC = "/left_arm_controller/joint_trajectory_state_broadcaster/joint_states."
+LINK = "left_arm_shoulder_upper_link_revolute_joint"
+
+
+def test_a_project_of_somebody_else_with_the_long_names_of_ros(
+    tmp_path: Path, window, monkeypatch
+) -> None:
+    """It says whose it is, nothing is run before it is accepted; no page is wider than 1280."""
+    folder, log = tmp_path / "arm", f"logs/{'recording_of_the_left_arm_' * 4}.csv"
+    (folder / "logs").mkdir(parents=True)
+    (folder / "robot.toml").write_text(builtin_text("two-link"), encoding="utf-8")
+    kinds = {"q": "position", "qd": "velocity", "tau": "effort"}
+    names = [f"{TOPIC}{kind}[{LINK}_{j}]" for kind in kinds.values() for j in (1, 2)]
+    time = np.arange(400) * 0.01
+    rows = np.column_stack([time, *(np.sin(time * k + k) for k in range(1, 7))])
+    head = ",".join(["time", *names])
+    np.savetxt(folder / log, rows, delimiter=",", header=head, comments="", fmt="%.6f")
+    mapping = tuple(f"{own}<j>={TOPIC}{kind}[{LINK}_{{j}}]" for own, kind in kinds.items())
+    with monkeypatch.context() as theirs:
+        theirs.setenv("MODELER_CACHE", str(tmp_path / "theirs"))
+        logs = (ProjectLog(log, (Stretch(),)),)
+        Workspace(folder).save(Project("robot.toml", mapping=mapping, mapped=True, logs=logs))
+    with served(folder) as studio:
+        own = window(viewport={"width": 1280, "height": 800}).open(studio)
+        own.sees("the project was made by another user or on another machine")
+        own.go("2  Data")
+        own.page.wait_for_selector(".mapping-chip")
+        own.page.wait_for_selector(".js-plotly-plot .main-svg")
+        assert own.page.evaluate("document.documentElement.scrollWidth") <= 1280
+        own.go("3  Fit")
+        assert own.page.get_by_role("button", name="Fit", exact=True).is_disabled()
+        assert own.page.evaluate("document.documentElement.scrollWidth") <= 1280
+        assert studio.project.steps == () and not (folder / "results").exists()
+        own.click("Accept the project")
+        own.page.get_by_role("button", name="Accept the project").wait_for(state="hidden")
+        own.page.wait_for_function(
+            "() => [...document.querySelectorAll('button')].some("
+            "(b) => b.innerText.trim() === 'Fit' && !b.disabled)"
+        )
+        assert own.complaints == []

@@ -1,0 +1,331 @@
+"""What is done in a project: a verb with typed values, and the one command line that they make.
+
+A project may come from anybody, so no step holds a command line: `command_line` makes it, from the
+few options named here. No value can be read as an option, and files that a command writes are named
+by the number of its step.
+"""
+
+import dataclasses
+import math
+import re
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from modeler.core.errors import DataError
+
+ROBOT: Literal["robot.toml"] = "robot.toml"
+
+Verb = Literal[
+    "fit", "add", "compare", "contest", "diagnose", "excite", "generate", "export", "page",
+    "log", "new", "convert", "derive", "simulate", "fleet",
+]  # fmt: skip
+MAKING = ("fit", "add")
+"""Verbs that end in a model; the other ones say something about a model, or prepare one."""
+
+PAGED = ("fit", "add", "compare", "diagnose")
+"""Verbs whose steps can be run again, for their report page."""
+
+DRAWING = (*PAGED, "contest", "log", "fleet")
+"""Verbs whose pictures are kept as plain data."""
+
+_COPYING = ("fit", "derive", "simulate", "fleet")  # they work on a copy of the robot
+ABOUT_A_MODEL = ("add", "compare", "contest", "diagnose", "excite", "generate", "export")
+_COMMANDS: Mapping[str, str] = {"contest": "compare"}  # verbs that are called otherwise there
+_SUFFIX: Mapping[str, str] = {"mjcf": ".xml", "urdf": ".urdf", "sdf": ".sdf"}
+
+FIXED: Mapping[str, tuple[str, ...]] = {
+    "derive": ("--no-terms",),
+    "convert": ("--out", ROBOT, "--force"),
+    "simulate": ("--duration", "20", "--noise", "0.01", "--hide", "load_friction@2"),
+}
+"""Options that a verb always has."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Seconds of a log, as `FILE@START:END` counts them; without ends all of it."""
+
+    start: float = -math.inf
+    end: float = math.inf
+
+    def word(self, file: str) -> str:
+        """It, as a command takes it."""
+        ends = [f"{side:.15g}" if math.isfinite(side) else "" for side in (self.start, self.end)]
+        return f"{file}@{':'.join(ends)}" if any(ends) else file
+
+    def without(self, gaps: Sequence["Stretch"]) -> "list[Stretch]":
+        """What is left of it between gaps."""
+        left, start = [], self.start
+        for gap in sorted(gaps, key=lambda gap: gap.start):
+            if gap.end <= max(start, gap.start) or gap.start >= self.end:
+                continue
+            if gap.start > start:
+                left.append(Stretch(start, gap.start))
+            start = max(start, gap.end)
+        return left + ([Stretch(start, self.end)] if start < self.end else [])
+
+
+@dataclass(frozen=True)
+class LogPart:
+    """A stretch of a log."""
+
+    file: str
+    stretch: Stretch = Stretch()
+
+    @property
+    def word(self) -> str:
+        """It, as a command takes it."""
+        return self.stretch.word(self.file)
+
+
+@dataclass(frozen=True)
+class Task:
+    """What a command does. Each verb has a few of the fields, and the other ones are empty.
+
+    Attributes:
+        verb: what is done.
+        logs: that are fitted, compared or searched.
+        held: logs that are only judged on.
+        mapping: words of `--map`.
+        method, derivatives, cutoff, parallel_cutoff, low_speed, essential_below, effects: of a fit,
+            as its options.
+        effect: that is added; auto: all that a diagnosis names.
+        joint: of the effect; "": where it explains most.
+        without: effects that this robot does not have.
+        models: steps whose models are compared.
+        step: whose page is written.
+        file: log or robot file that is read, log that is simulated.
+        robot: whether the log is judged by the robot.
+        between, duration, limit: of a motion.
+        precision, to, like: of what is generated or exported.
+        joints, template, convention: of a new robot.
+        name: how paths of logs end, with machine and period.
+        seed: of a simulation.
+    """
+
+    verb: Verb
+    logs: tuple[LogPart, ...] = ()
+    held: tuple[LogPart, ...] = ()
+    mapping: tuple[str, ...] = ()
+    method: str = ""
+    derivatives: str = ""
+    cutoff: float | None = None
+    parallel_cutoff: float | None = None
+    low_speed: float | None = None
+    essential_below: float | None = None
+    effects: tuple[str, ...] = ()
+    effect: str = ""
+    joint: str = ""
+    without: tuple[str, ...] = ()
+    models: tuple[int, ...] = ()
+    step: int = 0
+    file: str = ""
+    robot: bool = False
+    between: str = ""
+    duration: float | None = None
+    limit: tuple[str, ...] = ()
+    precision: str = ""
+    to: str = ""
+    like: str = ""
+    joints: str = ""
+    template: str = ""
+    convention: str = ""
+    name: str = ""
+    seed: int | None = None
+
+    @property
+    def title(self) -> str:
+        """For people, while it runs and in the list of steps."""
+        at = f"{self.effect}@{self.joint}" if self.joint else self.effect
+        what = at or self.file or self.between or self.to or self.like
+        return " ".join(filter(None, (self.verb, what, f"of step {self.step}" * bool(self.step))))
+
+
+@dataclass(frozen=True)
+class Step:
+    """A task that was carried out.
+
+    Attributes:
+        number: of the step; files that it wrote are called so.
+        parent: the step whose model it is about, or went on from; 0: none.
+        task: that was carried out.
+        seconds: that it took.
+        made: when, ISO 8601.
+    """
+
+    number: int
+    parent: int
+    task: Task
+    seconds: float = 0.0
+    made: str = ""
+
+    @property
+    def verb(self) -> Verb:
+        """Of its task."""
+        return self.task.verb
+
+    @property
+    def output(self) -> str:
+        """What it writes: a model, a page, a folder of C, a motion; "" for its result alone."""
+        n, ending = self.number, self.task.like.rpartition(".")[2]
+        places = {
+            "fit": f"models/{n}.json", "add": f"models/{n}.json", "page": f"pages/{n}.html",
+            "generate": f"taken/{n}_c", "excite": f"motions/{n}.csv", "simulate": self.task.file,
+            "export": f"taken/{n}{_SUFFIX.get(self.task.to, f'.{ending}')}",
+        }  # fmt: skip
+        return places.get(self.verb, "")
+
+    @property
+    def model(self) -> str:
+        """The model that it made; "" for none."""
+        return self.output if self.verb in MAKING else ""
+
+    @property
+    def robot(self) -> str:
+        """The robot as it was when the step began; "" where it worked on none."""
+        copied = self.verb in _COPYING or (self.verb == "excite" and not self.parent)
+        return f"robots/{self.number}.toml" if copied else ""
+
+    @property
+    def result(self) -> str:
+        """Its JSON."""
+        return f"results/{self.number}.json"
+
+    @property
+    def pictures(self) -> str:
+        """They, as plain data; "" if it drew none."""
+        return f"results/{self.number}.pictures.json" if self.verb in DRAWING else ""
+
+
+def command_line(step: Step, steps: Sequence[Step] = ()) -> tuple[str, ...]:
+    """The words after `modeler` that carry out a step, in the folder of the project.
+
+    Args:
+        step: it.
+        steps: of the project, among which a page finds the one that it is of.
+
+    Raises:
+        DataError: a value that would be something else in a command line.
+    """
+    task = step.task
+    check_task(task)
+    if task.verb == "page":
+        of = next((own for own in steps if own.number == task.step), None)
+        if of is None or of.verb not in PAGED:
+            raise DataError(f"step {task.step}: has no report page; choose a fit or a comparison")
+        words = command_line(of)
+        if of.model:  # which stays as it is: the same model is written once more
+            words = (*words[:-1], f"models/{step.number}.json")
+        return (*words, "--report", step.output)
+    model = f"models/{step.parent}.json"
+    about: Mapping[str, tuple[str, ...]] = {
+        "add": (model, task.effect), "contest": tuple(f"models/{n}.json" for n in task.models),
+        "log": (task.file,), "new": (ROBOT,), "convert": (task.file,),
+    }  # fmt: skip
+    subject = about.get(task.verb, (step.robot or model,))
+    robot = ("--robot", ROBOT) if task.robot else ()
+    force = ("--force",) if task.template else ()
+    out = ("--out", step.output) if step.output else ()
+    return (
+        _COMMANDS.get(task.verb, task.verb), *subject, *(part.word for part in task.logs),
+        *robot, *_options(task), *FIXED.get(task.verb, ()), *force, *out,
+    )  # fmt: skip
+
+
+def bookkeeping(step: Step) -> tuple[str, ...]:
+    """Words that come to a step when it is run, and are no part of it."""
+    return ("--json", step.result, *(("--picture", step.pictures) if step.pictures else ()))
+
+
+def typed(words: Sequence[str]) -> str:
+    """A command line, as a shell takes it."""
+    return shlex.join(["modeler", *words])
+
+
+def _options(task: Task) -> Iterator[str]:
+    """Fields that are no places become options of their names; a list is given one by one."""
+    names = {"held": "holdout", "mapping": "map"}
+    for name in FIELDS[task.verb].split():
+        value, option = getattr(task, name), f"--{names.get(name, name).replace('_', '-')}"
+        if name in _PLACES or value in ("", None, ()):
+            continue
+        if name == "held":
+            yield from (option, *(part.word for part in value))
+        elif name == "effects":
+            yield from (option, ",".join(value))
+        else:
+            for own in value if isinstance(value, tuple) else (value,):
+                yield from (option, f"{own:.12g}" if isinstance(own, float) else str(own))
+
+
+# What the values of a task may be, whoever wrote them.
+
+FIELDS: Mapping[str, str] = {
+    "fit": "logs mapping method derivatives cutoff parallel_cutoff low_speed essential_below "
+           "effects",
+    "add": "logs held mapping effect joint",
+    "compare": "logs mapping",
+    "contest": "models logs mapping",
+    "diagnose": "logs held mapping without",
+    "excite": "between duration limit",
+    "generate": "precision",
+    "export": "to like",
+    "page": "step",
+    "log": "file robot mapping",
+    "new": "joints template convention",
+    "convert": "file",
+    "derive": "",
+    "simulate": "file seed",
+    "fleet": "logs name mapping",
+}  # fmt: skip
+"""Fields that each verb has."""
+
+_PLACES = ("logs", "file", "effect", "models", "step", "robot")  # they are no options
+
+_NAME = re.compile(r"\w[\w.@-]*")
+_TEXT = re.compile(r"(?!-)[^\x00-\x1f\x7f]+")
+_FILE = re.compile(r"(?!-)(?!(?:.*/)?\.\.(?:/|$))[^\x00-\x1f\x7f\\]+")
+_FORMS: Mapping[str, re.Pattern[str]] = {
+    "mapping": re.compile(r"auto|(?!-)[^\x00-\x1f\x7f=]+=[^\x00-\x1f\x7f]+"),
+    **dict.fromkeys(("file", "like"), _FILE),
+    **dict.fromkeys(("between", "limit", "without", "name"), _TEXT),
+}
+"""What texts may be where they are no plain names: no option, and files without `..`."""
+
+
+def check_values(name: str, value: Any) -> None:
+    """Refuses a value that no field of that name may have.
+
+    Raises:
+        DataError: says which, and what is expected.
+    """
+    for own in value if isinstance(value, tuple) else (value,):
+        if isinstance(own, LogPart):
+            check_values("file", own.file)
+        elif isinstance(own, str) and own:
+            if not _FORMS.get(name, _NAME).fullmatch(own):
+                raise DataError(
+                    f"{name}: got {own[:60]!r}; expected no option, and no file outside"
+                )
+        elif own == "" and isinstance(value, tuple):
+            raise DataError(f"{name}: got an empty text; expected a value, or nothing")
+        elif isinstance(own, float | int) and not 0 <= own < 1e9:
+            raise DataError(f"{name}: got {own:g}; expected a number from 0 to 1e9")
+
+
+def check_task(task: Task) -> None:
+    """Refuses a task whose values are none of its verb, or could be read as something else.
+
+    Raises:
+        DataError: names the first field, and says what is expected.
+    """
+    known = FIELDS[task.verb].split()
+    for field in dataclasses.fields(task)[1:]:
+        value = getattr(task, field.name)
+        if field.name not in known and value != field.default:
+            raise DataError(f"{task.verb}, {field.name}: it has no such value; leave it out")
+        check_values(field.name, value)
+    if task.verb == "simulate" and not re.fullmatch(r"logs/\w[\w.-]*", task.file):
+        raise DataError(f"simulate, file: got {task.file[:60]!r}; expected one in logs/")

@@ -1,0 +1,87 @@
+"""A log that comes later changes neither the split nor the mapping of those that were there."""
+
+from pathlib import Path
+
+from modeler.logs import map_from_words
+from modeler.studio.data_screen import DataScreen
+from modeler.studio.log_mapping import LogGuess, anybody, choices
+from modeler.studio.project import Project, ProjectLog, Workspace
+from modeler.studio.project_logs import KnownLog
+from modeler.studio.studio import Hub, Studio
+from modeler.studio.tasks import Stretch
+
+ENDS = (0.0, 10.0)
+GERMAN, ROS = ("Zeit", "Winkel_1", "Winkel_2"), ("stamp", "pos[0]", "pos[1]")
+
+
+def guess(columns: tuple[str, ...]) -> LogGuess:
+    """Of a log whose names are not ours."""
+    time, first, second = columns
+    words = [f"time={time}", f"q1={first}:deg", f"q2={second}:deg"]
+    found = choices(map_from_words(words), anybody(2), columns)
+    return LogGuess(dict.fromkeys(columns, ""), found, (), 2, "", ())
+
+
+def screen(folder: Path, project: Project) -> DataScreen:
+    """As it is drawn, with the logs of the project read."""
+    workspace = Workspace(folder)
+    workspace.save(project)
+    hub = Hub(workspace, (), {})
+    studio = Studio(hub, "data")
+    hub.studios.append(studio)
+    own = DataScreen(studio)
+    own.joints = anybody(2)
+    return own
+
+
+def come(own: DataScreen, **logs: tuple[str, ...]) -> Project:
+    """Logs are there, read, and settled."""
+    studio = own.studio
+    for name, columns in logs.items():
+        own.logs[name] = KnownLog(guess(columns), rows=100, ends=ENDS)
+    there = [log.file for log in studio.project.logs]
+    new = (*studio.project.logs, *(ProjectLog(name) for name in logs if name not in there))
+    studio.change(logs=new)
+    own._settle()
+    return studio.project
+
+
+def test_the_split_of_the_first_log_stays(tmp_path: Path) -> None:
+    own = screen(tmp_path, Project())
+    first = come(own, a=GERMAN)
+    assert (first.words("train"), first.words("test")) == (["a@:7"], ["a@7:"])
+    second = come(own, b=GERMAN)
+    assert second.logs[0] == first.logs[0]
+    assert second.words("train") == ["a@:7", "b"]
+    third = come(own, c=ROS)
+    assert third.logs[:2] == second.logs
+
+
+def test_logs_that_come_together_hold_out_the_last_one(tmp_path: Path) -> None:
+    project = come(screen(tmp_path, Project()), a=GERMAN, b=GERMAN, c=GERMAN)
+    assert (project.words("train"), project.words("test")) == (["a", "b"], ["c"])
+
+
+def test_the_mapping_that_was_chosen_stays(tmp_path: Path) -> None:
+    """Also where it is what names say already, or is nothing: it is no guess."""
+    for chosen in (("q<j>=Winkel_{j}:mrad",), (), ("time=Zeit", "q<j>=Winkel_{j}:deg")):
+        logs = (ProjectLog("a", (Stretch(),)),)
+        own = screen(tmp_path, Project(mapping=chosen, mapped=True, logs=logs))
+        assert come(own, a=GERMAN, b=ROS).mapping == chosen
+
+
+def test_a_guess_becomes_a_guess_for_each_log(tmp_path: Path) -> None:
+    own = screen(tmp_path, Project())
+    assert come(own, a=GERMAN).mapping == ("time=Zeit", "q<j>=Winkel_{j}:deg")
+    assert come(own, b=ROS).mapping == ("auto",)
+
+
+def test_each_by_its_own_guess_keeps_what_was_chosen(tmp_path: Path) -> None:
+    chosen = ("q<j>=Winkel_{j}:mrad",)
+    own = screen(tmp_path, Project(mapping=chosen, mapped=True))
+    come(own, a=GERMAN, b=ROS)
+    own.guess_each()
+    project = own.studio.project
+    assert project.mapping == ("auto", *chosen)
+    assert own.chosen(guess(GERMAN))["q1"].unit == "mrad"
+    assert own.chosen(guess(ROS))["q1"].unit == "deg"
