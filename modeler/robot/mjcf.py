@@ -5,15 +5,12 @@ files, replicas, inertia from geoms. Before that, what no robot model needs is t
 meshes of bodies whose inertia is stated), so that files that are not there do not matter.
 """
 
-import itertools
 import math
 import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from decimal import Decimal
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +19,6 @@ import numpy as np
 from modeler.core.errors import RobotError, installing, on_one_line
 from modeler.core.files import read_file
 from modeler.core.toml_cells import shown
-from modeler.robot.angles import cosine_sine
 from modeler.robot.body_tree import (
     BodyTree,
     Inertial,
@@ -33,6 +29,13 @@ from modeler.robot.body_tree import (
     doubt,
     several,
 )
+from modeler.robot.quaternions import (
+    ALIKE,
+    EXACT,
+    exact_direction,
+    exact_quaternion,
+    rotation_matrix,
+)
 from modeler.robot.robot import JointKind
 from modeler.robot.tree_cuts import follow
 from modeler.robot.xml_source import LARGEST_FILE, Element, parse_xml
@@ -40,13 +43,10 @@ from modeler.robot.xml_source import LARGEST_FILE, Element, parse_xml
 MOST_FILES = 200
 _COUNTS = {"replicate": ("count", 1e3), "hfield": ("nrow ncol", 1e6), "mesh": ("params", 1e3)}
 """Element -> attributes whose product makes bodies or numbers, and how many at most."""
-HIDDEN = 4e-6
-"""What 1.5708 instead of pi/2 leaves in the components of a quaternion with more digits."""
 LIGHT = 1e-12
 """Of bodies that state nothing, kg and kg m2, for MuJoCo compiles no moving body without."""
 NOTHING = 1e-9
 """kg; what weighs less states nothing."""
-ALIKE, EXACT = 1e-9, 1e-15
 _FREE, _BALL, _SLIDE, _HINGE = range(4)  # mjtJoint
 _WRAP_JOINT = 1  # mjtWrap
 _LEFT_OUT = ("cameras", "lights", "hfields", "sensors", "pairs", "excludes", "skins", "tuples",
@@ -243,65 +243,20 @@ def _unround(spec: Any) -> list[str]:
     for part in [*spec.bodies, *spec.frames]:
         way, degree = part.alt.type.name, part.compiler.degree
         if way == "mjORIENTATION_QUAT":
-            part.quat = _near(np.array(part.quat), _rotations(), rounded)
+            part.quat = exact_quaternion(np.array(part.quat), rounded)
         elif way == "mjORIENTATION_EULER":
             part.alt.euler = [angle(x, degree) for x in part.alt.euler]
         elif way == "mjORIENTATION_AXISANGLE":
             *axis, turn = part.alt.axisangle
-            axis = _near(np.array(axis), _directions(), rounded)
+            axis = exact_direction(np.array(axis), rounded)
             part.alt.axisangle = [*axis, angle(turn, degree)]
     for joint in spec.joints:
-        joint.axis = _near(np.array(joint.axis), _directions(), rounded)
+        joint.axis = exact_direction(np.array(joint.axis), rounded)
         if joint.type == _HINGE:
             joint.ref = angle(joint.ref, joint.compiler.degree)
     for part in [*spec.bodies, *spec.frames, *spec.joints, *spec.sites]:
         part.pos = rounded.lengths(np.array(part.pos))
     return list(rounded.notes())
-
-
-def _near(given: np.ndarray, known: np.ndarray, rounded: Roundings) -> np.ndarray:
-    """The unit vector among the known ones that the printed one rounds; itself if there is none."""
-    length = float(np.linalg.norm(given))
-    if not 0.99 < length < 1.01:
-        return given
-    digits = max(-int(Decimal(repr(float(x))).as_tuple().exponent) for x in given)
-    if digits < 3:
-        return given
-    allowed = 0.51 * 10.0**-digits if digits < 5 else max(10.0**-digits, HIDDEN)
-    best: np.ndarray = known[np.argmax(known @ given)]
-    if np.max(np.abs(best - given)) > allowed:
-        return given
-    if np.max(np.abs(best - given / length)) > ALIKE:
-        rounded.angles[" ".join(f"{x:g}" for x in given)] = "of multiples of pi/12"
-    return best
-
-
-@cache
-def _rotations() -> np.ndarray:
-    """(n, 4) quaternions of turns about three different axes by multiples of pi/12, both signs."""
-    turns = np.zeros((3, 48, 4))
-    for count, axis in itertools.product(range(48), range(3)):
-        turns[axis, count, 0], turns[axis, count, axis + 1] = cosine_sine(count * math.pi / 24)
-    middle = [*range(7), *range(42, 48)]  # to a right angle
-    return np.concatenate([
-        _product(_product(turns[i][:, None], turns[j][None, middle]).reshape(-1, 1, 4),
-                 turns[k][None, :24]).reshape(-1, 4)
-        for i, j, k in itertools.permutations(range(3))
-    ])  # fmt: skip
-
-
-def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Quaternions a b, along the last axis."""
-    head = a[..., :1] * b[..., :1] - np.sum(a[..., 1:] * b[..., 1:], axis=-1, keepdims=True)
-    tail = a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + np.cross(a[..., 1:], b[..., 1:])
-    return np.concatenate([head, tail], axis=-1)
-
-
-@cache
-def _directions() -> np.ndarray:
-    """(72, 3) unit vectors in the coordinate planes at multiples of pi/12."""
-    plane = np.array([[*cosine_sine(count * math.pi / 12), 0.0] for count in range(24)])
-    return np.concatenate([np.roll(plane, k, axis=1) for k in range(3)])
 
 
 # What MuJoCo has compiled.
@@ -347,7 +302,7 @@ class _Reading:
         mass, moments = float(model.body_mass[body]), model.body_inertia[body]
         if mass < NOTHING and np.all(moments < NOTHING):
             return None
-        turn = _matrix(self._mujoco, model.body_iquat[body])
+        turn = rotation_matrix(model.body_iquat[body])
         inertia = turn @ np.diag(moments) @ turn.T
         inertia[np.abs(inertia) < 10 * EXACT * np.max(moments)] = 0.0
         return Inertial(mass, np.array(model.body_ipos[body]), inertia)
@@ -361,9 +316,7 @@ class _Reading:
             if body == 0:
                 continue
             parent = self._bodies[model.body_parentid[body]]
-            pose = Pose(
-                np.array(model.body_pos[body]), _matrix(self._mujoco, model.body_quat[body])
-            )
+            pose = Pose(np.array(model.body_pos[body]), rotation_matrix(model.body_quat[body]))
             own = np.flatnonzero(model.jnt_bodyid == body).tolist()
             if not own:
                 label = _other(name, taken)
@@ -502,7 +455,7 @@ class _Reading:
                 raise self._refused(f"{name} holds {one} and {two} rigidly; expected connect")
             else:
                 points = [np.where(np.abs(point) < 10 * EXACT, 0.0, point) for point in points]
-                yield Meeting(name, one, points[0], two, points[1])
+                yield Meeting(name, one, Pose(points[0]), two, Pose(points[1]))
 
     def _carrier(self, body: int) -> int:
         """The body that has the joint which moves that one; 0 if none does."""
@@ -561,12 +514,3 @@ def _other(name: str, taken: set[str]) -> str:
         name += "_"
     taken.add(name)
     return name
-
-
-def _matrix(mujoco: Any, quaternion: np.ndarray) -> np.ndarray:
-    """(3, 3) the rotation; what ought to be 0 or 1 is."""
-    entries = np.zeros(9)
-    mujoco.mju_quat2Mat(entries, quaternion)
-    turn = entries.reshape(3, 3)
-    whole = np.round(turn)
-    return np.where(np.abs(turn - whole) < EXACT, whole, turn) + 0.0

@@ -8,10 +8,8 @@ before, byte for byte: a `--` inside a comment, a blank first line, and accents 
 in comments are then no mistakes, as they are none to ROS, Pinocchio and MuJoCo.
 """
 
-import codecs
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
@@ -25,11 +23,7 @@ LARGEST_TAG = 8 * 2**20  # bytes of one tag, comment or declaration
 DEEPEST = 256
 MOST_ELEMENTS = 200_000
 _PIECE = 2**20  # bytes that expat gets at a time
-_ENCODINGS = {
-    "utf-8": "utf-8", "ascii": "utf-8", "iso8859-1": "iso-8859-1", "iso8859-15": "iso-8859-15",
-    "cp1252": "windows-1252",
-}  # fmt: skip
-"""Codec of Python -> name for expat."""
+_ENCODINGS = ("utf-8", "iso-8859-1", "latin1", "iso-8859-15", "windows-1252", "cp1252")
 _DECLARATION = re.compile(rb"(?:\xef\xbb\xbf)?\s*(<\?xml\s[^<>]*\?>)")
 _STATED_ENCODING = re.compile(rb"\sencoding\s*=\s*[\"']([^\"']*)[\"']")
 _BLANK = bytes(byte if byte in b"\r\n" else 0x20 for byte in range(256))
@@ -104,9 +98,9 @@ def _encoding(data: bytes, where: str) -> str:
     declared = _DECLARATION.match(data)
     stated = _STATED_ENCODING.search(declared[1]) if declared else None
     name = stated[1].decode("latin-1") if stated else "utf-8"
-    with suppress(LookupError):
-        if (codec := codecs.lookup(name).name) in _ENCODINGS:
-            return codec
+    codec = "utf-8" if name.lower() in ("utf8", "ascii", "us-ascii") else name.lower()
+    if codec in _ENCODINGS:
+        return codec
     line = data.count(b"\n", 0, declared.start(1) if declared else 0) + 1
     raise RobotError(f'{where}: line {line}: encoding="{name[:20]}"; save the file as UTF-8')
 
@@ -148,7 +142,7 @@ class _Reading:
         self._data, self._where, self._encoding = data, where, _encoding(data, where)
         self._open: list[_Open] = [_Open(Element("", {}, 0, {}, (0, 0)))]  # around the root
         self._count = 0
-        self._expat = expat.ParserCreate(_ENCODINGS[self._encoding])
+        self._expat = expat.ParserCreate(self._encoding)
         self._expat.buffer_text = self._expat.ordered_attributes = True
         self._expat.StartDoctypeDeclHandler = self._doctype
         self._expat.StartElementHandler = self._start
@@ -176,7 +170,7 @@ class _Reading:
             _blanked(self._data).decode(self._encoding)
         except UnicodeDecodeError as wrong:
             line = self._data.count(b"\n", 0, wrong.start) + 1
-            told = f"byte {wrong.start} is not {_ENCODINGS[self._encoding].upper()}"
+            told = f"byte {wrong.start} is not {self._encoding.upper()}"
             return self._error(f"{told}; save the file as UTF-8", line)
         what = (expat.ErrorString(error.code) or "").removeprefix("not well-formed ").strip("()")
         for still in self._open[-1:0:-1]:

@@ -284,7 +284,10 @@ def test_connect_is_a_meeting(tmp_path: Path) -> None:
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = joint.pose.rotation, joint.pose.position
         poses[joint.child] = poses[joint.parent] @ pose
-    ends = [poses["tip"] @ [*meeting.point, 1], poses["rod"] @ [*meeting.other_point, 1]]
+    ends = [
+        poses["tip"] @ [*meeting.pose.position, 1],
+        poses["rod"] @ [*meeting.other_pose.position, 1],
+    ]
     assert np.allclose(*ends, rtol=0, atol=1e-15)
     assert tree.home == {"pan": 0, "lift": 0.1, "roll": 0, "bend": 0, "free": 0}
 
@@ -295,7 +298,11 @@ def test_connect_of_sites_and_the_posture_of_a_keyframe(tmp_path: Path) -> None:
     tree = read(tmp_path, edited(("</mujoco>", section + "</mujoco>"), text=LOOP))
     (meeting,) = tree.meetings
     assert (meeting.body, meeting.other) == ("fore", "rod")
-    assert meeting.point.tolist() == [0, 0, 0.1] and meeting.other_point.tolist() == [0, 0, 0]
+    assert meeting.pose.position.tolist() == [
+        0,
+        0,
+        0.1,
+    ] and meeting.other_pose.position.tolist() == [0, 0, 0]
     assert tree.home == {"pan": 0.2, "lift": 0.15, "roll": 0, "bend": -0.3, "free": 0.4}
     text = tree_to_toml(tree, "arm.xml")
     home = robot_from_text(text.text, "arm.toml").home
