@@ -55,8 +55,9 @@ class ElementTable:
 
     def path(self, parent: str, tag: str) -> str:
         """Of a child; bodies in bodies, and defaults in defaults, count once."""
-        tag = self.same.get(tag, tag)
-        return parent if parent.endswith(f"/{tag}") and tag in self.same else f"{parent}/{tag}"
+        own = self.same.get(tag, tag)
+        known = tag in self.same
+        return parent if known and (not own or parent.endswith(f"/{own}")) else f"{parent}/{own}"
 
     def notes(self, roots: Iterable[tuple[str, Element]]) -> list[str]:
         """What to tell of files, those that are included behind their own.
@@ -78,7 +79,7 @@ class ElementTable:
 
     def _met(self, root: Element) -> Iterator[tuple[Element, str, str, str]]:
         """What is told or refused: element, what it belongs to, key in the table, sentence."""
-        waiting = [(root, root.tag, "")]
+        waiting = [(root, self.same.get(root.tag, root.tag), "")]
         while waiting:
             element, path, name = waiting.pop()
             own = element.attributes

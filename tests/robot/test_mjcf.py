@@ -201,7 +201,9 @@ def test_degrees_frames_includes_and_names(tmp_path: Path) -> None:
     assert [joint.name for joint in tree.joints] == ["joint0", "joint1"]
     assert np.allclose(tree.joints[0].pose.rotation @ [1, 0, 0], [0, 1, 0], rtol=0, atol=4e-16)
     assert tree.joints[1].lower == pytest.approx(-math.pi / 2)
-    assert all(joint.actuated for joint in tree.joints)  # for the file has no actuator
+    assert not any(joint.actuated for joint in tree.joints)  # for the file has no actuator
+    text = tree_to_toml(tree, "arm.xml")
+    assert "the file states no motor: all joints are taken as actuated" in text.notes
 
 
 def test_meshes_that_are_not_there_matter_where_they_weigh(tmp_path: Path) -> None:
