@@ -416,19 +416,20 @@ def fixed_row(pose: Pose, free_about_z: bool) -> dict[str, float]:
         pose: of that frame.
         free_about_z: True if only its origin and z axis matter: theta is 0 then.
     """
-    along, place = pose.rotation[:, 2], pose.position
+    along, place = pose.rotation[:, 2].tolist(), pose.position.tolist()
     parallel = math.hypot(*along[:2]) < PARALLEL
     gamma = math.atan2(place[1], place[0]) if parallel else math.atan2(along[0], -along[1])
     gamma = _folded(gamma)
     rest = _screw(-gamma, 0.0) @ pose
+    x, y, z = rest.position.tolist()
     alpha = exact_turn(math.atan2(-rest.rotation[1, 2], rest.rotation[2, 2]))
-    r = 0.0 if parallel else -rest.position[1] / math.sin(alpha)
+    r = 0.0 if parallel else -y / math.sin(alpha)
     back = row_pose({"alpha": -alpha}).rotation @ rest.rotation
     return {
         "gamma": gamma,
-        "b": exact_length(rest.position[2] - r * math.cos(alpha)),
+        "b": exact_length(z - r * math.cos(alpha)),
         "alpha": alpha,
-        "d": exact_length(rest.position[0]),
+        "d": exact_length(x),
         "theta": 0.0 if free_about_z else exact_turn(math.atan2(back[1, 0], back[0, 0])),
         "r": exact_length(r),
     }

@@ -92,7 +92,9 @@ def _coupled(root: Spot, joints: Joints, tell: Tell) -> Iterator[tuple[Spot, str
                 f"between the two links are {len(one)} and {len(two)} joints that move; expected "
                 "one on each side of the link that carries both; write <mimic> instead"
             )
-        yield spot.flat("ratio"), two[0].name, one[0].name
+        line = spot.flat("ratio")
+        line.needed("ratio", "1")
+        yield line, two[0].name, one[0].name
 
 
 def _way(above: Mapping[str, TreeJoint], link: str) -> Iterator[TreeJoint]:

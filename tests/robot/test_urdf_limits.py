@@ -13,8 +13,8 @@ from modeler.robot.urdf import urdf_tree
 
 ARM = """<robot name="arm"><link name="base"/><link name="a"><inertial><origin xyz="0.1 0 0.02"/>
 <mass value="1"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.02"/></inertial>
-</link><joint name="j1" type="%s"><parent link="base"/><child link="a"/><axis xyz="0 1 0"/>%s</joint>
-</robot>"""
+</link><joint name="j1" type="%s"><parent link="base"/><child link="a"/><axis xyz="0 1 0"/>%s
+</joint></robot>"""
 
 
 def convert(limit: str, kind: str = "revolute", more: str = ""):
