@@ -3,7 +3,7 @@
 A table is a TOML file. `read`: path of an element -> attributes that are taken, or `**` for all
 that is in it. `idle`: the same of what has no influence on the mechanics, `*` for the element and
 all that is in it. `told` and `refused`: path of an element, or behind @ of an attribute ->
-sentence, {} for the names. `default`: path -> values that change nothing, besides 0 and false.
+sentence, {} for the names. `default`: path -> values that change nothing, else 0 and false.
 What stands in no part is told by name: nothing is passed over in silence.
 """
 
@@ -101,8 +101,9 @@ class ElementTable:
     def _is_default(self, name: str, value: str | None) -> bool:
         if value is None:
             return False
-        words = value.lower().split()
-        return value in self.default.get(name, "").split() or all(map(_is_nothing, words))
+        if name in self.default:
+            return value in self.default[name].split()
+        return all(map(_is_nothing, value.lower().split()))
 
 
 @cache

@@ -180,26 +180,29 @@ class _Reading:
     ) -> tuple[float | None, float | None]:
         """The positions between which the joint may move; None where the file leaves them open."""
         lower, upper = limit.stated("lower"), limit.stated("upper")
+        infinite = [k for k in ("lower", "upper") if limit.said(k) and limit.stated(k) is None]
         if kind == "continuous":
             if lower or upper:
                 self._tell("type continuous has no range, lower and upper are not taken: {}", name)
-            return None, None
-        given = limit.element.attributes.keys() & {"lower", "upper"}
-        if lower is None and upper is None:
-            return None, None
-        for key in given:
-            if limit.stated(key) is None:
-                self._tell("a range that is infinite on one side is not taken: {}", name)
-                return None, None
-        if (lower := lower or 0.0) >= (upper := upper or 0.0):  # the schema: left out is 0
-            self._tell("limits that leave no range are not taken: {}", name)
-            return lower, upper
+            lower = upper = None
+        elif infinite and (lower is not None or upper is not None):
+            self._tell("a range that is infinite on one side is not taken: {}", name)
+            lower = upper = None
+        elif lower is not None or upper is not None:  # the schema: left out is 0
+            lower, upper = lower or 0.0, upper or 0.0
+            if lower >= upper:
+                self._tell("limits that leave no range are not taken: {}", name)
+                return lower, upper
         low, high = soft.stated("soft_lower_limit"), soft.stated("soft_upper_limit")
-        if low is not None and high is not None and max(low, lower) < min(high, upper):
-            if (low, high) != (lower, upper):
-                self._tell("the range is that of the safety_controller: {}", name)
-            return max(low, lower), min(high, upper)
-        return lower, upper
+        if low is None or high is None or (low, high) == (lower, upper):
+            return lower, upper
+        low = low if lower is None else max(low, lower)
+        high = high if upper is None else min(high, upper)
+        if low >= high:
+            self._tell("a safety_controller that leaves no range is not taken: {}", name)
+            return lower, upper
+        self._tell("the range is that of the safety_controller: {}", name)
+        return low, high
 
     def _loss(self, name: str, dynamics: Spot, key: str) -> float | None:
         value = dynamics.stated(key)
