@@ -532,7 +532,7 @@ def _stand_in(cells: Sequence[ParFormula], letters: Sequence[str], symbols: Symb
     known: dict[str, float | str] = {}
 
     def worth(k: int, values: Mapping[str, float] = MappingProxyType({})) -> float:
-        symbols.values |= dict.fromkeys(letters, 1.0) | known | values
+        symbols.values |= {**dict.fromkeys(letters, 1.0), **known, **values}
         try:
             return symbols.value(cells[k].tree)
         except (ArithmeticError, ValueError, ExpressionError):

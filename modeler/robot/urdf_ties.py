@@ -39,6 +39,7 @@ _SIDES = ("link1", "link2", "predecessor", "successor", "parent", "child")
 _GEARS = ("drake:rotor_inertia", "motorInertia", "drake:gear_ratio", "mechanicalReduction")
 _SPRING = ("springStiffness", "springReference")
 _START = "initial_joint_position"
+_BALL = ("body_A", "body_B", "p_AP", "p_BQ")
 _SEVERAL = "transmissions of several joints are left out, rotors too; [motors] states such: {}"
 
 
@@ -71,10 +72,10 @@ def couplings(root: Spot, joints: Joints, tell: Tell) -> dict[str, tuple[str, fl
 def _coupled(root: Spot, joints: Joints, tell: Tell) -> Iterator[tuple[Spot, str, str]]:
     """Where it is stated, follower and leader."""
     for outer, inner, follower, leader in _COUPLED:
-        for around in root.all(outer):
+        for around in root.all(outer, f"drake:{outer}"):
             for spot in around.all(inner):
                 spot = spot.flat(follower, leader, "multiplier", "offset")
-                given = {"name": around.name} | spot.element.attributes
+                given = {"name": around.name, **spot.element.attributes}
                 if inner.endswith("mimic") or (given.get(follower) and given.get(leader)):
                     yield spot, given[follower], spot.needed(leader, "joint1")
                 elif inner == "plugin":
@@ -135,24 +136,22 @@ def with_loops(root: Spot, tree: BodyTree, rounded: Roundings) -> BodyTree:
 
 def _meetings(root: Spot, tree: BodyTree, rounded: Roundings) -> Iterator[Meeting]:
     for spot in root.all("loop", "loop_joint", "constraint"):
-        sides, kind, ends = spot.all(*_SIDES), _kind(spot), []
-        if len(sides) != 2:
-            raise spot.place.error(f"expected the two links that meet, got {len(sides)}")
-        for side in sides:
-            tag = side.element.tag
-            origins, axis = (side.only("origin"), spot.only(f"{tag}_origin")), f"{tag}_axis"
-            origin = next((o for o in origins if o.given), side)
-            axis = axis if spot.only(axis).given else "axis"
-            turn = _turn_to(spot.only(axis), "xyz", kind)
-            ends += [_known(side, "link", tree), pose_of(origin, rounded) @ Pose(rotation=turn)]
-        yield Meeting(spot.name, *ends, kind)
+        kind, links, poses = _kind(spot), list[str](), list[Pose]()
+        for side in spot.all(*_SIDES):
+            inside, own = side.only("origin"), spot.only(f"{side.element.tag}_origin")
+            origin = next((o for o in (inside, own) if o.given), side)
+            axis = spot.only(f"{side.element.tag}_axis")
+            turn = _turn_to(axis if axis.given else spot.only("axis"), "xyz", kind)
+            links.append(_known(side, "link", tree))
+            poses.append(pose_of(origin, rounded) @ Pose(rotation=turn))
+        if len(links) != 2:
+            raise spot.place.error(f"expected the two links that meet, got {len(links)}")
+        yield Meeting(spot.name, links[0], poses[0], links[1], poses[1], kind)
     for spot in root.all("drake:ball_constraint"):
-        ends = []
-        for body, point in (("body_A", "p_AP"), ("body_B", "p_BQ")):
-            at = spot.only(f"drake:ball_constraint_{point}").numbers("value", "0 0 0")
-            link = _known(spot.only(f"drake:ball_constraint_{body}"), "name", tree)
-            ends += [link, Pose(rounded.lengths(at))]
-        yield Meeting("ball_constraint", *ends)
+        inner = [spot.only(f"drake:ball_constraint_{key}") for key in _BALL]
+        bodies = [_known(body, "name", tree) for body in inner[:2]]
+        places = [Pose(rounded.lengths(at.numbers("value", "0 0 0"))) for at in inner[2:]]
+        yield Meeting("ball_constraint", bodies[0], places[0], bodies[1], places[1])
     at_zero = poses_at(tree, {})
     for spot in (j for gazebo in root.all("gazebo") for j in gazebo.all("joint")):
         flat, kind = spot.flat("parent", "child", "pose"), _kind(spot)

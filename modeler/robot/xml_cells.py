@@ -60,7 +60,7 @@ class Spot:
             text = child.attributes.get("value", child.text).strip()
             if key in keys and own.setdefault(key, text) != text:
                 raise self.place.error(f"a second <{child.tag}>; take out what is not meant")
-        own = {key: text for key, text in own.items() if text} | self.element.attributes
+        own = {**{key: text for key, text in own.items() if text}, **self.element.attributes}
         return Spot(replace(self.element, attributes=own), self._where, self.place.spot, self.given)
 
     def must(self, tag: str, example: str) -> "Spot":
