@@ -158,13 +158,11 @@ def _parsed(path: Path, included: str) -> Element:
 
 
 def _check_counts(path: Path, root: Element) -> None:
-    """Refuse what makes many bodies or numbers of few letters, and what is soft."""
+    """Refuse what makes many bodies or numbers of few letters."""
     waiting = [(root, 1.0)]
     while waiting:
         element, times = waiting.pop()
         where = f"{path}: line {element.line}: <{element.tag[:20]}>"
-        if element.tag in ("composite", "flexcomp", "flex"):
-            raise RobotError(f"{where} is soft; expected rigid bodies; take it out")
         key, most = _COUNTS.get(element.tag, ("", math.inf))
         told = " ".join(element.attributes.get(name, "") for name in key.split())
         count = math.prod(max(float(number), 1.0) for number in _NUMBER.findall(told))

@@ -4,7 +4,7 @@ Couplings are `<mimic>`, Drake's, that of Gazebo's plugin, of ros2_control and o
 of Gazebo (a `<joint>` of SDF), URDF+, Drake, Isaac Sim, and of urdfdom's proposed `<constraint>`.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -82,27 +82,15 @@ def _coupled(root: Spot, joints: Joints, tell: Tell) -> Iterator[tuple[Spot, str
                     tell("plugins of Gazebo are left out: {}", spot.said("filename"))
     above = {joint.child: joint for joint in joints.values()}
     for spot in root.all("coupling"):
-        ways = [
-            list(_way(above, spot.must(tag, 'link="link1"').needed("link", "link1")))
-            for tag in ("predecessor", "successor")
-        ]
-        one, two = ([j for j in way if j not in other and j.kind is not JointKind.FIXED]
-                    for way, other in (ways, ways[::-1]))  # fmt: skip
-        if len(one) != 1 or len(two) != 1:
-            raise spot.place.error(
-                f"between the two links are {len(one)} and {len(two)} joints that move; expected "
-                "one on each side of the link that carries both; write <mimic> instead"
-            )
+        one, two = (above.get(spot.must(tag, 'link="a"').needed("link", "a"))
+                    for tag in ("predecessor", "successor"))  # fmt: skip
         line = spot.flat("ratio")
         line.needed("ratio", "1")
-        yield line, two[0].name, one[0].name
-
-
-def _way(above: Mapping[str, TreeJoint], link: str) -> Iterator[TreeJoint]:
-    """The joints from a link up to the root."""
-    while link in above:
-        yield above[link]
-        link = above[link].parent
+        if one is None or two is None or one is two or one.parent != two.parent:
+            raise spot.place.error(
+                "expected two links whose joints stand on one and the same link; or write <mimic>"
+            )
+        yield line, two.name, one.name
 
 
 # Joints that close loops.
