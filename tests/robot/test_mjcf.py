@@ -401,7 +401,8 @@ TIE = "<equality>{}</equality>"
          r'<replicate>: count: got "41"; expected at most 1000 in all'),
         (edited(("<asset>", '<asset><hfield name="h" nrow="90000" ncol="90000" size="1 1 1 1"/>')),
          '<hfield>: nrow ncol: got "90000 90000"'),
-        (edited(("<geom size", '<composite type="cable" count="9 1 1"/><geom size')), "a soft body"),
+        (edited(("<geom size", '<composite type="cable" count="9 1 1"/><geom size')),
+         "a soft body"),
         (edited(('gear="50"', 'gear="1e200"')), r"actuator_gear: got more than 1e\+12"),
     ],
 )  # fmt: skip
