@@ -416,6 +416,7 @@ def bounds_of(
             for name, x in corners.items()
         ),
         passive=tuple(passive), home=home,
+        assumed=tuple(name for name in coordinates if name not in {**robot.limits, **changes}),
     )  # fmt: skip
     return with_clearance(robot, compiled, bounds, clearance)
 

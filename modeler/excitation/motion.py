@@ -41,6 +41,7 @@ class Bounds(Brief):
         passive: places in u of joints that follow, with their lower and upper limits.
         home: (J,) where loops are closed from; None without loops.
         clearance: what links keep from each other; None: it is not looked at.
+        assumed: joints of which nobody has stated limits.
     """
 
     joints: tuple[str, ...]
@@ -53,6 +54,7 @@ class Bounds(Brief):
     passive: tuple[tuple[int, float, float], ...] = ()
     home: np.ndarray | None = None
     clearance: Clearance | None = None
+    assumed: tuple[str, ...] = ()
 
     @property
     def middle(self) -> np.ndarray:

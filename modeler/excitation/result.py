@@ -14,6 +14,7 @@ from modeler.core.brief import Brief
 from modeler.core.errors import DataError
 from modeler.core.result import Presented
 from modeler.core.table import aligned
+from modeler.core.toml_cells import listed
 from modeler.excitation.clearance import Nearest
 from modeler.excitation.criterion import signals
 from modeler.excitation.families import Series, coefficients_json
@@ -181,6 +182,11 @@ class Exciting(Presented):
                 f"{name:<6}{_pair(u.lower[j], u.upper[j]):>20}{_pair(b.lower[j], b.upper[j]):>20}"
                 f"{f'{u.speed[j]:.3g} of {b.speed[j]:.3g}':>14}"
                 f"{f'{u.acceleration[j]:.3g} of {b.acceleration[j]:.3g}':>16}{torque:>16}"
+            )
+        if b.assumed:
+            lines.append(
+                f"no limits are stated for {listed(b.assumed)}: those above are assumed; correct "
+                "them by [limits] or --limit before a robot moves"
             )
         if u.loops is not None:
             lines.append(

@@ -31,6 +31,7 @@ from modeler.robot import (
     moving_links,
     near,
     parse_xml,
+    rotation_matrix,
     urdf_tree,
 )
 
@@ -124,6 +125,8 @@ def inertial_axes(source: Source, link: Element | None) -> np.ndarray | None:
     paths = {"urdf": "inertial/origin@rpy", "sdf": "inertial/pose"}
     if link is None or source.format not in paths:
         return None
+    if quaternion := text_at(link, "inertial/origin@quat_xyzw"):
+        return rotation_matrix(np.roll([float(word) for word in quaternion.split()], 1))
     angles = text_at(link, paths[source.format]).split()[-3:]
     return from_rpy([float(word) for word in angles]) if angles else None
 

@@ -16,7 +16,7 @@ from modeler.robot import Joint, Pose
 
 _HEAD = b"<!-- modeler export: "
 _OURS = re.compile(re.escape(_HEAD) + rb".*?-->\r?\n?", re.DOTALL)
-_DECLARATION = re.compile(rb"\A(?:\xef\xbb\xbf)?(?:<\?xml[^>]*\?>[ \t]*(?:\r?\n)?)?")
+_DECLARATION = re.compile(rb"\A(?:\xef\xbb\xbf)?(?:\s*<\?xml[^>]*\?>[ \t]*(?:\r?\n)?)?")
 
 QUANTITIES = (
     "mass", "centre x", "centre y", "centre z", "ixx", "ixy", "ixz", "iyy", "iyz", "izz",

@@ -44,6 +44,7 @@ from .pasted import (
     pasted_table as pasted_table,
     with_pasted as with_pasted,
 )
+from .quaternions import rotation_matrix as rotation_matrix
 from .read import read_robot as read_robot, robot_from_text as robot_from_text
 from .robot import (
     INERTIAL as INERTIAL,

@@ -183,7 +183,7 @@ class TreeJoint:
         axis: (3,) of length one, in the child's frame.
         point: (3,) on the axis, in the child's frame, m.
         zero: position at which `pose` holds, rad or m.
-        lower, upper, speed, effort: limits; None where the file states none.
+        lower, upper, speed, acceleration, effort: limits; None where the file states none.
         damping: N m s/rad, N s/m. friction: dry, N m, N. armature: rotor inertia as the joint
             feels it, kg m2, kg. stiffness: of a spring, about `rest`. None: not stated.
         leader: joint that it follows, q = ratio q_leader + offset; "" if it follows none.
@@ -201,6 +201,7 @@ class TreeJoint:
     lower: float | None = None
     upper: float | None = None
     speed: float | None = None
+    acceleration: float | None = None
     effort: float | None = None
     damping: float | None = None
     friction: float | None = None
@@ -225,19 +226,21 @@ class TreeJoint:
 
 @dataclass(frozen=True, eq=False)
 class Meeting:
-    """A point of one body that stays at a point of another: a ball joint that closes a loop.
+    """A joint that closes a loop: a frame on one body meets a frame on another.
 
     Attributes:
         name: for messages.
         body, other: names of bodies.
-        point, other_point: (3,) in their frames, m.
+        pose, other_pose: of the frames on them.
+        kind: of `robot.LOOP_KINDS`; the axis of the joint is z of both frames.
     """
 
     name: str
     body: str
-    point: np.ndarray
+    pose: Pose
     other: str
-    other_point: np.ndarray
+    other_pose: Pose
+    kind: str = "spherical"
 
 
 @dataclass(frozen=True, eq=False)
@@ -274,6 +277,17 @@ class BodyTree:
     unread: Mapping[str, str] = field(default_factory=dict)
     home: Mapping[str, float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+
+
+def poses_at(tree: BodyTree, positions: Mapping[str, float]) -> dict[str, Pose]:
+    """Of every body's frame in frame 0; joints that lead stand at 0 where nothing is said."""
+    poses = {tree.root: Pose()}
+    for joint in tree.joints:
+        at = positions.get(joint.leader or joint.name, 0.0)
+        if joint.leader:
+            at = joint.ratio * at + joint.offset
+        poses[joint.child] = poses[joint.parent] @ joint.at(at)
+    return poses
 
 
 @dataclass(frozen=True, eq=False)

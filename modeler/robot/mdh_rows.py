@@ -69,21 +69,21 @@ class MdhTable:
         rows: each after its antecedent.
         names: (links,) row that carries the link; "0" for the first.
         places: (links,) pose of the link's frame on that row.
-        ends: of every loop, the rows that carry its two points, and where on them.
+        ends: of every loop, the rows that carry its two frames, and where on them.
     """
 
     rows: tuple[MdhRow, ...]
     names: tuple[str, ...]
     places: tuple[Pose, ...]
-    ends: tuple[tuple["Point", "Point"], ...] = ()
+    ends: tuple[tuple["End", "End"], ...] = ()
 
 
-Point = tuple[str, np.ndarray]
-"""Row, and (3,) place on it, m."""
+End = tuple[str, Pose]
+"""Row, and the pose of a frame on it."""
 
 
-Loop = tuple[tuple[int, np.ndarray], tuple[int, np.ndarray]]
-"""Two links, and of each the (3,) point in its file frame that meets the other, m."""
+Loop = tuple[tuple[int, Pose], tuple[int, Pose]]
+"""Two links, and of each the frame, in its file frame, that meets the other."""
 
 
 def exact_length(length: float) -> float:
@@ -276,13 +276,13 @@ class _Rows:
         self.stands[lead] = name, frame
         return name, frame
 
-    def end(self, link: int, point: np.ndarray, other: int) -> Point:
-        """The row that carries a point of a link, which meets one of another."""
+    def end(self, link: int, pose: Pose, other: int) -> End:
+        """The row that carries a frame of a link, which meets one of another."""
         while other and self.links[other].parent != link:
             other = self.links[other].parent
         own = f"{link}", self.frames[link]
         name, frame = self.stands.get(self.leads.get(other, 0), own)
-        return name, frame.inverse().place(point)
+        return name, frame.inverse() @ pose
 
     def _chosen(self, k: int, placed: Pose, plain: tuple[float, float]) -> tuple[float, float]:
         """theta and r of the row of link k, without its variable.
@@ -373,12 +373,12 @@ def mdh_table(links: Sequence[MovingLink], loops: Sequence[Loop] = ()) -> MdhTab
 
     Args:
         links: as `moving_links` gives them.
-        loops: points that meet.
+        loops: frames that meet.
     """
     ways = [float(np.linalg.norm(link.pose.position)) for link in links]
     points: dict[int, list[np.ndarray]] = {}
-    for k, point in itertools.chain(*loops):
-        points.setdefault(k, []).append(point)
+    for k, pose in itertools.chain(*loops):
+        points.setdefault(k, []).append(pose.position)
     made = _Rows(links, max(ways) or 1.0, _axes(links), points, _leads(links, loops))
     for k in range(1, len(links)):
         made.add(k)
@@ -407,3 +407,29 @@ def towards(point: np.ndarray) -> dict[str, float]:
     gamma = _folded(way.gamma or 0.0)
     d = exact_length(way.d * _sign(gamma, way.gamma))
     return {"gamma": gamma, "b": exact_length(float(point[2])), "d": d}
+
+
+def fixed_row(pose: Pose, free_about_z: bool) -> dict[str, float]:
+    """The cells of a fixed row that stands as a frame does in the one before it.
+
+    Args:
+        pose: of that frame.
+        free_about_z: True if only its origin and z axis matter: theta is 0 then.
+    """
+    along, place = pose.rotation[:, 2].tolist(), pose.position.tolist()
+    parallel = math.hypot(*along[:2]) < PARALLEL
+    gamma = math.atan2(place[1], place[0]) if parallel else math.atan2(along[0], -along[1])
+    gamma = _folded(gamma)
+    rest = _screw(-gamma, 0.0) @ pose
+    x, y, z = rest.position.tolist()
+    alpha = exact_turn(math.atan2(-rest.rotation[1, 2], rest.rotation[2, 2]))
+    r = 0.0 if parallel else -y / math.sin(alpha)
+    back = row_pose({"alpha": -alpha}).rotation @ rest.rotation
+    return {
+        "gamma": gamma,
+        "b": exact_length(z - r * math.cos(alpha)),
+        "alpha": alpha,
+        "d": exact_length(x),
+        "theta": 0.0 if free_about_z else exact_turn(math.atan2(back[1, 0], back[0, 0])),
+        "r": exact_length(r),
+    }

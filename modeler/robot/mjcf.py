@@ -5,15 +5,12 @@ files, replicas, inertia from geoms. Before that, what no robot model needs is t
 meshes of bodies whose inertia is stated), so that files that are not there do not matter.
 """
 
-import itertools
 import math
 import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from decimal import Decimal
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +19,6 @@ import numpy as np
 from modeler.core.errors import RobotError, installing, on_one_line
 from modeler.core.files import read_file
 from modeler.core.toml_cells import shown
-from modeler.robot.angles import cosine_sine
 from modeler.robot.body_tree import (
     BodyTree,
     Inertial,
@@ -33,6 +29,14 @@ from modeler.robot.body_tree import (
     doubt,
     several,
 )
+from modeler.robot.elements import element_table
+from modeler.robot.quaternions import (
+    ALIKE,
+    EXACT,
+    exact_direction,
+    exact_quaternion,
+    rotation_matrix,
+)
 from modeler.robot.robot import JointKind
 from modeler.robot.tree_cuts import follow
 from modeler.robot.xml_source import LARGEST_FILE, Element, parse_xml
@@ -40,13 +44,10 @@ from modeler.robot.xml_source import LARGEST_FILE, Element, parse_xml
 MOST_FILES = 200
 _COUNTS = {"replicate": ("count", 1e3), "hfield": ("nrow ncol", 1e6), "mesh": ("params", 1e3)}
 """Element -> attributes whose product makes bodies or numbers, and how many at most."""
-HIDDEN = 4e-6
-"""What 1.5708 instead of pi/2 leaves in the components of a quaternion with more digits."""
 LIGHT = 1e-12
 """Of bodies that state nothing, kg and kg m2, for MuJoCo compiles no moving body without."""
 NOTHING = 1e-9
 """kg; what weighs less states nothing."""
-ALIKE, EXACT = 1e-9, 1e-15
 _FREE, _BALL, _SLIDE, _HINGE = range(4)  # mjtJoint
 _WRAP_JOINT = 1  # mjtWrap
 _LEFT_OUT = ("cameras", "lights", "hfields", "sensors", "pairs", "excludes", "skins", "tuples",
@@ -73,13 +74,14 @@ def mjcf_tree(path: Path, exact_decimals: bool = False) -> BodyTree:
             a robot file. One line.
     """
     mujoco = _mujoco(path)
-    root = _sources(path)
+    sources = _sources(path)
+    judged = element_table("mjcf").notes((str(file), root) for file, root in sources)
     with _quiet(mujoco, path):
         spec = mujoco.MjSpec.from_file(str(path))
-        notes = _taken_out(spec) + _lighten(spec) + ([] if exact_decimals else _unround(spec))
+        notes = _lighten(spec, path) + ([] if exact_decimals else _unround(spec))
         model = spec.compile()
-    reading = _Reading(mujoco, path, model, notes)
-    return reading.tree(root.attributes.get("model") or path.stem)
+    reading = _Reading(mujoco, path, model, [*notes, *judged])
+    return reading.tree(sources[0][1].attributes.get("model") or path.stem)
 
 
 def _mujoco(path: Path) -> Any:
@@ -116,16 +118,16 @@ def _quiet(mujoco: Any, path: Path) -> Iterator[None]:
 # The text: everything that MuJoCo is going to read is looked at first.
 
 
-def _sources(path: Path) -> Element:
-    """The root of the file, when it and what it includes are XML of bounded size."""
+def _sources(path: Path) -> list[tuple[Path, Element]]:
+    """The file and models that it attaches, XML of bounded size; what they include stands there."""
     root = _parsed(path, "")
     if root.tag != "mujoco":
         raise RobotError(f"{path}: line {root.line}: got <{root.tag[:20]}>; expected <mujoco>")
-    waiting, seen = [(path, root)], {path.resolve()}
+    waiting, seen, roots = [(path, root)], {path.resolve()}, [(path, root)]
     while waiting:
         place, element = waiting.pop()
         _check_counts(place, element)
-        for part in element.walk():
+        for part in list(element.walk()):
             file = part.attributes.get("file", "")
             if not file or part.tag not in ("include", "model"):
                 continue
@@ -133,10 +135,15 @@ def _sources(path: Path) -> Element:
             found = next((one for one in beside if one.is_file()), beside[0])
             if found.resolve() not in seen:
                 seen.add(found.resolve())
-                waiting.append((found, _parsed(found, f"{place}: line {part.line}: includes ")))
+                inner = _parsed(found, f"{place}: line {part.line}: includes ")
+                waiting.append((found, inner))
+                if part.tag == "include":
+                    part.children = inner.children
+                else:
+                    roots.append((found, inner))
             if len(seen) > MOST_FILES:
                 raise RobotError(f"{path}: expected at most {MOST_FILES} included files")
-    return root
+    return roots
 
 
 def _parsed(path: Path, included: str) -> Element:
@@ -151,13 +158,11 @@ def _parsed(path: Path, included: str) -> Element:
 
 
 def _check_counts(path: Path, root: Element) -> None:
-    """Refuse what makes many bodies or numbers of few letters, and what is soft."""
+    """Refuse what makes many bodies or numbers of few letters."""
     waiting = [(root, 1.0)]
     while waiting:
         element, times = waiting.pop()
         where = f"{path}: line {element.line}: <{element.tag[:20]}>"
-        if element.tag in ("composite", "flexcomp", "flex"):
-            raise RobotError(f"{where} is soft; expected rigid bodies; take it out")
         key, most = _COUNTS.get(element.tag, ("", math.inf))
         told = " ".join(element.attributes.get(name, "") for name in key.split())
         count = math.prod(max(float(number), 1.0) for number in _NUMBER.findall(told))
@@ -171,10 +176,15 @@ def _check_counts(path: Path, root: Element) -> None:
 # What is taken out before MuJoCo compiles.
 
 
-def _taken_out(spec: Any) -> list[str]:
-    """Take out bodies that float, or that the simulator drags, and carry no joint."""
-    notes = []
-    for body in list(spec.worldbody.bodies):
+def _lighten(spec: Any, path: Path) -> list[str]:
+    """Take out what no robot needs, and say what of it weighs: pictures, and bodies of a scene."""
+    for name in dir(spec):
+        if name.startswith("nuser_"):
+            setattr(spec, name, -1)
+    spec.compiler.discardvisual = spec.compiler.fusestatic = False
+    spec.memory, spec.nkey, spec.nuserdata = -1, 0, 0  # as much as MuJoCo finds necessary
+    notes, gone = list[str](), []
+    for body in spec.worldbody.bodies:
         floats = any(joint.type == _FREE for joint in body.joints)
         if not floats and not body.mocap:
             continue
@@ -182,19 +192,33 @@ def _taken_out(spec: Any) -> list[str]:
         told = "here it stands still where the file has it"
         if len(body.find_all("joint")) == floats:
             told = "it is left out with what ties it, for it has no joint"
+            gone.append(body)
         notes.append(f"{body.name or 'a body'} {what}; {told}")
-        if "left out" in told:
+    total = spec.compiler.settotalmass
+    for body in [] if total > 0.0 else gone:
+        spec.delete(body)
+    without = _take_out_shapes(spec)
+    if without and total > 0.0:
+        raise RobotError(on_one_line(
+            f"{path}: settotalmass shares {total:g} kg by masses of meshes that are not there, of "
+            f"{several(without)}; put them there, or take settotalmass out"
+        ))  # fmt: skip
+    if total > 0.0 and gone:
+        scaled = spec.compile().body_mass
+        away = [b.id for body in gone for b in (body, *body.find_all("body"))]
+        spec.compiler.settotalmass = total - float(np.sum(scaled[away]))
+        for body in gone:
             spec.delete(body)
-    return notes
+    told = f"no values of {several(without)}: they follow from meshes that are not there"
+    return [*notes, told] if without else notes
 
 
-def _lighten(spec: Any) -> list[str]:
-    """Take out what neither moves nor weighs; bodies that state nothing get next to nothing."""
-    spec.compiler.discardvisual = spec.compiler.fusestatic = False
-    spec.memory, spec.nkey, spec.nuserdata = -1, 0, 0  # as much as MuJoCo finds necessary
-    for name in dir(spec):
-        if name.startswith("nuser_"):
-            setattr(spec, name, -1)
+def _take_out_shapes(spec: Any) -> list[str]:
+    """Take out what neither moves nor weighs; bodies that state nothing get next to nothing.
+
+    Returns:
+        Those whose inertia follows from a mesh that is not there.
+    """
     without, used, here = [], set(), spec.modelfiledir
     for body in spec.bodies:
         shapes = [geom for geom in body.geoms if geom.meshname or geom.hfieldname]
@@ -219,9 +243,7 @@ def _lighten(spec: Any) -> list[str]:
     idle = [part for name in _LEFT_OUT for part in getattr(spec, name)]
     for part in [*idle, *(mesh for mesh in spec.meshes if mesh.name not in used)]:
         spec.delete(part)
-    if not without:
-        return []
-    return [f"no values of {several(without)}: they follow from meshes that are not there"]
+    return without
 
 
 def _weighs(body: Any, geom: Any) -> bool:
@@ -243,65 +265,20 @@ def _unround(spec: Any) -> list[str]:
     for part in [*spec.bodies, *spec.frames]:
         way, degree = part.alt.type.name, part.compiler.degree
         if way == "mjORIENTATION_QUAT":
-            part.quat = _near(np.array(part.quat), _rotations(), rounded)
+            part.quat = exact_quaternion(np.array(part.quat), rounded)
         elif way == "mjORIENTATION_EULER":
             part.alt.euler = [angle(x, degree) for x in part.alt.euler]
         elif way == "mjORIENTATION_AXISANGLE":
             *axis, turn = part.alt.axisangle
-            axis = _near(np.array(axis), _directions(), rounded)
+            axis = exact_direction(np.array(axis), rounded)
             part.alt.axisangle = [*axis, angle(turn, degree)]
     for joint in spec.joints:
-        joint.axis = _near(np.array(joint.axis), _directions(), rounded)
+        joint.axis = exact_direction(np.array(joint.axis), rounded)
         if joint.type == _HINGE:
             joint.ref = angle(joint.ref, joint.compiler.degree)
     for part in [*spec.bodies, *spec.frames, *spec.joints, *spec.sites]:
         part.pos = rounded.lengths(np.array(part.pos))
     return list(rounded.notes())
-
-
-def _near(given: np.ndarray, known: np.ndarray, rounded: Roundings) -> np.ndarray:
-    """The unit vector among the known ones that the printed one rounds; itself if there is none."""
-    length = float(np.linalg.norm(given))
-    if not 0.99 < length < 1.01:
-        return given
-    digits = max(-int(Decimal(repr(float(x))).as_tuple().exponent) for x in given)
-    if digits < 3:
-        return given
-    allowed = 0.51 * 10.0**-digits if digits < 5 else max(10.0**-digits, HIDDEN)
-    best: np.ndarray = known[np.argmax(known @ given)]
-    if np.max(np.abs(best - given)) > allowed:
-        return given
-    if np.max(np.abs(best - given / length)) > ALIKE:
-        rounded.angles[" ".join(f"{x:g}" for x in given)] = "of multiples of pi/12"
-    return best
-
-
-@cache
-def _rotations() -> np.ndarray:
-    """(n, 4) quaternions of turns about three different axes by multiples of pi/12, both signs."""
-    turns = np.zeros((3, 48, 4))
-    for count, axis in itertools.product(range(48), range(3)):
-        turns[axis, count, 0], turns[axis, count, axis + 1] = cosine_sine(count * math.pi / 24)
-    middle = [*range(7), *range(42, 48)]  # to a right angle
-    return np.concatenate([
-        _product(_product(turns[i][:, None], turns[j][None, middle]).reshape(-1, 1, 4),
-                 turns[k][None, :24]).reshape(-1, 4)
-        for i, j, k in itertools.permutations(range(3))
-    ])  # fmt: skip
-
-
-def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Quaternions a b, along the last axis."""
-    head = a[..., :1] * b[..., :1] - np.sum(a[..., 1:] * b[..., 1:], axis=-1, keepdims=True)
-    tail = a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + np.cross(a[..., 1:], b[..., 1:])
-    return np.concatenate([head, tail], axis=-1)
-
-
-@cache
-def _directions() -> np.ndarray:
-    """(72, 3) unit vectors in the coordinate planes at multiples of pi/12."""
-    plane = np.array([[*cosine_sine(count * math.pi / 12), 0.0] for count in range(24)])
-    return np.concatenate([np.roll(plane, k, axis=1) for k in range(3)])
 
 
 # What MuJoCo has compiled.
@@ -329,10 +306,9 @@ class _Reading:
         joints, meetings = self._tied(joints), tuple(self._meetings())
         self._tell()
         bodies = {n: self._inertial(i) for i, n in enumerate(self._bodies)}
-        floats = model.opt.disableflags & int(self._mujoco.mjtDisableBit.mjDSBL_GRAVITY)
         return BodyTree(
             name, "MJCF", self._bodies[0], bodies | dict.fromkeys(hidden), joints, meetings,
-            gravity=np.zeros(3) if floats else np.array(model.opt.gravity),
+            gravity=np.zeros(3) if self._off("GRAVITY") else np.array(model.opt.gravity),
             hidden=frozenset(hidden),
             doubted={n: why for n, body in bodies.items() if body and (why := doubt(body))},
             unread=unread,
@@ -347,7 +323,7 @@ class _Reading:
         mass, moments = float(model.body_mass[body]), model.body_inertia[body]
         if mass < NOTHING and np.all(moments < NOTHING):
             return None
-        turn = _matrix(self._mujoco, model.body_iquat[body])
+        turn = rotation_matrix(model.body_iquat[body])
         inertia = turn @ np.diag(moments) @ turn.T
         inertia[np.abs(inertia) < 10 * EXACT * np.max(moments)] = 0.0
         return Inertial(mass, np.array(model.body_ipos[body]), inertia)
@@ -361,9 +337,7 @@ class _Reading:
             if body == 0:
                 continue
             parent = self._bodies[model.body_parentid[body]]
-            pose = Pose(
-                np.array(model.body_pos[body]), _matrix(self._mujoco, model.body_quat[body])
-            )
+            pose = Pose(np.array(model.body_pos[body]), rotation_matrix(model.body_quat[body]))
             own = np.flatnonzero(model.jnt_bodyid == body).tolist()
             if not own:
                 label = _other(name, taken)
@@ -389,6 +363,7 @@ class _Reading:
             armature += square * float(model.actuator_armature[i])
             damping += square * float(model.actuator_damping[i])
         lower, upper = map(float, model.jnt_range[j])
+        stiffness, friction = float(model.jnt_stiffness[j]), float(model.dof_frictionloss[dof])
         return replace(
             joint,
             kind=JointKind.PRISMATIC if model.jnt_type[j] == _SLIDE else JointKind.REVOLUTE,
@@ -398,10 +373,10 @@ class _Reading:
             lower=lower if model.jnt_limited[j] else None,
             upper=upper if model.jnt_limited[j] else None,
             effort=float(model.jnt_actfrcrange[j, 1]) if model.jnt_actfrclimited[j] else None,
-            damping=damping or None,
-            friction=float(model.dof_frictionloss[dof]) or None,
+            damping=None if self._off("DAMPER") else damping or None,
+            friction=None if self._off("FRICTIONLOSS", "CONSTRAINT") else friction or None,
             armature=armature or None,
-            stiffness=float(model.jnt_stiffness[j]) or None,
+            stiffness=None if self._off("SPRING") else stiffness or None,
             rest=float(model.qpos_spring[place]),
             actuated=j in self._actuated,
         )
@@ -412,7 +387,7 @@ class _Reading:
         return np.flatnonzero((model.actuator_trntype < 2) & (model.actuator_trnid[:, 0] == joint))
 
     def _driven(self) -> set[int]:
-        """Joints that an actuator moves, through whatever transmission; all if there is none."""
+        """Joints that an actuator moves, through whatever transmission."""
         mujoco, model = self._mujoco, self._model
         data = mujoco.MjData(model)
         for j in np.flatnonzero(self._single):  # no posture in which a lever happens to vanish
@@ -421,14 +396,15 @@ class _Reading:
             getattr(mujoco, step)(model, data)
         acting = np.abs(np.ravel(data.actuator_moment)) > ALIKE
         dofs = np.ravel(data.moment_colind)[: acting.size][acting]
-        return {int(model.dof_jntid[dof]) for dof in dofs} or set(range(model.njnt))
+        return {int(model.dof_jntid[dof]) for dof in dofs}
 
     # Constraints.
 
     def _equalities(self) -> Iterator[tuple[str, int, str]]:
         """Active ones: kind, number, and a name."""
         model = self._model
-        for i in np.flatnonzero(model.eq_active0).tolist():
+        off = self._off("EQUALITY", "CONSTRAINT")
+        for i in [] if off else np.flatnonzero(model.eq_active0).tolist():
             kind = self._mujoco.mjtEq(model.eq_type[i]).name.removeprefix("mjEQ_").lower()
             yield kind, i, model.equality(i).name or f"{kind} equality {i + 1}"
 
@@ -502,7 +478,7 @@ class _Reading:
                 raise self._refused(f"{name} holds {one} and {two} rigidly; expected connect")
             else:
                 points = [np.where(np.abs(point) < 10 * EXACT, 0.0, point) for point in points]
-                yield Meeting(name, one, points[0], two, points[1])
+                yield Meeting(name, one, Pose(points[0]), two, Pose(points[1]))
 
     def _carrier(self, body: int) -> int:
         """The body that has the joint which moves that one; 0 if none does."""
@@ -520,28 +496,25 @@ class _Reading:
 
     # What is told.
 
+    def _off(self, *flags: str) -> bool:
+        """Whether an `<option><flag>` switches something off."""
+        bits = [int(getattr(self._mujoco.mjtDisableBit, f"mjDSBL_{flag}")) for flag in flags]
+        return any(self._model.opt.disableflags & bit for bit in bits)
+
     def _refused(self, what: str) -> RobotError:
         return RobotError(on_one_line(f"{self._path}: {what}"))
 
     def _tell(self) -> None:
         model = self._model
-        if model.nplugin:
-            raise self._refused("plugins are not read; take them out")
-        idle = model.neq - int(np.sum(model.eq_active0))
-        lifted = [n for n, share in zip(self._bodies, model.body_gravcomp, strict=True) if share]
-        fluid = model.opt.density or model.opt.viscosity or np.any(model.opt.wind)
-        tendons = [f"tendon_{p}" for p in ("stiffness", "damping", "frictionloss", "armature")]
+        idle = model.neq - len(list(self._equalities()))
         curved = np.any(model.jnt_stiffnesspoly) or np.any(model.dof_dampingpoly)
         driven = [i for j in range(model.njnt) for i in self._motors(j)]
         gear = np.any(model.actuator_gear[driven, 0] != 1) and np.any(model.dof_armature)
+        away = np.any(np.delete(model.actuator_armature + model.actuator_damping, driven))
         inner = np.any(model.actuator_armature[driven]) or np.any(model.actuator_damping[driven])
         notes = {
             f"{idle} inactive equalities are left out": idle,
-            f"gravcomp of {several(lifted)} is left out: torques here carry gravity": lifted,
-            "forces of the fluid (density, viscosity, wind) are left out": fluid,
-            "springs, damping, friction and armature of tendons are left out": any(
-                np.any(getattr(model, values)) for values in tendons
-            ),
+            "armature and damping of actuators on tendons, sites or bodies are left out": away,
             "of polynomial springs and damping the linear term is taken": curved,
             "armature and damping of actuators are the motor's: gear^2 as much at a joint": inner,
             "armature of joints is taken at the joint; gear scales commands alone": gear,
@@ -561,12 +534,3 @@ def _other(name: str, taken: set[str]) -> str:
         name += "_"
     taken.add(name)
     return name
-
-
-def _matrix(mujoco: Any, quaternion: np.ndarray) -> np.ndarray:
-    """(3, 3) the rotation; what ought to be 0 or 1 is."""
-    entries = np.zeros(9)
-    mujoco.mju_quat2Mat(entries, quaternion)
-    turn = entries.reshape(3, 3)
-    whole = np.round(turn)
-    return np.where(np.abs(turn - whole) < EXACT, whole, turn) + 0.0

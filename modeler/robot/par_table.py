@@ -1,13 +1,15 @@
 """The geometry of a `.par` file as the cells of `[mdh]`: exact angles, lengths with letters."""
 
 import ast
+import itertools
 import keyword
 import math
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
-from modeler.core.expression import FUNCTIONS, parse, written
+from modeler.core.expression import FUNCTIONS, ExpressionError, parse, written
 from modeler.core.toml_cells import Place, listed
 from modeler.effects import CATALOGUE
 from modeler.robot.angles import exact_angle, exact_terms, told_angles
@@ -354,6 +356,7 @@ def _make_polar(
 # The cells of the frames as those of a robot file.
 
 
+_USUAL_G = 9.81  # m/s2
 LETTER = {"gamma": "gam", "alpha": "alp", "theta": "off", "b": "B", "d": "D", "r": "R"}
 _TURN = 6.29  # rad
 
@@ -502,25 +505,58 @@ def _add_variables(made: list[ParFrame], symbols: Symbols) -> None:
 def gravity(entries: tuple[str, ...], symbols: Symbols, place: Place) -> list[str]:
     """The cells of `gravity`: numbers with the letter g where they are about 9.81.
 
-    Letters have stand-ins: the third the usual one, so that z points up.
+    Letters have stand-ins: by these gravity has the usual size, along -z0 where the third entry has
+    letters, else as the sign of the entry says; it is told.
     """
-    cells = []
+    cells, letters = list[ParFormula](), list[str]()
     taken = set(symbols.values) | reserved(0)
     for k, entry in enumerate(entries):
         cell = formula(entry, place.at(f"G, entry {k + 1}"))
         if cell.literal is not None:
             number = float(cell.literal)
-            if 9.7 < abs(number) < 9.9:
-                name = symbols.add("g", abs(number), "m/s^2")
-                cells.append(f"-{name}" if number < 0 else name)
-            else:
-                cells.append("0" if number == 0 else cell.text)
+            name = symbols.add("g", abs(number), "m/s^2") if 9.7 < abs(number) < 9.9 else ""
+            text = f"{'-' * (number < 0)}{name}" if name else cell.text if number else "0"
+            cells.append(ParFormula(parsed(text), text))
             continue
-        names = new_names(sorted(cell.names - symbols.values.keys()), taken, symbols)
-        for letter in sorted(cell.names - symbols.values.keys()):
-            name = names.get(letter, letter)
-            symbols.values[name] = (0.5, 0.7, -9.81)[k]
-            symbols.comments[name] = "m/s^2, no value in the file"
-            symbols.notes.append(f"{name} has no value in the file; gravity is taken along -z0")
-        cells.append(written(renamed(cell.tree, names)))
-    return cells
+        own = sorted(cell.names - symbols.values.keys())
+        names = new_names(own, taken, symbols)
+        cells.append(cell.replaced(renamed(cell.tree, names)))
+        letters += [names.get(letter, letter) for letter in own]
+    if letters:
+        _stand_in(cells, list(dict.fromkeys(letters)), symbols)
+    return [cell.text for cell in cells]
+
+
+def _stand_in(cells: Sequence[ParFormula], letters: Sequence[str], symbols: Symbols) -> None:
+    """Give the letters of gravity values; tells where it points by them."""
+    known: dict[str, float | str] = {}
+
+    def worth(k: int, values: Mapping[str, float] = MappingProxyType({})) -> float:
+        symbols.values |= {**dict.fromkeys(letters, 1.0), **known, **values}
+        try:
+            return symbols.value(cells[k].tree)
+        except (ArithmeticError, ValueError, ExpressionError):
+            return math.nan
+
+    having = [k for k in (2, 1, 0) if cells[k].names & {*letters}]
+    fixed = any(worth(k) for k in range(3) if k not in having)
+    for k in having:
+        own = [x for x in letters if x in cells[k].names and x not in known]
+        for first, rest in itertools.product(own, (0.0, 1.0)):
+            others = dict.fromkeys([x for x in own if x != first], rest)
+            at = [worth(k, {**others, first: x}) for x in (0.0, 1.0, 2.0)]
+            slope = at[1] - at[0]
+            if abs(slope) > 0.0 and math.isclose(at[2] - at[1], slope):
+                pull = 0.0 if fixed or k != having[0] else -_USUAL_G
+                pull = pull if k == 2 else math.copysign(pull, slope)
+                known |= {**others, first: round((pull - at[0]) / slope, 12)}
+                break
+    pulls = [worth(k) for k in range(3)]
+    symbols.comments |= dict.fromkeys(letters, "of gravity, no value in the file")
+    values = listed(f"{letter} = {symbols.number(letter):g}" for letter in letters)
+    along = [f"{'-' * (x < 0)}{axis}0" for axis, x in zip("xyz", pulls, strict=True) if x]
+    way = f"along {along[0]}" if len(along) == 1 else ", ".join(f"{x:.4g}" for x in pulls)
+    symbols.notes.append(
+        f"no value in the file: with {values}, a stand-in, gravity is taken {way}, "
+        f"{math.hypot(*pulls):.4g} m/s2"
+    )

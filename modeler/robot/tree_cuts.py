@@ -11,7 +11,7 @@ from dataclasses import replace
 from modeler.core.errors import RobotError
 from modeler.core.expression import ExpressionError, parse
 from modeler.core.toml_cells import Place, listed, near, shown
-from modeler.robot.body_tree import BodyTree, Pose, TreeJoint
+from modeler.robot.body_tree import BodyTree, TreeJoint, poses_at
 from modeler.robot.cells import LARGEST_LENGTH
 from modeler.robot.robot import JointKind
 
@@ -156,7 +156,7 @@ def _from_base(tree: BodyTree, name: str) -> BodyTree:
     base = _link(tree, "--base", name)
     if base == tree.root:
         return tree
-    poses = _at_zero(tree)
+    poses = poses_at(tree, {})
     part = _kept(tree, base, lambda _: True, "before --base")
     gravity = poses[base].rotation.T @ tree.gravity + 0.0
     entries = ", ".join(f"{entry:.6g}" for entry in gravity)
@@ -228,11 +228,3 @@ def _all_read(tree: BodyTree) -> BodyTree:
         instead = f"cut it off with --base LINK or --tip LINK, or hold it with --lock {name}=0"
         raise RobotError(f"{told} joints are not read; {instead}")
     return replace(tree, unread=unread, notes=tuple(notes))
-
-
-def _at_zero(tree: BodyTree) -> dict[str, Pose]:
-    """Of every body's frame in frame 0, where every joint that leads is at 0."""
-    poses = {tree.root: Pose()}
-    for joint in tree.joints:
-        poses[joint.child] = poses[joint.parent] @ joint.at(joint.offset if joint.leader else 0.0)
-    return poses

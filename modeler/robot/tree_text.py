@@ -15,13 +15,23 @@ from modeler.robot.body_tree import (
     BodyTree,
     Meeting,
     MovingLink,
+    Pose,
     about_origin,
     moving_links,
     several,
 )
 from modeler.robot.cells import robot_name
 from modeler.robot.conventions import ANGLES
-from modeler.robot.mdh_rows import Loop, MdhRow, exact_length, mdh_table, roll_pitch_yaw, towards
+from modeler.robot.loop_joints import independent_joints
+from modeler.robot.mdh_rows import (
+    Loop,
+    MdhRow,
+    exact_length,
+    fixed_row,
+    mdh_table,
+    roll_pitch_yaw,
+    towards,
+)
 from modeler.robot.par_table import LETTER, Symbols, gravity
 from modeler.robot.robot import INERTIAL, JointKind, Place
 from modeler.robot.robot_text import Converted, TextRow
@@ -41,11 +51,8 @@ _SMALLEST = 1e-3
 _SPEED = {JointKind.REVOLUTE: 2.0, JointKind.PRISMATIC: 0.5}
 """rad/s, m/s where a file states none."""
 _ACCELERATION = 4.0
-"""Over the speed, 1/s: no such file states it."""
-_LIMITS = (
-    "[limits]                              # lower, upper, speed; acceleration: "
-    f"{_ACCELERATION:g} times that, no file states it"
-)
+"""Over the speed, 1/s, where a file states none."""
+_LIMITS = "[limits]                              # lower, upper, speed, acceleration"
 
 
 def tree_to_toml(tree: BodyTree, where: str) -> Converted:
@@ -98,9 +105,14 @@ class _Writing:
         self.row_of = {joint.name: name for name, joint in self.joints.items()}
         free = [name for name, joint in self.joints.items() if not joint.leader]
         self.driven = [name for name in free if self.joints[name].actuated]
-        if not self.driven and not tree.meetings:
-            self.driven = free
-            self.symbols.notes.append("the file states no motor: all joints are taken as actuated")
+        if not self.driven:
+            chosen = independent_joints(tree) if tree.meetings else set(self.row_of)
+            self.driven = [name for name in free if self.joints[name].name in chosen]
+            told = "the file states no motor: all joints are taken as actuated"
+            if tree.meetings and not chosen:
+                raise RobotError(f"{where}: its loops leave no joint free to move; correct them")
+            which = several(joint.name for joint in moved if joint.name in chosen)
+            self.symbols.notes.append(told.replace("all joints", which) if tree.meetings else told)
         self.free = self.driven if tree.meetings else free
         self.rows = [self._row(row) for row in self.table.rows]
         self.loops = self._loops()
@@ -138,25 +150,28 @@ class _Writing:
         return f"-{name}" if worth < 0.0 else name
 
     def _loop(self, meeting: Meeting) -> Loop:
-        """The two links that meet, and the point in the frame of each."""
+        """The two links that meet, and where in the frame of each."""
         places = {body: k for k, link in enumerate(self.links) for body in link.bodies}
 
-        def end(body: str, point: np.ndarray) -> tuple[int, np.ndarray]:
-            return places[body], self.links[places[body]].bodies[body].place(point)
+        def end(body: str, pose: Pose) -> tuple[int, Pose]:
+            return places[body], self.links[places[body]].bodies[body] @ pose
 
-        return end(meeting.body, meeting.point), end(meeting.other, meeting.other_point)
+        return end(meeting.body, meeting.pose), end(meeting.other, meeting.other_pose)
 
     def _loops(self) -> list[tuple[str, str, str, str]]:
-        """Where points meet; the rows that carry them are added."""
+        """Where frames meet; the rows that carry them are added."""
         found = []
         meetings = zip(self.tree.meetings, self.table.ends, strict=True)
         for i, (meeting, ends) in enumerate(meetings, start=1):
-            for side, (before, point) in zip("ab", ends, strict=True):
-                at = towards(point)
+            for side, (before, pose) in zip("ab", ends, strict=True):
+                if meeting.kind == "spherical":
+                    at = towards(pose.position)
+                else:
+                    at = fixed_row(pose, meeting.kind not in ("rigid", "prismatic"))
                 cells = {c: self._cell(c, worth, f"P{i}{side}") for c, worth in at.items()}
                 row = TextRow(f"P{i}{side}", before, 0, JointKind.FIXED, cells, meeting.name)
                 self.rows.append(row)
-            found.append((f"P{i}", f"P{i}a", f"P{i}b", "spherical"))
+            found.append((f"P{i}", f"P{i}a", f"P{i}b", meeting.kind))
         return found
 
     def home(self) -> list[str]:
@@ -295,18 +310,37 @@ class _Writing:
         ]
 
     def limits(self) -> list[str]:
-        """Ranges of motion of the joints for which the file states some."""
-        lines = []
+        """Ranges of motion of the joints for which the file states some; tells what is assumed."""
+        lines, assumed = list[str](), dict[str, list[str]]()
         for name in self.free:
             joint = self.joints[name]
             lower, upper, speed = joint.lower, joint.upper, joint.speed
-            if lower is None or upper is None or lower >= upper:
-                if joint.kind is not JointKind.REVOLUTE or speed is None:
+            unit = "rad" if joint.kind is JointKind.REVOLUTE else "m"
+            own = []
+            if lower is None or upper is None:
+                if unit == "m" or speed is None:
                     continue
                 lower, upper = -math.pi, math.pi
-            speed = speed or _SPEED[joint.kind]
-            cells = [toml.number(x) for x in (lower, upper, speed, _ACCELERATION * speed)]
-            lines.append(f"{name} = [{', '.join(cells)}]")
+                own.append("range -pi to pi")
+            if lower >= upper:
+                continue
+            if speed is None:
+                speed = _SPEED[joint.kind]
+                own.append(f"speed {speed:g} {unit}/s")
+            acceleration = joint.acceleration
+            if acceleration is None:
+                acceleration = _ACCELERATION * speed
+                own.append(f"acceleration {_ACCELERATION:g}/s times the speed")
+            for what in own:
+                assumed.setdefault(what, []).append(joint.name)
+            cells = ", ".join(toml.number(x) for x in (lower, upper, speed, acceleration))
+            told = ", ".join(what.split()[0] for what in own)
+            lines.append(f"{name} = [{cells}]" + f"  # assumed: {told}" * bool(own))
+        parts = [f"{what} of {several(names)}" for what, names in assumed.items()]
+        if parts:
+            self.symbols.notes.append(
+                f"not stated by the file, and assumed in [limits]: {'; '.join(parts)}"
+            )
         return lines
 
 

@@ -3,7 +3,9 @@
 Python's expat reads; what it forgets is kept here: at which bytes of the file the value of an
 attribute stands, so that a number can be replaced and every other byte left as it is. Document
 types and entities, with which a small file grows without end or reads other files, are refused,
-and so is what is larger, deeper or more than any robot.
+and so is what is larger, deeper or more than any robot. Comments and the declaration are blanked
+before, byte for byte: a `--` inside a comment, a blank first line, and accents of another encoding
+in comments are then no mistakes, as they are none to ROS, Pinocchio and MuJoCo.
 """
 
 import re
@@ -21,6 +23,11 @@ LARGEST_TAG = 8 * 2**20  # bytes of one tag, comment or declaration
 DEEPEST = 256
 MOST_ELEMENTS = 200_000
 _PIECE = 2**20  # bytes that expat gets at a time
+_ENCODINGS = ("utf-8", "iso-8859-1", "latin1", "iso-8859-15", "windows-1252", "cp1252")
+_DECLARATION = re.compile(rb"(?:\xef\xbb\xbf)?\s*(<\?xml\s[^<>]*\?>)")
+_STATED_ENCODING = re.compile(rb"\sencoding\s*=\s*[\"']([^\"']*)[\"']")
+_BLANK = bytes(byte if byte in b"\r\n" else 0x20 for byte in range(256))
+_ENDS = {b"<!--": b"-->", b"<![CDATA[": b"]]>", b"<?": b"?>"}
 _ATTRIBUTE = re.compile(rb"\s+([^\s=/>]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
 
 
@@ -68,7 +75,8 @@ def parse_xml(data: bytes, where: str) -> Element:
     """The root element of the text.
 
     Args:
-        data: UTF-8, with or without a byte order mark.
+        data: UTF-8, with or without a byte order mark, or the encoding of western Europe that it
+            declares.
         where: name of the file, for messages.
 
     Raises:
@@ -85,6 +93,39 @@ def parse_xml(data: bytes, where: str) -> Element:
     return _Reading(data, where).root()
 
 
+def _encoding(data: bytes, where: str) -> str:
+    """The codec that the declaration names; UTF-8 without one."""
+    declared = _DECLARATION.match(data)
+    stated = _STATED_ENCODING.search(declared[1]) if declared else None
+    name = stated[1].decode("latin-1") if stated else "utf-8"
+    codec = "utf-8" if name.lower() in ("utf8", "ascii", "us-ascii") else name.lower()
+    if codec in _ENCODINGS:
+        return codec
+    line = data.count(b"\n", 0, declared.start(1) if declared else 0) + 1
+    raise RobotError(f'{where}: line {line}: encoding="{name[:20]}"; save the file as UTF-8')
+
+
+def _blanked(data: bytes) -> bytes:
+    """The data without declaration and comments: spaces, and as many lines and bytes as before."""
+    parts, at = [], 0
+    if declared := _DECLARATION.match(data):
+        parts, at = [data[: declared.start(1)], b" " * len(declared[1])], declared.end()
+    for opening in re.finditer(rb"<!--|<!\[CDATA\[|<\?", data):
+        start = opening.start()
+        if start < at:
+            continue
+        end = data.find(_ENDS[opening[0]], opening.end())
+        if end < 0:
+            break
+        end += len(_ENDS[opening[0]])
+        inner = data[start:end]
+        if opening[0] == b"<!--":
+            inner = inner.translate(_BLANK)
+        parts += [data[at:start], inner]
+        at = end
+    return b"".join([*parts, data[at:]])
+
+
 @dataclass(slots=True)
 class _Open:
     """An element whose end has not come."""
@@ -98,21 +139,21 @@ class _Reading:
     """One pass of expat over a text."""
 
     def __init__(self, data: bytes, where: str) -> None:
-        self._data, self._where = data, where
+        self._data, self._where, self._encoding = data, where, _encoding(data, where)
         self._open: list[_Open] = [_Open(Element("", {}, 0, {}, (0, 0)))]  # around the root
         self._count = 0
-        self._expat = expat.ParserCreate("UTF-8")
+        self._expat = expat.ParserCreate(self._encoding)
         self._expat.buffer_text = self._expat.ordered_attributes = True
-        self._expat.XmlDeclHandler = self._declared
         self._expat.StartDoctypeDeclHandler = self._doctype
         self._expat.StartElementHandler = self._start
         self._expat.EndElementHandler = self._end
         self._expat.CharacterDataHandler = lambda text: self._open[-1].text.append(text)
 
     def root(self) -> Element:
+        text = _blanked(self._data)
         try:
-            for start in range(0, len(self._data), _PIECE):
-                self._expat.Parse(self._data[start : start + _PIECE], False)
+            for start in range(0, len(text), _PIECE):
+                self._expat.Parse(text[start : start + _PIECE], False)
                 if start - self._expat.CurrentByteIndex > LARGEST_TAG:
                     most = f"{LARGEST_TAG // 2**20} MiB"
                     raise self._error(f"a tag or comment of more than {most}; shorten it")
@@ -126,20 +167,17 @@ class _Reading:
 
     def _malformed(self, error: expat.ExpatError) -> RobotError:
         try:
-            self._data.decode()
+            _blanked(self._data).decode(self._encoding)
         except UnicodeDecodeError as wrong:
             line = self._data.count(b"\n", 0, wrong.start) + 1
-            return self._error(f"byte {wrong.start} is not UTF-8; save the file as UTF-8", line)
+            told = f"byte {wrong.start} is not {self._encoding.upper()}"
+            return self._error(f"{told}; save the file as UTF-8", line)
         what = (expat.ErrorString(error.code) or "").removeprefix("not well-formed ").strip("()")
         for still in self._open[-1:0:-1]:
             what += f"; <{still.element.tag[:60]}> of line {still.element.line} is open"
             break
         told = f"not well-formed XML, column {error.offset + 1}: {what}"
         return self._error(f"{told}; mend the tags and quotes there", error.lineno)
-
-    def _declared(self, _version: str, encoding: str | None, _standalone: int) -> None:
-        if encoding and encoding.lower() not in ("utf-8", "utf8", "us-ascii", "ascii"):
-            raise self._error(f'encoding="{encoding[:20]}"; save the file as UTF-8, and say so')
 
     def _doctype(self, *_parts: object) -> None:
         raise self._error(
@@ -153,10 +191,10 @@ class _Reading:
             most = f"{MOST_ELEMENTS} elements, or than {DEEPEST} inside each other"
             raise self._error(f"more than {most}; is this a robot?")
         begin = self._expat.CurrentByteIndex
-        at, spans = begin + 1 + len(tag.encode()), {}
+        at, spans = begin + 1 + len(tag.encode(self._encoding)), {}
         while found := _ATTRIBUTE.match(self._data, at):
             at = found.end()
-            spans[found[1].decode()] = found.span(found.lastindex or 0)
+            spans[found[1].decode(self._encoding)] = found.span(found.lastindex or 0)
         attributes = dict(zip(pairs[::2], pairs[1::2], strict=True))
         opening = begin, self._data.index(b">", at) + 1
         line = self._expat.CurrentLineNumber

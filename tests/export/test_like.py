@@ -1,6 +1,7 @@
 """Originals with other numbers: what is no number stays, what is one is the model's."""
 
 import dataclasses
+import re
 
 import numpy as np
 import pytest
@@ -49,6 +50,21 @@ def test_other_values_read_back_as_they_are(tmp_path, name) -> None:
     assert back.data.count(b"modeler export") == 1 and same_physics(
         read_robot(place), reread(tmp_path, name, back.data)
     )
+
+
+def test_odd_xml_and_a_quaternion_of_an_inertial_are_kept(tmp_path) -> None:
+    """A declaration that is not first, -- in a comment, Latin-1, a tensor along turned axes."""
+    head = b'\r\n<?xml version="1.0" encoding="ISO-8859-1"?>\n<!---- bras \xe9 -- 1 ---->\n'
+    turn = b'quat_xyzw="0.1 -0.2 0.3 0.9"'
+    text = re.sub(rb'(<inertial>\s*<origin[^>]*?)rpy="[^"]*"', rb"\1" + turn, URDF)
+    text = head + text.split(b"?>", 1)[1].lstrip()
+    assert turn in text
+    place = written(tmp_path, "arm.urdf", text)
+    assert export(read_robot(place), like=place).data == text
+    robot = changed(read_robot(place), np.random.default_rng())
+    data = export(robot, like=place).data
+    assert same_physics(robot, reread(tmp_path, "again.urdf", data))
+    assert turn in data and without_comment(data).startswith(head[:40]) and b"bras \xe9" in data
 
 
 def test_urdf_outside_the_numbers_is_the_same_text(tmp_path) -> None:

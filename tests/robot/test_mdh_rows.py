@@ -374,7 +374,9 @@ def test_points_that_meet_close_a_loop():
         turning("b", "a_link", (0.2, 0, 0), actuated=False),
         turning("c", "base", (0.5, -0.3, 0), actuated=False, damping=0.1),
     )
-    meeting = Meeting("pin", "b_link", np.array([0.3, 0, 0]), "c_link", np.array([0, 0.3, 0]))
+    meeting = Meeting(
+        "pin", "b_link", Pose(np.array([0.3, 0, 0])), "c_link", Pose(np.array([0, 0.3, 0]))
+    )
     tree = tree_of(crank, coupler, rocker, meetings=(meeting,))
     robot, notes = read(tree), tree_to_toml(tree, "drawn.xml").notes
     assert any(note.startswith("added to the actuated joints: rotor_inertia,") for note in notes)

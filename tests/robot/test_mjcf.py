@@ -201,7 +201,9 @@ def test_degrees_frames_includes_and_names(tmp_path: Path) -> None:
     assert [joint.name for joint in tree.joints] == ["joint0", "joint1"]
     assert np.allclose(tree.joints[0].pose.rotation @ [1, 0, 0], [0, 1, 0], rtol=0, atol=4e-16)
     assert tree.joints[1].lower == pytest.approx(-math.pi / 2)
-    assert all(joint.actuated for joint in tree.joints)  # for the file has no actuator
+    assert not any(joint.actuated for joint in tree.joints)  # for the file has no actuator
+    text = tree_to_toml(tree, "arm.xml")
+    assert "the file states no motor: all joints are taken as actuated" in text.notes
 
 
 def test_meshes_that_are_not_there_matter_where_they_weigh(tmp_path: Path) -> None:
@@ -284,7 +286,10 @@ def test_connect_is_a_meeting(tmp_path: Path) -> None:
         pose = np.eye(4)
         pose[:3, :3], pose[:3, 3] = joint.pose.rotation, joint.pose.position
         poses[joint.child] = poses[joint.parent] @ pose
-    ends = [poses["tip"] @ [*meeting.point, 1], poses["rod"] @ [*meeting.other_point, 1]]
+    ends = [
+        poses["tip"] @ [*meeting.pose.position, 1],
+        poses["rod"] @ [*meeting.other_pose.position, 1],
+    ]
     assert np.allclose(*ends, rtol=0, atol=1e-15)
     assert tree.home == {"pan": 0, "lift": 0.1, "roll": 0, "bend": 0, "free": 0}
 
@@ -295,7 +300,11 @@ def test_connect_of_sites_and_the_posture_of_a_keyframe(tmp_path: Path) -> None:
     tree = read(tmp_path, edited(("</mujoco>", section + "</mujoco>"), text=LOOP))
     (meeting,) = tree.meetings
     assert (meeting.body, meeting.other) == ("fore", "rod")
-    assert meeting.point.tolist() == [0, 0, 0.1] and meeting.other_point.tolist() == [0, 0, 0]
+    assert meeting.pose.position.tolist() == [
+        0,
+        0,
+        0.1,
+    ] and meeting.other_pose.position.tolist() == [0, 0, 0]
     assert tree.home == {"pan": 0.2, "lift": 0.15, "roll": 0, "bend": -0.3, "free": 0.4}
     text = tree_to_toml(tree, "arm.xml")
     home = robot_from_text(text.text, "arm.toml").home
@@ -392,7 +401,8 @@ TIE = "<equality>{}</equality>"
          r'<replicate>: count: got "41"; expected at most 1000 in all'),
         (edited(("<asset>", '<asset><hfield name="h" nrow="90000" ncol="90000" size="1 1 1 1"/>')),
          '<hfield>: nrow ncol: got "90000 90000"'),
-        (edited(("<geom size", '<composite type="cable" count="9 1 1"/><geom size')), "is soft"),
+        (edited(("<geom size", '<composite type="cable" count="9 1 1"/><geom size')),
+         "a soft body"),
         (edited(('gear="50"', 'gear="1e200"')), r"actuator_gear: got more than 1e\+12"),
     ],
 )  # fmt: skip
@@ -473,3 +483,128 @@ def test_mutated_files_are_read_or_refused_in_one_line(
     except RobotError as error:
         assert str(path) in str(error) and "\n" not in str(error) and len(str(error)) < 1000
     assert time.process_time() - start < 5
+
+
+# What MuJoCo does to a whole model, and what it switches off.
+
+SCENE = """<mujoco model="scene"><compiler angle="radian" %s/><worldbody>
+<body name="ball" pos="1 0 1"><freejoint/><geom type="sphere" size="0.1" mass="%g"/>
+  <body name="knob" pos="0 0 0.1"><geom size="0.02" mass="0.7"/></body></body>
+<body name="dragged" mocap="true"><geom size="0.05" mass="0.4"/></body>
+<body name="a" pos="0 0 0.5"><joint name="j1" axis="0 1 0"/>
+  <geom type="capsule" fromto="0 0 0 0.3 0 0" size="0.03" mass="%g"/>
+  <geom type="box" size="0.1 0.1 0.1" pos="0.1 0 0" mass="0.6" group="3"/>
+  <body name="b" pos="0.3 0 0"><joint name="j2" axis="0 1 0"/>
+    <inertial pos="0.1 0.02 0" mass="%g" diaginertia="%s"/>
+    <geom type="capsule" fromto="0 0 0 0.2 0 0" size="0.03" mass="2"/>
+    <body name="tool" pos="0.2 0 0"><geom size="0.03" mass="0.2"/></body>
+</body></body></worldbody><actuator><motor joint="j1"/><motor joint="j2"/></actuator></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("option", "moments"),
+    [
+        ('settotalmass="10"', "0.01 0.012 0.009"),
+        ('settotalmass="0.3" inertiafromgeom="true"', "0.01 0.012 0.009"),
+        ('settotalmass="25" inertiagrouprange="0 2"', "0.01 0.012 0.009"),
+        ('settotalmass="4" fusestatic="true"', "0.01 0.012 0.009"),
+        ('settotalmass="4" discardvisual="true" boundmass="1.5"', "0.01 0.012 0.009"),
+        ('boundmass="0.5" boundinertia="0.004"', "0.01 0.012 0.009"),
+        ('balanceinertia="true"', "0.01 0.012 0.05"),
+        ('inertiafromgeom="true"', "0.01 0.012 0.009"),
+        ('inertiafromgeom="auto" inertiagrouprange="3 3"', "0.01 0.012 0.009"),
+    ],
+)
+def test_masses_are_those_that_mujoco_compiles(option: str, moments: str, tmp_path: Path) -> None:
+    """With bodies in the scene that are no part of the robot, and drawn masses."""
+    masses = np.random.default_rng().uniform(0.5, 4, 3).round(3)
+    if "3 3" in option:
+        option += ' settotalmass="0"'
+    text = SCENE % (option, *masses, moments)
+    if "3 3" in option:  # the others weigh nothing by geoms of that group
+        text = text.replace("<geom size", '<geom group="3" size').replace(
+            "sphere", 'sphere" group="3'
+        )
+    tree = read(tmp_path, text)
+    # Fused bodies have no name of their own there.
+    model = mujoco.MjModel.from_xml_string(text.replace('fusestatic="true"', ""))
+    assert set(tree.bodies) == {"world", "a", "b", "tool"}
+    for name in ("a", "b", "tool"):
+        body, theirs = tree.bodies[name], model.body(name)
+        assert body is not None
+        assert body.mass == pytest.approx(theirs.mass[0], rel=1e-12)
+        assert np.allclose(body.centre, theirs.ipos, rtol=0, atol=1e-12)
+        moments = np.sort(np.linalg.eigvalsh(body.inertia))
+        assert np.allclose(moments, np.sort(theirs.inertia), rtol=1e-9)
+
+
+def test_a_total_mass_of_meshes_that_are_not_there_is_refused(tmp_path: Path) -> None:
+    text = SCENE % ('settotalmass="10"', 3, 1, 1, "0.01 0.012 0.009")
+    text = text.replace("<worldbody>", '<asset><mesh name="m" file="m.stl"/></asset><worldbody>')
+    text = text.replace('<geom size="0.03" mass="0.2"/>', '<geom type="mesh" mesh="m"/>')
+    with pytest.raises(
+        RobotError, match=r'settotalmass shares 10 kg .* "tool \(m.stl\)"; put them'
+    ):
+        read(tmp_path, text)
+    assert "no values of" in told(read(tmp_path, text.replace('settotalmass="10"', "")))
+
+
+@pytest.mark.parametrize(
+    ("flag", "gone"),
+    [
+        ("spring", ("stiffness",)),
+        ("damper", ("damping",)),
+        ("frictionloss", ("friction",)),
+        ("constraint", ("friction", "leader")),
+        ("equality", ("leader",)),
+        ("contact", ()),
+    ],
+)
+def test_what_a_flag_switches_off_is_not_there(flag: str, gone: tuple, tmp_path: Path) -> None:
+    ties = '<equality><joint joint1="roll" joint2="pan" polycoef="0 2 0 0 0"/></equality>'
+    off = f'<option><flag {flag}="disable"/></option>'
+    more = ('name="pan"', 'name="pan" frictionloss="0.4"')
+    plain, made = (joints(read(tmp_path, with_section(ties + flags, more))) for flags in ("", off))
+    for key in ("stiffness", "damping", "friction"):
+        assert plain["pan"].__getattribute__(key)
+        assert (getattr(made["pan"], key) is None) == (key in gone)
+    assert plain["roll"].leader == "pan" and bool(made["roll"].leader) == ("leader" not in gone)
+
+
+ONE = '<joint joint="roll" coef="1"/></fixed></tendon>'
+MUTANTS = (
+    ("<option ", '<option density="1.2" '), ("<option ", '<option wind="1 0 0" '),
+    ('gravity="0 0 -9.8"', 'gravity="1 0 -9.8"'),
+    ("</mujoco>", '<option><flag gravity="disable"/></option></mujoco>'),
+    ("</mujoco>", '<option><flag spring="disable"/></option></mujoco>'),
+    ("</mujoco>", '<option><flag damper="disable"/></option></mujoco>'),
+    ("<compiler ", '<compiler settotalmass="3" '), ("<compiler ", '<compiler boundmass="2.5" '),
+    ("<compiler ", '<compiler inertiafromgeom="true" '),
+    ('name="fore"', 'name="fore" gravcomp="1"'),
+    ('name="pan"', 'name="pan" springyield="0.1"'), ('stiffness="3"', 'stiffness="3 0.5"'),
+    ('stiffness="3"', 'stiffness="4"'), ('springref="0.2"', 'springref="0.3"'),
+    ('name="pan"', 'name="pan" springdamper="0.1 1"'), ('damping="0.7"', 'damping="0.8"'),
+    ('name="pan"', 'name="pan" frictionloss="0.6"'), ('armature="2e-4"', 'armature="3e-4"'),
+    ('gear="50"', 'gear="60"'), ('mass="2"', 'mass="2.5"'), ('density="500"', 'density="600"'),
+    ('pos="0 0.05 0"', 'pos="0 0.06 0"'), ("<position joint", '<position armature="1" joint'),
+    ("</mujoco>", '<equality><joint joint1="roll" polycoef="0.1 0 0 0 0"/></equality></mujoco>'),
+    ("</mujoco>", f'<tendon><fixed stiffness="2">{ONE}</mujoco>'),
+    ("</mujoco>", f'<tendon><fixed range="0 1">{ONE}</mujoco>'),
+    ("</mujoco>", f'<tendon><fixed name="t">{ONE}<actuator>'
+     '<motor tendon="t" armature="0.1"/></actuator></mujoco>'),
+    ("</mujoco>", '<actuator><dcmotor joint="roll" motorconst="1" resistance="1" cogging="1 2 0"/>'
+     "</actuator></mujoco>"),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("mutant", MUTANTS)
+def test_no_mutant_is_read_as_the_file_itself(mutant: tuple[str, str], tmp_path: Path) -> None:
+    def said(text: str) -> tuple[str, tuple[str, ...]] | None:
+        try:
+            made = tree_to_toml(cut(read(tmp_path, text)), "arm.xml")
+        except RobotError as error:
+            assert "schema" not in str(error).lower(), error
+            return None
+        return made.text, made.notes
+
+    assert said(ARM) not in (None, said(edited(mutant)))

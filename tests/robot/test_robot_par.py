@@ -13,6 +13,7 @@ from modeler.core.errors import RobotError
 from modeler.derivation.relations import as_json
 from modeler.robot.angles import exact_angle
 from modeler.robot.par_convert import par_to_toml
+from modeler.robot.par_text import KEYS
 from modeler.robot.read import read_robot, robot_from_text
 from tests.elementary_motions import frames
 from tests.modules import module
@@ -261,16 +262,62 @@ def test_a_base_that_moves_stands_still():
         ({"G": "0,0,9.81"}, [0, 0, 9.81]),
         ({"G": "0,-9.8,0"}, [0, -9.8, 0]),
         ({"G": "0,0,G3"}, [0, 0, -9.81]),
-        ({"G": "0,0,-GZ"}, [0, 0, 9.81]),
+        ({"G": "0,0,-GZ"}, [0, 0, -9.81]),
+        ({"G": "0,0,2*g"}, [0, 0, -9.81]),
+        ({"G": "0,0,-9.81*k"}, [0, 0, -9.81]),
+        ({"G": "GX,GY,GZ"}, [0, 0, -9.81]),
+        ({"G": "GX,0,-9.81"}, [0, 0, -9.81]),
+        ({"G": "g,0,0"}, [9.81, 0, 0]),
+        ({"G": "0,-g,0"}, [0, -9.81, 0]),
+        ({"G": "0,g*sin(a),-g*cos(a)"}, [0, 0, -9.81]),
+        ({"G": "0,0,0", "VP0": "0,0,g"}, [0, 0, -9.81]),
+        ({"G": "0,0,0", "VP0": "0,0,-g"}, [0, 0, -9.81]),
         ({"G": "0,0,0"}, [0, 0, 0]),
         ({"G": "0,0,0", "VP0": "0,0,9.81"}, [0, 0, -9.81]),
         ({"G": "0,1.5,-3"}, [0, 1.5, -3]),
     ],
 )
 def test_gravity(lists, gravity):
-    robot, _ = convert(par_text({"Ant": "0", "Theta": "t1"} | lists))
+    """Letters stay, with stand-ins by which gravity points where the note says."""
+    robot, found = convert(par_text({"Ant": "0", "Theta": "t1"} | lists))
     values = {name: value.number() for name, value in robot.symbols.items()}
     assert [entry.number(values) for entry in robot.gravity] == pytest.approx(gravity)
+    letters = set("gGka") & set("".join(lists.values()))
+    (note,) = [n for n in found.notes if "gravity is taken" in n] or [""]
+    assert bool(note) == bool(letters)
+    if letters:
+        (k,) = np.flatnonzero(gravity)
+        assert f"along {'-' * (gravity[k] < 0)}{'xyz'[k]}0, 9.81 m/s2" in note
+        names = {name for entry in robot.gravity for name in entry.names} - ({"g"} - letters)
+        assert all(f"{name} = " in note for name in names)
+
+
+def test_every_key_of_a_par_file_is_read_told_or_refused():
+    """A list of numbers or letters in place of each: another robot file, or a note."""
+    basis = {"Ant": "0,1", "Theta": "t1,t2", "d": "0,0.3", "M": "M1,M2", "Mu": "1,1"}
+    plain = convert(par_text(basis))[1]
+    drawn, refused = np.random.default_rng(), list[str]()
+    for key in KEYS:
+        if key in ("NF", "NL", "NJ", "Type", "Ant", "Sigma", "theta"):  # they say how many
+            continue
+        for entries in (drawn.uniform(0.1, 1, 16).round(3).tolist(), [f"z{k}" for k in range(16)]):
+            count = {"Z": 16, "G": 3} | dict.fromkeys(("W0", "WP0", "V0", "VP0"), 3)
+            text = ",".join(map(str, entries[: count.get(key, 2)]))
+            key = {"b": "B", "r": "R", "alpha": "Alpha"}.get(key, key)
+            lists = dict(basis)
+            if key in ("QP", "QDP", "GAM") and "z0" in entries:
+                continue  # letters of a state, as SYMORO writes them itself
+            if key in ("is_mobile", "is_floating"):
+                lists, text = {**lists, "M": "1,2,3"}, ""
+            try:
+                state = par_text({**lists, **({key: text} if text else {})})
+                state += "" if text else f"{key} = 1\n"
+                _, found = convert(state)
+            except RobotError:
+                refused.append(key)
+                continue
+            assert found.text != plain.text or found.notes != plain.notes, (key, text)
+    assert set(refused) <= {"Mu"}  # which is 0 or 1
 
 
 BOOM = {

@@ -96,12 +96,32 @@ def test_public_files_are_read_as_the_standard_library_reads_them(path: Path):
         assert after.text == before.text
 
 
+def test_what_ros_reads_is_read_with_its_lines_and_bytes():
+    """`--` in comments, a declaration that is not first, encodings; every span still holds."""
+    head = '<?xml version="1.0" encoding="%s"?>\n<!----- ARM -- left \xe9\n ---->\n'
+    body = '<robot name="bras \xe9">\n<!--->--><a \xe9="1" v="2"/><![CDATA[<!-- -- ]]></robot>'
+    for encoding in ("utf-8", "ISO-8859-1", "windows-1252", "latin1", "iso-8859-15"):
+        for before in ("", "\n", " \r\n\n"):
+            data = (before + head % encoding + body).encode(encoding)
+            root = parse_xml(data, "arm.urdf")
+            lines = before.count("\n")
+            assert (root.attributes["name"], root.line) == ("bras \xe9", 4 + lines), encoding
+            (a,) = root.children
+            assert (a.line, a.attributes) == (5 + lines, {"\xe9": "1", "v": "2"})
+            assert [data[slice(*a.spans[n])] for n in ("\xe9", "v")] == [b"1", b"2"]
+            assert replaced(data, {a.spans["v"]: "7"}) == data.replace(b'v="2"', b'v="7"')
+    comment = b"<!-- caf\xe9 --><a>\xc3\xa9</a>"  # a comment of another encoding than the rest
+    assert parse_xml(comment, "arm.urdf").text == "\xe9"
+
+
 @pytest.mark.parametrize(
     ("data", "told"),
     [
         (b"  \n", "is empty"),
         ("<a/>".encode("utf-16"), "UTF-16"),
-        (b'<?xml version="1.0" encoding="latin-1"?><a/>', 'line 1: encoding="latin-1"; save'),
+        (b'\n<?xml version="1.0" encoding="koi8-r"?><a/>', 'line 2: encoding="koi8-r"; save'),
+        (b"<?xml version='1.0' encoding='no'?><a/>", 'line 1: encoding="no"; save'),
+        (b"<a>\n<!-- open", "line 2: .*unclosed token; <a> of line 1 is open"),
         (b"<a>\n<b c='\xff'/></a>", "line 2: byte 10 is not UTF-8"),
         (b"<a>\n<b>\n</a>", "line 3: .*mismatched tag; <b> of line 2 is open"),
         (b"<a>\n<b>", "line 2: .*no element found; <b> of line 2 is open"),

@@ -1,0 +1,393 @@
+"""Quaternions, couplings, loops, gears and springs of URDFs, in the ways that tools write them."""
+
+import itertools
+import tomllib
+
+import numpy as np
+import pytest
+
+from modeler.core.errors import RobotError
+from modeler.robot.body_tree import BodyTree, Pose, poses_at
+from modeler.robot.read import robot_from_text
+from modeler.robot.tree_cuts import cut
+from modeler.robot.tree_text import tree_to_toml
+from modeler.robot.urdf import urdf_tree
+from tests.elementary_motions import frames, shift, turn
+
+BODY = (
+    '<link name="%s"><inertial><origin xyz="0.1 0.02 -0.03"/><mass value="1"/><inertia ixx="0.02" '
+    'ixy="0.001" ixz="-0.002" iyy="0.03" iyz="0.0015" izz="0.025"/></inertial></link>'
+)
+LIMIT = '<limit lower="-2" upper="2" velocity="3" effort="9"/>'
+
+
+def joint(name: str, parent: str, child: str, more: str = "", kind: str = "revolute") -> str:
+    ends = f'<parent link="{parent}"/><child link="{child}"/>'
+    axis = "" if "<axis" in more else '<axis xyz="0 1 0"/>'
+    limit = LIMIT if kind == "revolute" else ""
+    return f'<joint name="{name}" type="{kind}">{ends}{axis}{limit}{more}</joint>'
+
+
+def urdf(*parts: str) -> str:
+    """A base and links a, b, c, and what stands behind them."""
+    bodies = "".join(BODY % name for name in "abc")
+    return f'<robot name="arm"><link name="base"/>{bodies}{"".join(parts)}</robot>'
+
+
+def read(text: str) -> BodyTree:
+    return cut(urdf_tree(text.encode(), "arm.urdf"))
+
+
+def toml(text: str) -> str:
+    """The robot file without its notes."""
+    made = tree_to_toml(read(text), "arm.urdf").text
+    return made[made.index("gravity =") :]
+
+
+def told(text: str) -> str:
+    return "\n".join(tree_to_toml(read(text), "arm.urdf").notes)
+
+
+# Quaternions.
+
+
+def quaternion(roll: float, pitch: float, yaw: float) -> str:
+    """x y z w of Rz(yaw) Ry(pitch) Rx(roll), by half angles."""
+    found = np.array([1.0, 0.0, 0.0, 0.0])
+    for axis, angle in zip((2, 1, 0), (yaw, pitch, roll), strict=True):
+        w, x, y, z = found
+        c, s = np.cos(angle / 2), np.eye(3)[axis] * np.sin(angle / 2)
+        v = np.array([x, y, z])
+        found = np.array([w * c - v @ s, *(w * s + c * v + np.cross(v, s))])
+    return " ".join(repr(float(x)) for x in (*found[1:], found[0]))
+
+
+CHAIN = joint("j3", "b", "c", '<origin xyz="0 0 0.2"/>')
+
+
+@pytest.mark.parametrize(
+    "angles",
+    [
+        (0, 0, np.pi / 2),
+        (np.pi / 2, 0, -np.pi / 6),
+        (np.pi, np.pi / 4, 0),
+        *np.random.default_rng().uniform(-1.2, 1.2, (3, 3)).tolist(),
+    ],
+)
+def test_a_quaternion_says_what_angles_say(angles) -> None:
+    """In joints and in inertials: the same table and frames, and the same masses."""
+    rpy = " ".join(repr(float(x)) for x in angles)
+    both = []
+    for way in (f'rpy="{rpy}"', f'quat_xyzw="{quaternion(*angles)}"'):
+        text = urdf(
+            joint("j1", "base", "a"),
+            joint("j2", "a", "b", f'<origin xyz="0.3 0.1 0" {way}/>'),
+            CHAIN,
+        )
+        text = text.replace('<origin xyz="0.1 0.02 -0.03"/>', f'<origin xyz="0.1 0 0" {way}/>', 2)
+        values = tomllib.loads(toml(text))["parameters"]
+        tree, q = read(text), {"j1": 0.4, "j2": -0.7, "j3": 1.1}
+        both.append((values, poses_at(tree, q), tree.bodies))
+    (one, here, bodies), (two, there, others) = both
+    one, two = ({k: v for k, v in values.items() if k != "uncertainty"} for values in (one, two))
+    assert one == pytest.approx(two, rel=1e-12, abs=1e-13)
+    for name in "abc":
+        assert np.allclose(here[name].rotation, there[name].rotation, rtol=0, atol=1e-14)
+        assert np.allclose(bodies[name].inertia, others[name].inertia, rtol=0, atol=1e-15)
+
+
+def test_two_orientations_of_one_origin_are_refused() -> None:
+    both = '<origin rpy="0 0 1" quat_xyzw="0 0 0 1"/>'
+    with pytest.raises(RobotError, match=r"line 1: .*<origin>.* rpy and quat_xyzw; keep the one"):
+        read(urdf(joint("j1", "base", "a"), joint("j2", "a", "b", both), CHAIN))
+    with pytest.raises(RobotError, match='expected a quaternion such as "0 0 0 1"'):
+        read(urdf(joint("j1", "base", "a"), joint("j2", "a", "b", both.replace("1", "0")
+                  .replace('rpy="0 0 0"', "")), CHAIN))  # fmt: skip
+
+
+# Couplings: the relation that <mimic> gives.
+
+TREE = (joint("j1", "base", "a"), joint("j2", "base", "b"), joint("j3", "b", "c"))
+MIMIC = '<mimic joint="j1" multiplier="-1.5" offset="%s"/>'
+PLUGIN = (
+    '<gazebo><plugin filename="libroboticsgroup_upatras_gazebo_mimic_joint_plugin.so" name="m">'
+    "<joint>j1</joint><mimicJoint>j2</mimicJoint><multiplier>-1.5</multiplier>"
+    "<offset>0.1</offset></plugin></gazebo>"
+)
+CONTROL = (
+    '<ros2_control name="r" type="system"><hardware><plugin>mock/System</plugin></hardware>'
+    '<joint name="j2"><param name="mimic">j1</param><param name="multiplier">-1.5</param>%s'
+    '<state_interface name="position"/></joint></ros2_control>'
+)
+COUPLING = (
+    '<coupling name="c"><predecessor link="a"/><successor link="b"/><ratio value="-1.5"/>'
+    "</coupling>"
+)
+
+
+def mimic(offset: str = "0.1") -> str:
+    return urdf(TREE[0], joint("j2", "base", "b", MIMIC % offset), TREE[2])
+
+
+@pytest.mark.parametrize(
+    ("text", "offset"),
+    [
+        (mimic().replace("<mimic", "<drake:mimic"), "0.1"),
+        (urdf(*TREE, PLUGIN), "0.1"),
+        (urdf(*TREE, CONTROL % '<param name="offset">0.1</param>'), "0.1"),
+        (urdf(*TREE, CONTROL % ""), "0"),
+        (urdf(*TREE, COUPLING), "0"),
+        (mimic().replace("</robot>", PLUGIN + "</robot>"), "0.1"),  # said twice, alike
+    ],
+)
+def test_couplings_are_relations(text: str, offset: str) -> None:
+    assert "[relations]" in toml(text) and toml(text) == toml(mimic(offset))
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            mimic("0.2").replace("</robot>", PLUGIN + "</robot>"),
+            'plugin "m": joint "j2" follows in two',
+        ),
+        (urdf(*TREE, PLUGIN.replace("j2", "jj2")), 'there is no joint "jj2"'),
+        (urdf(*TREE, PLUGIN.replace("-1.5", "fast")), 'got "fast"; expected a number'),
+        (
+            urdf(*TREE, COUPLING.replace('link="a"', 'link="c"')),
+            "expected two links whose joints stand on one and the same link",
+        ),
+        (urdf(*TREE, COUPLING.replace("ratio", "gear")), "ratio is missing"),
+        (urdf(*TREE, '<joint_constraint name="t"/>'), "<joint_constraint> ties joints in a way"),
+    ],
+)
+def test_couplings_that_are_not_plain_are_refused(text: str, message: str) -> None:
+    with pytest.raises(RobotError, match=message):
+        read(text)
+
+
+# Loops.
+
+ORIGIN = '<origin xyz="%s"/>'
+FOUR = (
+    joint("ja", "base", "a", kind="continuous"),
+    joint("jb", "a", "b", '<origin xyz="0 0 0.2"/>', "continuous"),
+    joint("jc", "base", "c", '<origin xyz="0.4 0 0"/>', "continuous"),
+)
+AXIS = '<axis xyz="0 1 0"/>'
+CLOSED = {
+    "gazebo": '<gazebo><joint name="pin" type="%s"><parent>b</parent><child>c</child><pose>0.05 0 '
+    "0.3 0 0 0</pose><axis><xyz>0 1 0</xyz></axis></joint></gazebo>",
+    "plus": '<loop name="pin" type="%s"><predecessor link="b"><origin xyz="0.45 0 0.1"/>'
+    f'</predecessor><successor link="c"><origin xyz="0.05 0 0.3"/></successor>{AXIS}</loop>',
+    "links": '<loop name="pin" type="%s"><link1 link="b"><origin xyz="0.45 0 0.1"/></link1>'
+    f'<link2 link="c"><origin xyz="0.05 0 0.3"/></link2>{AXIS}</loop>',
+    "drake": '<loop_joint name="pin" type="%s"><link1 link="b" xyz="0.45 0 0.1"/>'
+    f'<link2 link="c" xyz="0.05 0 0.3"/>{AXIS}</loop_joint>',
+    "isaac": '<loop_joint name="pin" type="%s"><link1 link="b" xyz="0.45 0 0.1" rpy="0 0 0"/>'
+    f'<link1 link="c" xyz="0.05 0 0.3" rpy="0 0 0"/>{AXIS}</loop_joint>',
+    "constraint": '<constraint name="pin" type="%s"><parent link="b"/><parent_origin '
+    'xyz="0.45 0 0.1"/><parent_axis xyz="0 1 0"/><child link="c"/><child_origin '
+    'xyz="0.05 0 0.3"/><child_axis xyz="0 1 0"/></constraint>',
+}
+BALL = (
+    '<drake:ball_constraint><drake:ball_constraint_body_A name="b"/><drake:ball_constraint_p_AP '
+    'value="0.45 0 0.1"/><drake:ball_constraint_body_B name="c"/><drake:ball_constraint_p_BQ '
+    'value="0.05 0 0.3"/></drake:ball_constraint>'
+)
+CONNECT = """<mujoco model="arm"><compiler angle="radian"/><worldbody>%s</worldbody><equality>
+<connect name="pin" body1="b" body2="c" anchor="0.45 0 0.1"/></equality></mujoco>"""
+INERTIAL = (
+    '<inertial pos="0.1 0.02 -0.03" mass="1" fullinertia="0.02 0.03 0.025 0.001 -0.002 0.0015"/>'
+)
+
+
+def body(name: str, place: str, inner: str = "") -> str:
+    turns = f'<joint name="j{name}" axis="0 1 0"/>'
+    return f'<body name="{name}" pos="{place}">{turns}{INERTIAL}{inner}</body>'
+
+
+def parts(text: str) -> str:
+    """Table, loops and home."""
+    return text[text.index("[mdh]") : text.index("[frames]")]
+
+
+def test_loops_of_all_tools_are_one_loop(tmp_path) -> None:
+    """A point that meets a point is what MuJoCo's connect is; a pin has an axis besides."""
+    mjcf = pytest.importorskip("modeler.robot.mjcf")
+    pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")
+    path = tmp_path / "arm.xml"
+    inner = body("b", "0 0 0.2")
+    path.write_text(CONNECT % (body("a", "0 0 0", inner) + body("c", "0.4 0 0")))
+    expected = parts(tree_to_toml(mjcf.mjcf_tree(path), "arm.xml").text)
+    assert '"spherical"' in expected
+    assert parts(toml(urdf(*FOUR, BALL)).replace("ball_constraint", "pin")) == expected
+    for name, loop in CLOSED.items():
+        for kind in ("ball", "spherical"):
+            assert parts(toml(urdf(*FOUR, loop % kind))) == expected, name
+    pins = {name: toml(urdf(*FOUR, loop % "revolute")) for name, loop in CLOSED.items()}
+    assert len(set(pins.values())) == 1 and '"revolute"' in pins["plus"]
+    notes = told(urdf(*FOUR, CLOSED["plus"] % "revolute"))
+    assert 'the file states no motor: "ja" are taken as actuated' in notes
+
+
+@pytest.mark.parametrize(
+    ("more", "driven"),
+    [
+        ('<transmission name="t"><joint name="jc"/><actuator name="m"/></transmission>', {"3"}),
+        (
+            '<ros2_control name="r"><joint name="jc"><command_interface name="effort"/></joint>'
+            '<joint name="ja"><state_interface name="position"/></joint></ros2_control>',
+            {"3"},
+        ),
+        ("", {"1"}),
+    ],
+)
+def test_motors_of_a_loop_are_those_that_the_file_names(more: str, driven: set) -> None:
+    text = urdf(*FOUR, CLOSED["plus"] % "revolute", more)
+    robot = robot_from_text(tree_to_toml(read(text), "arm.urdf").text, "arm.toml")
+    assert {j.name for j in robot.moving if j.actuated} == driven
+
+
+def test_independent_joints_have_the_motors_and_the_posture_is_home() -> None:
+    text = urdf(*FOUR, CLOSED["plus"] % "revolute").replace(
+        'name="jc"', 'name="jc" independent="true"'
+    )
+    text = text.replace("</robot>", '<gazebo reference="jb"><initial_joint_position>0.4'
+                        "</initial_joint_position></gazebo></robot>")  # fmt: skip
+    robot = robot_from_text(tree_to_toml(read(text), "arm.urdf").text, "arm.toml")
+    assert [j.name for j in robot.moving if j.actuated] == ["3"]
+    assert robot.home == {"1": 0.0, "2": 0.4, "3": 0.0}
+
+
+@pytest.mark.parametrize(
+    ("kind", "seed"), list(itertools.product(("revolute", "fixed", "cylindrical"), range(2)))
+)
+def test_frames_that_meet_stand_where_the_file_has_them(kind: str, seed: int) -> None:
+    """Origins and axes, and all of a rigid one, of drawn frames on links of a spatial loop."""
+    rng = np.random.default_rng()
+    places, turns = rng.uniform(-0.4, 0.4, (2, 2, 3)).round(7)  # no roundings of pi/12
+    axis = (rng.normal(size=3) if seed else np.array([0, 0, 1.0])).round(3)
+    ends = "".join(
+        f'<link{k} link="{link}"><origin xyz="{" ".join(map(str, places[k - 1]))}" '
+        f'rpy="{" ".join(map(str, turns[k - 1]))}"/></link{k}>'
+        for k, link in ((1, "b"), (2, "c"))
+    )
+    loop = f'<loop name="x" type="{kind}">{ends}<axis xyz="{" ".join(map(str, axis))}"/></loop>'
+    chain = (TREE[0], joint("j2", "a", "b", '<origin xyz="0 0.1 0.3" rpy="1 0 0"/>'), TREE[2]
+             .replace('<parent link="b"/>', '<parent link="base"/>'))  # fmt: skip
+    drive = "".join(f'<transmission name="{j}"><joint name="{j}"/><actuator name="m"/>'
+                    "</transmission>"
+                    for j in ("j1", "j2", "j3"))  # fmt: skip
+    tree = read(urdf(*chain, loop, drive))
+    robot = robot_from_text(tree_to_toml(tree, "arm.urdf").text, "arm.toml")
+    q = dict(zip(("j1", "j2", "j3"), rng.uniform(-2, 2, 3), strict=True))
+    rows, bodies = frames(robot, dict(zip("123", q.values(), strict=True))), poses_at(tree, q)
+    axis = axis / np.linalg.norm(axis)
+    for k, link in enumerate("bc"):
+        roll, pitch, yaw = turns[k]
+        own = np.linalg.multi_dot(
+            [
+                *(shift(i, x) for i, x in enumerate(places[k])),
+                turn(2, yaw),
+                turn(1, pitch),
+                turn(0, roll),
+            ]
+        )
+        expected = bodies[link] @ Pose(own[:3, 3], own[:3, :3])
+        got = rows[f"P1{'ab'[k]}"]
+        assert np.allclose(got[:3, 3], expected.position, rtol=0, atol=1e-9)
+        if kind == "fixed":
+            assert np.allclose(got[:3, :3], expected.rotation, rtol=0, atol=1e-9)
+        else:
+            assert np.allclose(got[:3, 2], expected.rotation @ axis, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("loop", "message"),
+    [
+        (CLOSED["plus"] % "gear", 'type: got "gear"; expected a joint that closes a loop'),
+        (CLOSED["gazebo"] % "screw", 'joint "pin", type: got "screw"'),
+        (CLOSED["plus"].replace('link="c"', 'link="d"') % "ball", 'there is no link "d"'),
+        (
+            CLOSED["links"].replace('<link1 link="b">', '<link1 link="">') % "ball",
+            "link is missing",
+        ),
+        (CLOSED["plus"].replace(AXIS, "") % "revolute", "<axis>: is missing"),
+        (CLOSED["gazebo"].replace("<pose>", '<pose relative_to="b">') % "ball", "another frame"),
+        ('<drake:linear_bushing_rpy name="f"/>', "line 1: <drake:linear_bushing_rpy> is a force"),
+        ('<gazebo><link name="w"/></gazebo>', "<link> in <gazebo> is a body of Gazebo alone"),
+    ],
+)
+def test_loops_that_are_not_plain_are_refused(loop: str, message: str) -> None:
+    with pytest.raises(RobotError, match=message):
+        read(urdf(*FOUR, loop))
+
+
+def test_a_joint_of_the_base_with_the_world_closes_nothing() -> None:
+    still = (
+        CLOSED["gazebo"].replace("<parent>b", "<parent>world").replace("<child>c", "<child>base")
+    )
+    assert "[loops]" not in toml(urdf(*FOUR, still % "fixed"))
+    assert 'loops within one body are left out: "pin"' in told(urdf(*FOUR, still % "fixed"))
+
+
+# Gears and springs.
+
+GEAR = "<mechanicalReduction>%s</mechanicalReduction>"
+ROTOR = "<motorInertia>1e-4</motorInertia>"
+MOTOR = f'<actuator name="m">%s{ROTOR}</actuator>'
+
+
+@pytest.mark.parametrize(
+    ("inner", "expected"),
+    [
+        (f'<joint name="j1">{GEAR % 1}</joint>{MOTOR % (GEAR % 100)}', 1.0),
+        (f'{MOTOR % (GEAR % 100)}<joint name="j1">{GEAR % 1}</joint>', 1.0),
+        (f'{MOTOR % ""}<joint name="j1">{GEAR % -50}</joint>', 0.25),
+        (f'{MOTOR % ""}<joint name="j1"/>{GEAR % 10}', 0.01),
+        (f'{MOTOR % ""}<joint name="j1"/>', 1e-4),
+        ('<joint name="j1"/><actuator name="m"><drake:gear_ratio value="20"/>'
+         '<drake:rotor_inertia value="1e-3"/></actuator>', 0.4),
+    ],
+)  # fmt: skip
+def test_gears_of_actuator_and_joint_are_their_own(inner: str, expected: float) -> None:
+    text = urdf(
+        *TREE, f'<transmission name="t"><type>x/SimpleTransmission</type>{inner}</transmission>'
+    )
+    (armature,) = [j.armature for j in read(text).joints if j.name == "j1"]
+    assert armature == pytest.approx(expected)
+    assert "armature is gear ratio squared" in told(text)
+    twice = text.replace("</robot>", f'<transmission name="u">{inner}</transmission></robot>')
+    (armature,) = [j.armature for j in read(twice).joints if j.name == "j1"]
+    assert armature == pytest.approx(2 * expected)  # a second motor
+
+
+def test_transmissions_of_several_joints_are_told() -> None:
+    motors = "".join(
+        f'<actuator name="m{k}">{ROTOR}</actuator><joint name="j{k}"/>' for k in (1, 2)
+    )
+    text = urdf(*TREE, f'<transmission name="wrist">{motors}</transmission>')
+    assert 'several joints are left out, rotors too; [motors] states such: "wrist"' in told(text)
+    lost = f'<transmission name="t"><joint name="j9"/>{MOTOR % ""}</transmission>'
+    assert 'rotors on joints that are not there are left out: "t"' in told(urdf(*TREE, lost))
+
+
+DYNAMICS = '<dynamics damping="0.5" spring_stiffness="20" spring_reference="0.3"/>'
+GAZEBO = (
+    '<gazebo reference="j1"><springStiffness>20</springStiffness><springReference>0.3'
+    "</springReference></gazebo>"
+)
+
+
+def test_springs_are_the_effect() -> None:
+    spring = urdf(joint("j1", "base", "a", DYNAMICS), *TREE[1:])
+    other = urdf(joint("j1", "base", "a", '<dynamics damping="0.5"/>'), *TREE[1:], GAZEBO)
+    assert toml(spring) == toml(other) == toml(spring.replace("</robot>", GAZEBO + "</robot>"))
+    assert 'spring = [{joint = "1", q0 = 0.3, h = 0}]' in toml(spring) and "Ks1 = 20" in toml(
+        spring
+    )
+    with pytest.raises(RobotError, match='joint "j1" has two springs that differ'):
+        read(spring.replace("</robot>", GAZEBO.replace("20", "30") + "</robot>"))
+    with pytest.raises(RobotError, match='got "stiff"'):
+        read(urdf(*TREE, GAZEBO.replace("20", "stiff")))
