@@ -18,6 +18,7 @@ from itertools import combinations
 
 import numpy as np
 
+from modeler.estimation.gravity import gravity_of
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
 from modeler.observation import Doubt, Observation, ThinnedRows, Turn, clocks, thinned, turns, zero
@@ -156,12 +157,16 @@ class Hypothesis:
         data: of the log with the fault undone.
         touches: joints that it concerns; empty: all.
         least: what it must add to the sum of logarithms.
+        judge: of its columns, where they are not those of the robot.
+        stands_for: what need not be said beside it: words in the lines of others.
     """
 
     fault: Doubt
     data: Products
     touches: tuple[int, ...] = ()
     least: float = ENOUGH
+    judge: Judge | None = None
+    stands_for: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -270,7 +275,8 @@ def _by_prediction(
 
 def _explained(seen: Evidence) -> Hypothesis | None:
     """The hypothesis that explains most, with those that do as well in its words."""
-    tried = [*_torques(seen), *_motions(seen)]
+    gravities = [*_gravities(seen)]
+    tried = [*_torques(seen), *gravities, *_motions(seen, bool(gravities))]
     scores = mapped(partial(_lowered, seen), tried)
     found = [(score, one) for score, one in zip(scores, tried, strict=True) if score >= one.least]
     if not found:
@@ -278,6 +284,8 @@ def _explained(seen: Evidence) -> Hypothesis | None:
     most = max(score for score, _ in found)
     found.sort(key=lambda pair: -pair[0])
     likely = [one for score, one in found if score >= most - np.log(ALSO)]
+    spared = [one.stands_for for one in likely if one.stands_for]
+    likely = [one for one in likely if not any(words in one.fault.line for words in spared)]
     line = "; or: ".join(dict.fromkeys(one.fault.line for one in likely[:3]))
     certain = all(one.fault.certain for one in likely)
     touched = tuple({j for one in likely for j in one.touches})
@@ -290,7 +298,7 @@ def _lowered(seen: Evidence, one: Hypothesis) -> float:
     """By how much a hypothesis lowers the sum of logarithms; 0 if it is none."""
     score = 0.0
     for possible in (False, True):  # machines that can be built leave more, and take longer
-        errors = seen.judge.errors(one.data, possible)
+        errors = (one.judge or seen.judge).errors(one.data, possible)
         score = _evidence_for(errors, seen.errors)
         if score < one.least or errors.max() > WRONG:
             return 0.0
@@ -388,12 +396,50 @@ def _signs(seen: Evidence) -> Iterator[Hypothesis]:
         yield Hypothesis(Doubt(line, True), _with_gain(seen.data, own, -1.0), j)
 
 
+# Hypotheses about gravity.
+
+
+def _gravities(seen: Evidence) -> Iterator[Hypothesis]:
+    """Gravity absent, compensated by the drives, of another size, sense or direction."""
+    gravity = gravity_of(seen.compiled, seen.rows, free=seen.judge.beta is None)
+    if gravity is None:
+        return
+    judge, rows = replace(seen.judge, machine=gravity.machine), seen.rows
+    parts = np.concatenate([gravity.motion, *gravity.along], axis=2)
+    every, count = _products(parts, rows.tau, rows.used, seen.joints), len(gravity.along)
+
+    def data_of(g: np.ndarray) -> Products:
+        v, split = np.append(1.0, g), (len(every.gram), count + 1, -1)
+        gram = every.gram.reshape(*split, count + 1, gravity.motion.shape[2])
+        cross = np.einsum("kap,a->kp", every.cross.reshape(split), v)
+        return Products(np.einsum("kapbq,a,b->kpq", gram, v, v, optimize=True), cross)
+
+    def left(g: np.ndarray) -> float:
+        return _score(judge.errors(data_of(g), possible=False))
+
+    def step(g: np.ndarray) -> np.ndarray:
+        p = gravity.motion.shape[2]
+        beta, _ = judge.solved(data_of(g))
+        axes = np.kron(np.eye(count + 1)[:, 1:], beta[:, None])  # torques of single axes
+        mixed = np.hstack([np.kron(np.append(1.0, g)[:, None], np.eye(p)), axes])
+        gram = np.matmul(mixed.T, every.gram @ mixed)
+        return judge.solved(Products(gram, every.cross @ mixed))[0][p:]
+
+    for g in gravity.candidates(left, step, seen.grave):
+        line, absent = gravity.line(g)
+        spared = "the clock seems" if absent else ""
+        yield Hypothesis(Doubt(line, True), data_of(g), judge=judge, stands_for=spared)
+
+
 # Hypotheses about positions and times.
 
 
-def _motions(seen: Evidence) -> Iterator[Hypothesis]:
-    """Positions in other units, reversed, exchanged, from another zero; what comes late."""
-    tried = [*clocks(seen.observation)] if seen.grave else []
+def _motions(seen: Evidence, clocked: bool) -> Iterator[Hypothesis]:
+    """Positions in other units, reversed, exchanged, from another zero; what comes late.
+
+    Other clocks where much is left, or where gravity looks like another.
+    """
+    tried = [*clocks(seen.observation)] if seen.grave or clocked else []
     tried += turns(seen.observation, zeros_only=not seen.grave) if seen.tree else []
     for turn, turned in zip(tried, mapped(partial(_turned, seen), tried), strict=True):
         if turned is not None:

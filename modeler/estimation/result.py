@@ -280,13 +280,13 @@ class JointVerdict(Brief):
     """What a fit is worth on one joint.
 
     Attributes:
-        light: "good": nothing speaks against it; "doubtful": its torques or its values are to be
-            taken with care; "bad": it is not described, not foretold, or its channels are wrong.
-        reasons: sentences; of what is good how well it is described and foretold.
+        state: "good": nothing speaks against it; "doubtful": its torques or its values are to be
+            taken with care; "undetermined": it is not predicted, or its channels are wrong.
+        why: sentences; of what is good its fit error and its cross-validated error.
     """
 
-    light: Literal["good", "doubtful", "bad"]
-    reasons: tuple[str, ...]
+    state: Literal["good", "doubtful", "undetermined"]
+    why: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -295,8 +295,8 @@ class Verdict(Brief):
 
     Attributes:
         usable: True if it predicts the torques of motion like that of its logs.
-        usable_for: "physics" (its values are those of a machine: simulation, control, other
-            motion), "like motion" (torques of motion like that of its logs), "nothing".
+        valid_for: "parameters" (its values are those of a machine: simulation, control, other
+            motion), "prediction" (torques of motion like that of its logs), "nothing".
         line: for people: usable or not, why, what to do.
         doubts: all that speaks against it.
         unseen: faults that logs may have and these would not show, in words.
@@ -306,7 +306,7 @@ class Verdict(Brief):
     """
 
     usable: bool
-    usable_for: str
+    valid_for: Literal["parameters", "prediction", "nothing"]
     line: str
     doubts: tuple[str, ...]
     unseen: tuple[str, ...] = ()
@@ -314,8 +314,9 @@ class Verdict(Brief):
     possible: bool | None = None
 
     def warning(self) -> list[str]:
-        """A line for whoever uses a model that is not usable; none for one that is."""
-        return [] if self.usable else [f"the fit of this model is {self.line}"]
+        """A line for whoever uses a model that is not valid; none for one that is."""
+        line = self.line[:1].lower() + self.line[1:]
+        return [] if self.usable else [f"the fit of this model is {line}"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -443,7 +444,7 @@ class FitResult(Presented):
             "model": "torque" if self.energy is None else "energy",
             **entries(self, "energy bands"),
             "usable": None if verdict is None else verdict.usable,
-            "usable_for": None if verdict is None else verdict.usable_for,
+            "valid_for": None if verdict is None else verdict.valid_for,
             "verdict": None if verdict is None else verdict.line,
             "doubts": [] if verdict is None else verdict.doubts,
             "by_joint": {} if verdict is None else verdict.by_joint,

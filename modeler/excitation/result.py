@@ -313,7 +313,8 @@ def picture(motion: Exciting, compiled: CompiledModel, kind: str) -> bytes:
         figure.legend(handles, labels, loc="outside right upper", title="joint")
         figure.suptitle(
             f"{motion.robot}: condition number {motion.quality.condition:.3g}, best of "
-            f"{motion.drawn} random {motion.random[0]:.3g}", x=0.01, ha="left", fontweight="bold", fontsize=11,
+            f"{motion.drawn} random {motion.random[0]:.3g}",
+            x=0.01, ha="left", fontweight="bold", fontsize=11,
         )  # fmt: skip
         stream = io.BytesIO()
         figure.savefig(stream, format=kind, dpi=120, metadata=_NO_DATE[kind])

@@ -122,7 +122,7 @@ def test_torques_in_mN_m_make_no_machine(runs, name):
     machine, (log, _) = runs[name]
     observation = observe(machine, [replace(log, tau=1e3 * log.tau)])
     fit = with_verdict(machine, observation, identify(observation, "weighted", machine))
-    assert fit.verdict.line.startswith("not usable: the links would weigh ")
+    assert fit.verdict.line.startswith("Not valid: the links would weigh ")
     assert "mN m" in fit.verdict.line
 
 
@@ -172,7 +172,7 @@ def test_a_clock_that_is_wrong_is_named_without_speeds(runs, name):
     observation = observe(machine, [replace(log, time=20.0 * log.time)])
     told = log_findings(machine, observation)
     fit = with_verdict(machine, observation, identify(observation, "weighted", machine), told)
-    assert fit.verdict.line.startswith("not usable: the clock seems to be wrong: ")
+    assert fit.verdict.line.startswith("Not valid: the clock seems to be wrong: ")
     assert not any(
         "clock" in found.line for found in log_findings(machine, observe(machine, [log]))
     )

@@ -48,4 +48,4 @@ def test_what_is_told_is_the_model_that_is_written(arm, tmp_path, seed, more):
     told = re.search(r"to ([\d.]+) % bare and ([\d.]+) % loaded", read.fit.verdict.line)
     assert told, read.fit.verdict.line
     assert 0.95 * worst < float(told[1]) < 1.5 * worst
-    assert read.fit.verdict.usable_for == ("physics" if more == 0.0 else "like motion")
+    assert read.fit.verdict.valid_for == ("parameters" if more == 0.0 else "prediction")
