@@ -607,6 +607,9 @@ def _channels(seen: Evidence) -> list[_Channel]:
 # What could not be seen in any case.
 
 
+A_THIRD = 4.0 / 3.0
+"""Times the error of a joint that a delay must make of it before it is detectable."""
+
 SURELY = 1.5
 """Times the evidence that is told, below which a fault would not be seen for sure."""
 
@@ -621,11 +624,10 @@ def _unseen(seen: Evidence) -> list[Doubt]:
         for what, data in _made(seen, place, beta):
             if _hides(seen, data):
                 hidden.setdefault(what, []).append(seen.name(place))
-    told = [f"{what} of joint {', '.join(hidden[what])}" for what in sorted(hidden)]
-    short = _short_delays(seen, beta) if seen.tree and len(seen.joints) > 1 else []
-    told += [f"a delay below {', '.join(short)}"] if short else []
-    line = f"could not be seen in these logs: {'; '.join(told)}"
-    return [Doubt(line, unseen=True)] if told else []
+    parts = [f"{what} of joint {', '.join(hidden[what])}" for what in sorted(hidden)]
+    parts += _short_delays(seen, beta) if seen.tree and len(seen.joints) > 1 else []
+    line = f"Not detectable in these logs: {'; '.join(parts)}"
+    return [Doubt(line, unseen=True)] if parts else []
 
 
 def _made(seen: Evidence, place: int, beta: np.ndarray) -> Iterator[tuple[str, Products]]:
@@ -634,32 +636,32 @@ def _made(seen: Evidence, place: int, beta: np.ndarray) -> Iterator[tuple[str, P
         _machine_data(seen, seen.rows.W, beta),
         seen.observation.joints[seen.joints[place]],
     )
-    yield "a torque of the other sign", _with_gain(data, place, -1.0)
-    yield "a torque twice as large", _with_gain(data, place, 0.5)
+    yield "a wrong sign of the torque", _with_gain(data, place, -1.0)
+    yield "a scale error of 2 on the torque", _with_gain(data, place, 0.5)
     if seen.tree and joint.unit == "rad":
         W = seen.rows.turned(seen.compiled, zero(seen.observation, seen.joints[place], 90))
-        yield "a zero that is off by 90 degrees", _machine_data(seen, W, beta)
+        yield "a zero off by 90 degrees", _machine_data(seen, W, beta)
 
 
 def _short_delays(seen: Evidence, beta: np.ndarray) -> list[str]:
-    """How late a joint may be without being seen."""
-    short = []
+    """How late a joint may be before its error rises by a third, beside a fit."""
+    short, never = list[str](), list[str]()
     for place, j in enumerate(seen.joints):
-        shift = _SHOWN * np.eye(len(seen.observation.joints))[j]
-        data = _machine_data(seen, seen.rows.shifted(seen.compiled, shift), beta)
-        least = _least_delay(seen, seen.judge.errors(data, possible=False))
-        if least > _DELAY:
-            short.append(f"{1e3 * least:.0f} ms of joint {seen.name(place)}")
-    return short
-
-
-def _least_delay(seen: Evidence, errors: np.ndarray) -> float:
-    """s that would be seen, by the errors (k,) that `_SHOWN` makes; `LONGEST` at most."""
-    for delay in np.geomspace(_DELAY, LONGEST, 20):
-        made = np.hypot(errors * delay / _SHOWN, seen.errors)
-        if _evidence_for(seen.errors, made) >= SURELY * _enough_of(delay):
-            return float(delay)
-    return LONGEST
+        own, least = max(float(seen.errors[place]), FLOOR), _SHOWN
+        for _ in range(2):  # what a delay makes grows with it: hypot(made, own) = A_THIRD own
+            later = seen.rows.shifted(
+                seen.compiled, least * np.eye(len(seen.observation.joints))[j]
+            )
+            made = seen.judge.errors(_machine_data(seen, later, beta), possible=False)[place]
+            least *= own * (A_THIRD**2 - 1.0) ** 0.5 / max(float(made), 1e-3 * own)
+            least = min(least, 1.1 * LONGEST)
+        if least > LONGEST:
+            never.append(seen.name(place))
+        elif least > _DELAY:
+            short.append(f"{1e3 * least:.2g} ms of joint {seen.name(place)}")
+    parts = [f"a delay below {', '.join(short)}"] if short else []
+    any_delay = f"any delay up to {1e3 * LONGEST:.0f} ms of joint {', '.join(never)}"
+    return [*parts, any_delay] if never else parts
 
 
 def _hides(seen: Evidence, data: Products) -> bool:

@@ -173,7 +173,7 @@ def fit_equations(
     if prior is not None:  # rows that repeat each other weigh less beside it
         full = colour.raised(estimate.covariance)
         more = np.maximum(np.diag(covariance) - np.diag(full), 0.0)
-        estimate = prior.applied(estimate, data, full + np.diag(more))
+        estimate = prior.applied(estimate, data, full, more, [j.name for j in observation.joints])
     essential = essential_parameters(data, estimate, method, below)
     at = [equations.names.index(name) for name in essential.names]
     if essential.dropped and below is None and not noise_only:

@@ -188,7 +188,8 @@ def with_verdict(
         if part:
             found += doubts.unexplained_joints(result, seen, _scale(data, observation, rows))
         found += doubts.systematic(result, _lasting(equations, rows, result))
-        found += [Doubt(line, values=True) for line in result.contradicted]
+        found += [Doubt(line, values=True, about=_named(line, result)) for line in
+                  result.contradicted]  # fmt: skip
         found += doubts.undetermined(model.spec, result, _spread(data, result))
         impossible = _impossible(model.spec, result, data)
         possible = not impossible
@@ -323,6 +324,11 @@ def _lasting(equations: Equations, rows: np.ndarray, result: FitResult) -> np.nd
         r = autocorrelation(residual[own], observation.row_sample[own], observation.segment)
         found[j] = joint.relative_error * max(float(r[1]), 0.0) ** 0.5 if len(r) > 1 else 0.0
     return found
+
+
+def _named(line: str, result: FitResult) -> tuple[str, ...]:
+    """The joint that a line begins with."""
+    return tuple(j.name for j in result.joints if line.startswith(f"joint {j.name}: "))
 
 
 def _values(result: FitResult) -> np.ndarray:
