@@ -88,7 +88,7 @@ class Gravity:
 
     def _split(self, g: np.ndarray) -> tuple[float, float]:
         """Factor of the stated gravity, and rad between the two; 0 and pi / 2 where it is none."""
-        size, own = np.linalg.norm(self.stated), np.linalg.norm(g)
+        size, own = float(np.linalg.norm(self.stated)), float(np.linalg.norm(g))
         factor = float(g @ self.stated / max(size, 1e-9) ** 2)
         cosine = abs(g @ self.stated) / max(size * own, 1e-9) if own else 1.0
         return factor, float(np.arccos(min(1.0, cosine)))
@@ -156,8 +156,8 @@ def gravity_of(compiled: CompiledModel, rows: ThinnedRows, free: bool) -> Gravit
             stated = np.linalg.lstsq(flat @ flat.T, flat @ felt, rcond=1e-9)[0]
             if np.linalg.norm(stated @ flat - felt) <= 1e-4 * np.linalg.norm(felt):
                 own = replace(machine, K=np.eye(len(machine.names)))
-                stated = np.round(stated, 6) + 0.0
-                return Gravity(own, motion @ machine.K, along, stated)
+                rounded = np.asarray(np.round(stated, 6) + 0.0)
+                return Gravity(own, motion @ machine.K, along, rounded)
     if not still.any():
         return None
     return Gravity(machine, motion, still[None], np.ones(1))

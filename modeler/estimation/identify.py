@@ -301,6 +301,18 @@ def _not_connected(observation: Observation, dead: Sequence[int]) -> list[str]:
     ]
 
 
+def relative_errors(observation: Observation, beta: np.ndarray) -> dict[str, float]:
+    """||y_j - W_j beta|| / ||y_j|| by joint: the one number that is called error."""
+    count, joint = len(observation.joints), observation.row_joint
+    left = np.bincount(joint, residual_of(observation, beta) ** 2, count)
+    total = np.bincount(joint, observation.y**2, count)
+    return {
+        each.name: float(np.sqrt(a / b))
+        for each, a, b in zip(observation.joints, left, total, strict=True)
+        if b > 0.0
+    }
+
+
 def joints_of(
     observation: Observation, data: Compressed, beta: np.ndarray, sigma: np.ndarray | None = None
 ) -> tuple[JointFit, ...]:
