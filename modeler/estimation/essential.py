@@ -62,27 +62,14 @@ class Essential:
         if not self.dropped and self.held_out is None:
             return f"all {len(self.names)} parameters are essential"
         before, after = printed(*(self.held_out or self.errors(data, full)))
+        count = f"{len(self.names)} of {len(self.names) + len(self.dropped)} parameters"
+        model = f"reduced model: {count}" if self.dropped else "no reduced model: one by an F-test"
         kind = "fit" if self.held_out is None else "cross-validated"
-        if not self.dropped:
-            return (
-                f"no reduced model: without the parameters that an F-test leaves out, the {kind} "
-                f"error is {after} (full model: {before})"
-            )
-        return (
-            f"reduced model: {len(self.names)} of {len(self.names) + len(self.dropped)} "
-            f"parameters; {kind} error {after} (full model: {before})"
-        )
+        return f"{model}; {kind} error {after} (full model: {before})"
 
-    def refused(self, full: Estimate, names: tuple[str, ...]) -> "Essential":
-        """All parameters, where the essential ones predict worse."""
-        kept = tuple(names[i] for i in full.rank.kept)
-        at = np.ix_(full.rank.kept, full.rank.kept)
-        reduced = dataclasses.replace(
-            full, beta=full.beta[list(full.rank.kept)], covariance=full.covariance[at]
-        )
-        return dataclasses.replace(
-            self, names=kept, dropped=(), beta=full.beta, ratio=0.0, limit=np.inf, reduced=reduced
-        )
+
+NONE_LEAVES = 1e300
+"""Percent of `essential_parameters` below which no parameter leaves."""
 
 
 def essential_parameters(

@@ -281,11 +281,11 @@ def _explained(seen: Evidence) -> Hypothesis | None:
     found = [(score, one) for score, one in zip(scores, tried, strict=True) if score >= one.least]
     if not found:
         return None
+    spared = [one.stands_for for _, one in found if one.stands_for]
+    found = [pair for pair in found if not any(own in pair[1].fault.line for own in spared)]
     most = max(score for score, _ in found)
     found.sort(key=lambda pair: -pair[0])
     likely = [one for score, one in found if score >= most - np.log(ALSO)]
-    spared = [one.stands_for for one in likely if one.stands_for]
-    likely = [one for one in likely if not any(words in one.fault.line for words in spared)]
     line = "; or: ".join(dict.fromkeys(one.fault.line for one in likely[:3]))
     certain = all(one.fault.certain for one in likely)
     touched = tuple({j for one in likely for j in one.touches})

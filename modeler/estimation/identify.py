@@ -11,7 +11,7 @@ import numpy as np
 from modeler.core.errors import DataError, Method
 from modeler.core.json import entries
 from modeler.estimation.covariance import Halves, coloured, halves
-from modeler.estimation.essential import Essential, essential_parameters, reduced_model
+from modeler.estimation.essential import NONE_LEAVES, Essential, essential_parameters, reduced_model
 from modeler.estimation.least_squares import Estimate, Problem, kept_rows, least_sigma, residual_of
 from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import ParameterEstimate
@@ -178,8 +178,9 @@ def fit_equations(
     at = [equations.names.index(name) for name in essential.names]
     if essential.dropped and below is None and not noise_only:
         errors, as_good = held_out_errors(equations, alive, estimate.sigma, prior, at)
+        if not as_good:
+            essential = essential_parameters(data, estimate, method, NONE_LEAVES)
         essential = dataclasses.replace(essential, held_out=errors)
-        essential = essential if as_good else essential.refused(estimate, equations.names)
         at = [equations.names.index(name) for name in essential.names]
     reduced = np.ones(len(at))
     if prior is None:
@@ -450,21 +451,18 @@ def held_out_errors(
 ) -> tuple[tuple[float, float], bool]:  # fmt: skip
     """Cross-validated relative errors of all columns and of some; whether these are as good.
 
-    They are if the mean over joints of the logarithms of their errors is larger than that of all
-    by no more than its standard error over the folds.
+    They are if the mean over the folds of the logarithm of their error, rows weighed, is larger
+    than that of all by no more than its standard error.
     """
     every, some = (crossed(equations, rows, sigma, None, prior, own) for own in (None, columns))
-    place = some.fold[rows] * len(sigma) + equations.observation.row_joint[rows]
-    size = FOLDS * len(sigma)
-    left = [np.bincount(place, own.residual[rows] ** 2, size) for own in (every, some)]
+    size = sigma[equations.observation.row_joint[rows]]
+    left = [np.bincount(some.fold[rows], (own.residual[rows] / size) ** 2) for own in (every, some)]
     seen = (left[0] > 0.0) & (left[1] > 0.0)
-    ratio = np.log(np.where(seen, left[1] / np.where(seen, left[0], 1.0), 1.0))
-    change = ratio.reshape(FOLDS, len(sigma)).mean(axis=1)
-    change = change[seen.reshape(FOLDS, len(sigma)).any(axis=1)]
-    error = float(np.std(change, ddof=1) / len(change) ** 0.5) if len(change) > 1 else 0.0
+    change = 0.5 * np.log(left[1][seen] / left[0][seen])
+    spread = np.std(change, ddof=1) / len(change) ** 0.5 if len(change) > 1 else 0.0
     total = float(np.linalg.norm(equations.y[rows])) or np.nan
     before, after = (float(np.linalg.norm(own.residual[rows])) / total for own in (every, some))
-    return (before, after), bool(change.size and change.mean() <= error)
+    return (before, after), bool(len(change) and change.mean() <= spread)
 
 
 def _stretches(observation: Observation, swing: float) -> np.ndarray:

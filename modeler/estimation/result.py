@@ -434,7 +434,7 @@ class FitResult(Presented):
                       "relative_error"),
             "relative_error_pools": POOLED,
             **entries(self, "by_unit essential_error"),
-            "joints": _joints_to_json(self.joints),
+            "joints": _joints_to_json(self.joints, {} if verdict is None else verdict.by_joint),
             "by_load": {
                 name: {"relative_error": pooled(own), "joints": _joints_to_json(own)}
                 for name, own in self.by_load.items()
@@ -447,7 +447,6 @@ class FitResult(Presented):
             "valid_for": None if verdict is None else verdict.valid_for,
             "verdict": None if verdict is None else verdict.line,
             "doubts": [] if verdict is None else verdict.doubts,
-            "by_joint": {} if verdict is None else verdict.by_joint,
             "possible": None if verdict is None else verdict.possible,
             **({"unseen": verdict.unseen} if verdict is not None and verdict.unseen else {}),
             **({"reading": dict(self.reading)} if self.reading else {}),
@@ -499,19 +498,34 @@ def pooled(joints: Sequence[JointFit]) -> float:
     return float(np.sqrt(left / total)) if total else float("nan")
 
 
-def _joints_to_json(joints: Sequence[JointFit]) -> dict[str, Any]:
-    return {joint.name: entries(joint, "relative_error rms sigma rows unit") for joint in joints}
+def _joints_to_json(
+    joints: Sequence[JointFit], judged: Mapping[str, JointVerdict] | None = None
+) -> dict[str, Any]:
+    own = {name: vars(one) for name, one in (judged or {}).items()}
+    return {
+        joint.name: entries(joint, "relative_error rms sigma rows unit") | own.get(joint.name, {})
+        for joint in joints
+    }
 
 
 def _named(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
-    return [{"name": name, **joint} for name, joint in joints.items()]
+    return [
+        {"name": name} | {key: value for key, value in joint.items() if key not in ("state", "why")}
+        for name, joint in joints.items()
+    ]
 
 
 def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
     """None where nobody has judged the fit, as in files of earlier versions."""
     if raw.get("usable") is None:
         return None
-    return read_back(Verdict, {"doubts": [], **raw, "line": raw["verdict"]}, "its verdict")
+    judged = {
+        name: {"state": joint["state"], "why": joint["why"]}
+        for name, joint in raw["joints"].items()
+        if "state" in joint
+    }
+    given = {"doubts": [], **raw, "line": raw["verdict"], "by_joint": judged}
+    return read_back(Verdict, given, "its verdict")
 
 
 def bodies_text(standard: Mapping[str, float]) -> list[str]:

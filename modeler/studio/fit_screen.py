@@ -112,7 +112,7 @@ def _stale(studio: Studio, step: Step) -> None:
 def _verdict(fit: Mapping[str, Any]) -> None:
     """Lights of the whole and of every joint, with the reasons."""
     with elements.part("What it is worth"):
-        by_joint = fit.get("by_joint") or {}
+        by_joint = {name: one for name, one in fit["joints"].items() if "state" in one}
         lights = {name: _STATE[one["state"]] for name, one in by_joint.items()}
         every = [_LIGHT.get(fit["valid_for"], "bad"), *lights.values()]
         named = [name for name, light in lights.items() if light != "good"]

@@ -149,7 +149,10 @@ def test_a_reduced_model_that_predicts_worse_is_not_offered(fitted, monkeypatch)
     monkeypatch.setattr(module, "held_out_errors", lambda *_: ((0.01, 0.02), False))
     refused = identify(seen, "ordinary")
     assert not refused.essential.dropped and all(p.essential for p in refused.parameters)
-    assert any("cross-validated error is 2 % (full model: 1 %)" in s for s in refused.sentences)
+    assert any(
+        "no reduced model: one by an F-test; cross-validated error 2 % (full model: 1 %)" in s
+        for s in refused.sentences
+    )
 
 
 def known_set(arm, seed):
