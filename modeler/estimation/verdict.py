@@ -212,6 +212,9 @@ doubtful."""
 LOST = 0.5
 """Cross-validated error of a joint above which it is not determined."""
 
+NOT_FITTED = "no row was fitted"
+"""Why a joint is not determined that has no motor, or no torque in its rows."""
+
 _BLOCKS = 5  # in time
 
 
@@ -249,7 +252,7 @@ def _by_joint(
         if np.isfinite(error):
             errors += f", cross-validated error {percent(float(error))}"
         if joint.relative_error is None:
-            judged[joint.name] = JointVerdict("undetermined", ("no row was fitted", *lines))
+            judged[joint.name] = JointVerdict("undetermined", (NOT_FITTED, *lines))
         elif any(doubt.certain for doubt in own) or error > LOST:
             judged[joint.name] = JointVerdict("undetermined", lines or (errors,))
         elif own or error > GOOD or lapse > LAPSE:
@@ -294,7 +297,7 @@ def contradictions(
     told: Sequence[Doubt] = (),
     data: Compressed | None = None,
 ) -> list[str]:
-    """Why a fit is certainly not usable, other than for want of data.
+    """Why a fit is certainly not valid, other than for want of data.
 
     A log that is too short for a fit of its own may still say something beside others.
 
@@ -413,10 +416,15 @@ def _verdict(found: Sequence[Doubt], by_joint: Mapping[str, JointVerdict], error
     if fatal:
         return Verdict(False, "nothing", f"Not valid: {fatal[0].line}", lines, (), by_joint)
     values = [doubt.line for doubt in found if doubt.values]
-    doubtful = [name for name, judged in by_joint.items() if judged.state != "good"]
+    doubtful = {
+        name: judged.why[0]
+        for name, judged in by_joint.items()
+        if judged.state != "good" and judged.why[0] != NOT_FITTED  # which blocks no other joint
+    }
     if values or doubtful:
-        reason = (values or by_joint[doubtful[0]].why)[0]
-        reason = reason if reason.startswith("joint") else f"joint {doubtful[0]}, {reason}"
+        named = (why if why.startswith("joint") else f"joint {name}, {why}"
+                 for name, why in doubtful.items())  # fmt: skip
+        reason = [*values, *named][0]
         line = (
             f"Valid for torque prediction on similar motions only: {error} on every joint. "
             f"Individual parameters are not reliable: {reason}"

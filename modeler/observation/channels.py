@@ -29,7 +29,7 @@ class Doubt:
 
     Attributes:
         line: where and what; after the last semicolon what to do.
-        certain: True if no physics can look like it: then the model is not usable, and nothing can
+        certain: True if no physics can look like it: then the model is not valid, and nothing can
             be said of physics.
         values: True if it leaves the prediction of torques of like motion untouched, and only the
             values of parameters are in doubt.
