@@ -11,7 +11,7 @@ from scipy.special import fdtri
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, Method
 from modeler.core.json import entries
-from modeler.core.table import percent, printed
+from modeler.core.table import printed
 from modeler.estimation.least_squares import Estimate, least_squares, solve_by_qr
 from modeler.estimation.parameter import ParameterEstimate
 from modeler.numerics.least_squares import Compressed, triangle
@@ -191,18 +191,6 @@ class Reduced(Brief):
     relative_error: float
     ratio: float
     limit: float | None
-
-    def lines(self) -> list[str]:
-        """Lines of text; none if nothing was left out. Its values stand beside those of all."""
-        if not self.dropped:
-            return []
-        count = len(self.parameters)
-        return [
-            f"reduced model: {count} essential of {count + len(self.dropped)} parameters, "
-            f"estimated anew; condition number {self.condition_number:.4g} "
-            f"({self.condition_scaled:.4g} with columns of length one), relative error "
-            f"{percent(self.relative_error)}"
-        ]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""

@@ -18,7 +18,7 @@ from itertools import combinations
 
 import numpy as np
 
-from modeler.estimation.gravity import gravity_of
+from modeler.estimation.gravity import ABSENT, gravity_of
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
 from modeler.observation import Doubt, Observation, ThinnedRows, Turn, clocks, thinned, turns, zero
@@ -158,7 +158,6 @@ class Hypothesis:
         touches: joints that it concerns; empty: all.
         least: what it must add to the sum of logarithms.
         judge: of its columns, where they are not those of the robot.
-        stands_for: what need not be said beside it: words in the lines of others.
     """
 
     fault: Doubt
@@ -166,7 +165,6 @@ class Hypothesis:
     touches: tuple[int, ...] = ()
     least: float = ENOUGH
     judge: Judge | None = None
-    stands_for: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -281,8 +279,8 @@ def _explained(seen: Evidence) -> Hypothesis | None:
     found = [(score, one) for score, one in zip(scores, tried, strict=True) if score >= one.least]
     if not found:
         return None
-    spared = [one.stands_for for _, one in found if one.stands_for]
-    found = [pair for pair in found if not any(own in pair[1].fault.line for own in spared)]
+    if any(one.fault.line.startswith(ABSENT) for _, one in found):
+        found = [pair for pair in found if "the clock seems" not in pair[1].fault.line]
     most = max(score for score, _ in found)
     found.sort(key=lambda pair: -pair[0])
     likely = [one for score, one in found if score >= most - np.log(ALSO)]
@@ -426,9 +424,7 @@ def _gravities(seen: Evidence) -> Iterator[Hypothesis]:
         return judge.solved(Products(gram, every.cross @ mixed))[0][p:]
 
     for g in gravity.candidates(left, step, seen.grave):
-        line, absent = gravity.line(g)
-        spared = "the clock seems" if absent else ""
-        yield Hypothesis(Doubt(line, True), data_of(g), judge=judge, stands_for=spared)
+        yield Hypothesis(Doubt(gravity.line(g), True), data_of(g), judge=judge)
 
 
 # Hypotheses about positions and times.

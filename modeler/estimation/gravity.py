@@ -16,6 +16,9 @@ from modeler.estimation.nearest_body import Machine, machine_of
 from modeler.observation import ThinnedRows
 from modeler.runtime import CompiledModel
 
+ABSENT = "the torques carry no gravity"
+"""What a line says beside which no clock is to blame: at rest, none makes gravity vanish."""
+
 TURNED = 0.3
 """rad between two directions of gravity, from which on no tilt of a base looks like it."""
 
@@ -93,31 +96,31 @@ class Gravity:
         cosine = abs(g @ self.stated) / max(size * own, 1e-9) if own else 1.0
         return factor, float(np.arccos(min(1.0, cosine)))
 
-    def line(self, g: np.ndarray) -> tuple[str, bool]:
-        """What is to be said of it, and whether the torques carry none."""
+    def line(self, g: np.ndarray) -> str:
+        """What is to be said of it."""
         factor, angle = self._split(g)
         if angle > TURNED:
             stated, asked = (str((v.round(1) + 0.0).tolist()) for v in (self.stated, g))
             return (
                 f"gravity of the robot file, {stated} m/s2, does not fit the torques: they ask "
                 f"for about {asked} in frame 0; check gravity there and how the base is mounted"
-            ), False
+            )
         if factor == 0.0:
             return (
-                "the torques carry no gravity: the drives compensate it or the log leaves it out; "
+                f"{ABSENT}: the drives compensate it or the log leaves it out; "
                 "log the whole torque, or fit with gravity = [0, 0, 0]"
-            ), True
+            )
         if factor < 0.0:
             return (
                 f"gravity acts against its direction in the robot file, {-factor:.2g} times as "
                 "large. Its sign there, the sign of an alpha and a zero off by 180 degrees are "
                 "equal in the equations; check all three"
-            ), False
+            )
         cause = "the drives compensate the rest, or" if factor < 1.0 else "check whether"
         return (
             f"the torques carry {factor:.2g} times the gravity of the robot file: {cause} gravity "
             "there is not in m/s2 or not that of the logs; check both"
-        ), False
+        )
 
 
 def _descended(

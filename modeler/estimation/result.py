@@ -418,7 +418,6 @@ class FitResult(Presented):
                 f"{joint.rms:.4g} {joint.unit}"
             )
         lines += [*bodies_text(self.standard), *self.sentences]
-        lines += self.essential.lines() if self.essential is not None else []
         lines += self.energy.lines() if self.energy is not None else []
         if self.verdict is not None:
             others = (line for line in self.verdict.doubts if line not in self.verdict.line)

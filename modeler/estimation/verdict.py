@@ -206,8 +206,7 @@ GOOD = 0.15
 """Cross-validated error of a joint below which nothing speaks against its torques."""
 
 LAPSE = 0.3
-"""Rms of what is left in a fifth of the time, over the rms torque, above which a joint is
-doubtful."""
+"""Cross-validated error in a fifth of the time above which a joint is doubtful."""
 
 LOST = 0.5
 """Cross-validated error of a joint above which it is not determined."""
@@ -219,16 +218,11 @@ _BLOCKS = 5  # in time
 
 
 def _worst_blocks(seen: CrossValidation, equations: Equations, rows: np.ndarray) -> np.ndarray:
-    """(n,) largest rms of the cross-validated residual in a block of time, over the rms torque."""
+    """(n,) largest cross-validated error in a block of time."""
     observation = equations.observation
-    count, joint = len(observation.joints), observation.row_joint[rows]
-    block = (observation.row_sample * _BLOCKS // len(observation.time))[rows]
-    own = np.bincount(joint * _BLOCKS + block, None, count * _BLOCKS)
-    left = np.bincount(joint * _BLOCKS + block, seen.residual[rows] ** 2, count * _BLOCKS)
-    worst = (left / np.fmax(own, 1.0)).reshape(count, _BLOCKS).max(axis=1)
-    total = np.bincount(joint, equations.y[rows] ** 2, count)
-    square = total / np.fmax(np.bincount(joint, None, count), 1.0)
-    return np.asarray(np.sqrt(worst / np.where(square > 0.0, square, np.inf)))
+    block = observation.row_sample * _BLOCKS // len(observation.time)
+    every = [errors_on(equations, seen.residual, rows & (block == k)) for k in range(_BLOCKS)]
+    return np.asarray(np.nan_to_num(every).max(axis=0))
 
 
 def _by_joint(

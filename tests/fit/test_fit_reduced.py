@@ -86,9 +86,8 @@ def test_its_sigmas_cover_the_truth_and_are_smaller(robot):
 def test_it_is_told_and_saved(fitted):
     _, fit = fitted
     lines = fit.lines()
-    error, told = (line for line in lines if line.startswith("reduced model: "))
-    assert f"{len(fit.essential.parameters)} of 13 parameters; cross-validated error" in error
-    assert f"{len(fit.essential.parameters)} essential of 13 parameters" in told
+    (told,) = (line for line in lines if line.startswith("reduced model: "))
+    assert f"{len(fit.essential.parameters)} of 13 parameters; cross-validated error" in told
     (head,) = (line for line in lines if line.startswith("parameter "))  # one table
     assert head.split() == ["parameter", "value", "sigma", "%sigma", "reduced", "unit"]
     rows = {line.split()[0]: line.split() for line in lines[1:14]}
