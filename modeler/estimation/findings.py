@@ -82,10 +82,16 @@ class Products:
         return np.asarray(np.sqrt(np.maximum(square, 0.0)))
 
 
+def _lengths(y: np.ndarray) -> np.ndarray:
+    """(k,) norms of the torques of joints; none so small beside others that rows overflow."""
+    length = np.linalg.norm(y, axis=0)
+    return np.asarray(np.maximum(length, 1e-9 * length.max(initial=0.0) or 1.0))
+
+
 def _products(W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: Sequence[int]) -> Products:
     """Of rows W (m, n, c), tau (m, n), used (m, n)."""
     y = np.where(used, tau, 0.0)[:, joints]
-    length = np.maximum(np.linalg.norm(y, axis=0), 1e-300)
+    length = _lengths(y)
     X = (np.where(used[..., None], W, 0.0)[:, joints] / length[:, None]).transpose(1, 2, 0)
     return Products(X @ X.transpose(0, 2, 1), np.einsum("kcm,mk->kc", X, y / length))
 
@@ -549,7 +555,7 @@ def _bordered(data: Products, seen: Evidence, W: np.ndarray, column: np.ndarray)
     """Of rows W (m, n, c), whose products are there, with a column (m, n) more."""
     joints, used = list(seen.joints), seen.rows.used
     y, z = (np.where(used, x, 0.0)[:, joints] for x in (seen.rows.tau, column))
-    length = np.maximum(np.linalg.norm(y, axis=0), 1e-300)
+    length = _lengths(y)
     counted = (np.where(used[:, j, None], W[:, j], 0.0) for j in joints)
     beside = np.stack([own @ w for own, w in zip(z.T, counted, strict=True)])
     beside /= length[:, None] ** 2
