@@ -211,6 +211,9 @@ LAPSE = 0.3
 LOST = 0.5
 """Cross-validated error of a joint above which it is not determined."""
 
+FILTERED = 0.2
+"""Autocorrelation of residuals over one row up to which the filter of the rows makes it."""
+
 NOT_FITTED = "no row was fitted"
 """Why a joint is not determined that has no motor, or no torque in its rows."""
 
@@ -319,7 +322,8 @@ def _lasting(equations: Equations, rows: np.ndarray, result: FitResult) -> np.nd
         if joint.relative_error is None or not own.any():
             continue
         r = autocorrelation(residual[own], observation.row_sample[own], observation.segment)
-        found[j] = joint.relative_error * max(float(r[1]), 0.0) ** 0.5 if len(r) > 1 else 0.0
+        lasts = float(r[1]) if len(r) > 1 and r[1] > FILTERED else 0.0
+        found[j] = joint.relative_error * lasts**0.5
     return found
 
 

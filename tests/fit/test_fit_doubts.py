@@ -167,6 +167,24 @@ def test_a_joint_whose_halves_differ_is_doubtful_and_no_other(bench, tmp_path):
     assert verdict.by_joint["1"].state == "good"
     assert verdict.by_joint["3"].state == "doubtful"
     assert "`modeler diagnose`" in verdict.by_joint["3"].why[0]
+    assert verdict.valid_for == "prediction" and "joint 3" in verdict.line
+
+
+@pytest.mark.parametrize(
+    "defect",
+    [
+        lambda log: dataclasses.replace(log, tau=log.tau * [1.0, 1.0, 2.0]),
+        lambda log: dataclasses.replace(log, q=log.q * [1.0, 1.0, 2.0]),
+        lambda log: dataclasses.replace(log, tau=log.tau + 0.06 * log.tau.std(axis=0)
+                                        * np.sin(1.9 * log.time)[:, None]),
+        lambda log: clock(log, 2.0),
+    ],
+    ids=["torque twice as large", "gear ratio", "a slow sway", "clock"],
+)  # fmt: skip
+def test_no_model_with_a_doubtful_joint_is_valid_for_its_parameters(bench, defect):
+    verdict = bench.verdict(defect(bench.log))
+    states = {one.state for one in verdict.by_joint.values()}
+    assert states != {"good"} and verdict.valid_for != "parameters", (states, verdict.line)
 
 
 def test_what_other_stages_tell_joins_in(bench):
