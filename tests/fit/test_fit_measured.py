@@ -45,14 +45,14 @@ class Run:
     training: tuple[str, ...]
     held_out: tuple[str, ...]
     readme: tuple[float, ...]
-    verdict: tuple[str, str] = HALVES
+    verdict: tuple[str, str] = LIKE_MOTION
     processing: Processing | None = None
 
 
 RUNS = {
     run.robot: run
     for run in (
-        Run("emps", "emps", ("train.parquet",), ("pulses.parquet",), (5.63,)),
+        Run("emps", "emps", ("train.parquet",), ("pulses.parquet",), (5.63,), HALVES),
         Run(
             "odrive", "odrive_cogging",
             ("slow2__nocomp_0.parquet", "slow2__nocomp_1.parquet"),
