@@ -157,6 +157,8 @@ def run_add(args: argparse.Namespace) -> Json:
     if args.picture is not None:
         places.append(written_pictures(args.picture, drawn))
     say_lines([*waterfall(better), *added(better), *left_out])
+    own = (f"joint {j.name} {percent(j.relative_error)}" for j in better.fit.joints)
+    say(f"error of the model on the logs of the fit: {', '.join(own)}")
     say_lines([*notes(better, max(1, len(model.history))), *model.warning])
     if better.fit.verdict is not None:
         say(f"now: {better.fit.verdict.line}")
@@ -191,7 +193,7 @@ def waterfall(model: IdentifiedModel) -> list[str]:
         return ["nothing is added: the model stays as it was fitted"]
     last = model.history[-1]
     held_out = bool(last.held_out)
-    title = "held-out error" if held_out else "error on parts of the fitted logs, left out in turn"
+    title = "held-out error" if held_out else "cross-validated error"
     if len(last.joints) > 1:
         title += ", rms over the joints"
     lines = [f"{'':<30} {title}"]
@@ -199,7 +201,7 @@ def waterfall(model: IdentifiedModel) -> list[str]:
     for step in model.history:
         name = report.step_name(step) if step.effect else "model as fitted"
         bar = ("~" if step.learned else "#") * round(_WIDTH * step.error / largest)
-        fitted = f"(fitted {percent(step.training_error, DIGITS)}{', learned' * step.learned})"
+        fitted = f"(fit error {percent(step.training_error, DIGITS)}{', learned' * step.learned})"
         lines.append(f"{name:<30} {percent(step.error, DIGITS):>8} {bar}  {fitted}")
     if (parts := model.fall_shares) is not None:
         lines.append(f"{'':<30} ~ learned, not physics")

@@ -122,7 +122,8 @@ def widths(
 
 def fitted_texts(spec: ModuleSpec, fitted: FittedSpec, found: Sequence[Width]) -> dict[str, Any]:
     """Finished strings for the templates of the unit."""
-    verdict = f"The fit of this model is {fitted.verdict or 'one that nobody has judged'}"
+    line = fitted.verdict or "one that nobody has judged"
+    verdict = f"The fit of this model is {line[:1].lower()}{line[1:]}"
     doubts = [f"Doubt: {doubt}" for doubt in fitted.doubts if doubt not in fitted.verdict]
     warning = "" if fitted.usable else "WARNING. "
     # Lines of the C table: the value, which it is, its unit, how sure it is.

@@ -339,7 +339,9 @@ def notes(model: IdentifiedModel, since: int = -1) -> list[str]:
 def _change(name: str, step: Addition) -> str:
     if step.falls:
         doubt = f"; it is perhaps missing and no more: {step.doubt}" if step.doubt else ""
-        return f"{name}: the error falls: {error_changes(step.joints, step.changed)}{doubt}"
+        kind = "held-out" if step.held_out else "cross-validated"
+        changes = error_changes(step.joints, step.changed)
+        return f"{name}: the {kind} error falls: {changes}{doubt}"
     why = no_better(step.joints, step.changed)
     return f"{name}: {why}; `modeler add MODEL undo` takes the effect out again"
 

@@ -33,8 +33,8 @@ from modeler.diagnosis.state import (
 )
 from modeler.diagnosis.timing import logger_shift
 from modeler.effects import Acts, Effect, Needs, effect_named
-from modeler.estimation import IdentifiedModel
-from modeler.observation import Log, LogRepair, Observation
+from modeler.estimation import IdentifiedModel, relative_errors
+from modeler.observation import Log, LogRepair, Observation, observed, prepare
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -101,7 +101,10 @@ def diagnose(
     mending = LogRepair(logs, compiled.spec)
     known = known or StatedEffects()
     without = _ids(without, known.catalogue)
-    seen = analysed(compiled, logs, model.processing, mending=mending)
+    prepared = prepare(compiled.spec, logs, model.processing, mending)
+    errors = relative_errors(observed(compiled, logs, prepared), model.beta)
+    seen = analysed(compiled, logs, model.processing, prepared=prepared, mending=mending)
+    del prepared
     doubted = faults_of(model, compiled, seen)
     seen = coarser(seen, compiled)  # all samples, and all columns of a log, are there but once
     data = SearchData(compiled, seen, kept_parameters(model, compiled, logs, seen), known)
@@ -162,7 +165,8 @@ def diagnose(
 
     line = bands_line(model.processing, data.observation.report.processing)
     line += _like_gravity(diagnosis, found[0].found, without)
-    return dataclasses.replace(diagnosis, sentences=(*diagnosis.sentences, *line))
+    said = (*diagnosis.sentences, *line)
+    return dataclasses.replace(diagnosis, sentences=said, errors=errors)
 
 
 WIDER = 1.3

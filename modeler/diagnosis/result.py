@@ -379,6 +379,7 @@ class Diagnosis(Presented):
         window: when something pushed, if anything did.
         search: everything behind it.
         discoveries: equations proposed by joint; None where none were asked for.
+        errors: by joint, of the model on these logs in its own band, as `compare` has them.
     """
 
     robot: str
@@ -397,6 +398,7 @@ class Diagnosis(Presented):
     window: Window | None
     search: Search
     discoveries: tuple[Discovery, ...] | None = None
+    errors: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         said = textwrap.shorten(self.sentences[0], LONGEST, placeholder=" ...")
@@ -424,7 +426,11 @@ class Diagnosis(Presented):
             "blind_spots": [
                 {"effect": effect, "joint": joint} for effect, joint in self.blind_spots
             ],
-            **entries(self, "joints unmoved held_out sentences band fit_band data changed"),
+            "joints": {
+                name: {"relative_error": self.errors.get(name), **vars(joint)}
+                for name, joint in self.joints.items()
+            },
+            **entries(self, "unmoved held_out sentences band fit_band data changed"),
             "contradicted": self.contradicted,
             **({} if self.discoveries is None else {
                 "discoveries": [found.to_json() for found in self.discoveries]}),

@@ -71,7 +71,7 @@ def evidence(step: Step, before: float, after: float) -> str:
 
 def sentences(diagnosis: Diagnosis) -> Diagnosis:
     """The diagnosis with its sentences."""
-    lines = [_headline(diagnosis), *(_effect_line(f) for f in diagnosis.effects)]
+    lines = [_headline(diagnosis), *(_effect_line(f, diagnosis) for f in diagnosis.effects)]
     lines += [_refinement(f, diagnosis) for f in diagnosis.refinements]
     judged = {} if diagnosis.contradicted else diagnosis.joints
     lines += refused_lines(diagnosis) if judged else []
@@ -177,7 +177,7 @@ def _effect(name: str, diagnosis: Diagnosis) -> Effect:
     return effect
 
 
-def _effect_line(finding: Finding) -> str:
+def _effect_line(finding: Finding, diagnosis: Diagnosis) -> str:
     if not finding.parameters:  # seen by a detector: neither value nor column
         return finding.evidence
     values = ", ".join(
@@ -190,8 +190,9 @@ def _effect_line(finding: Finding) -> str:
     for why in dict.fromkeys((finding.doubt, finding.objection)):
         tail += f"; {why}" if why else ""
     change = " -> ".join(printed(finding.error_before, finding.error_after))
+    source = "held-out" if diagnosis.held_out else "cross-validated"
     what = f"perhaps {finding.effect}" if finding.doubt else finding.effect
-    return f"{where(finding.joint)}: {what} ({values}): error {change}{tail}"
+    return f"{where(finding.joint)}: {what} ({values}): {source} error {change}{tail}"
 
 
 def _spread(finding: Finding, name: str) -> str:
@@ -212,9 +213,10 @@ def unit(finding: Finding, name: str) -> str:
 def lines(diagnosis: Diagnosis) -> list[str]:
     """The verdict, what was found, the errors of all joints, and what the logs cannot show."""
     found = list(diagnosis.sentences)
-    source = "held out" if diagnosis.held_out else "cross-validated"
-    found.append("")
-    found.append(f"{'joint':<6}{'error':>9}{'with effects':>14}  ({source}, up to "
+    source = "held-out" if diagnosis.held_out else "cross-validated"
+    own = ", ".join(f"joint {name} {percent(error)}" for name, error in diagnosis.errors.items())
+    found += ["", f"error of the model on these logs, up to {diagnosis.fit_band:.3g} Hz: {own}"]
+    found.append(f"{'joint':<6}{'before':>9}{'with effects':>14}  ({source} error, up to "
                  f"{diagnosis.band:.3g} Hz)")  # fmt: skip
     for name, joint in diagnosis.joints.items():
         before, after = printed(joint.error_before, joint.error_after)

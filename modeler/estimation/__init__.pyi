@@ -19,7 +19,12 @@ from .drive_gains import (
 )
 from .energy_fit import identify_energy as identify_energy
 from .findings import log_findings as log_findings
-from .identify import Equations as Equations, dead_joints as dead_joints, identify as identify
+from .identify import (
+    Equations as Equations,
+    dead_joints as dead_joints,
+    identify as identify,
+    relative_errors as relative_errors,
+)
 from .known import deviations as deviations, known_doubts as known_doubts
 from .least_squares import least_squares as least_squares, solve_by_qr as solve_by_qr
 from .long_logs import (

@@ -29,7 +29,7 @@ ELSEWHERE = 3.0
 """Ratio of the error on all rows to that in windows of them above which other rows differ; where
 logs are all of one kind it is 0.6 to 1.3."""
 
-STRUCTURE = 0.1
+STRUCTURE = 0.03
 """Rms of what is left and lasts, over that of the torque, above which values carry some of it."""
 
 MOST = 0.5

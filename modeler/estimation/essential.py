@@ -1,7 +1,7 @@
 """The reduced model: the essential parameters with values of their own, the others left out."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +11,7 @@ from scipy.special import fdtri
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, Method
 from modeler.core.json import entries
-from modeler.core.table import percent, printed
+from modeler.core.table import printed
 from modeler.estimation.least_squares import Estimate, least_squares, solve_by_qr
 from modeler.estimation.parameter import ParameterEstimate
 from modeler.numerics.least_squares import Compressed, triangle
@@ -20,6 +20,11 @@ from modeler.numerics.least_squares import Compressed, triangle
 
 
 LEVEL = 0.05
+
+MOST_RAISED = 1.05
+"""Times the fit error of each joint with all parameters, that a reduced model may have."""
+
+_EXACT = 1e-9  # of the torque; a smaller error is rounding
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +38,8 @@ class Essential:
         ratio: F statistic of all dropped parameters together.
         limit: the F quantile, which rules unless sigmas do.
         reduced: the estimate of the essential parameters alone, columns as `names`.
+        held_out: relative errors of all parameters and of the essential ones on rows that are
+            left out of their fits; None where nobody asked.
     """
 
     names: tuple[str, ...]
@@ -41,6 +48,7 @@ class Essential:
     ratio: float
     limit: float
     reduced: Estimate
+    held_out: tuple[float, float] | None = None
 
     def errors(self, data: Compressed, full: np.ndarray) -> tuple[float, float]:
         """||y - W beta|| / ||y|| over all rows: of all parameters (c,), of the essential ones."""
@@ -51,13 +59,17 @@ class Essential:
 
     def sentence(self, data: Compressed, full: np.ndarray) -> str:
         """What was found, and what it costs on rows beside all parameters (c,)."""
-        if not self.dropped:
+        if not self.dropped and self.held_out is None:
             return f"all {len(self.names)} parameters are essential"
-        return (
-            f"{len(self.names)} of {len(self.names) + len(self.dropped)} parameters are "
-            "essential; leaving the others out changes the relative error from "
-            + " to ".join(printed(*self.errors(data, full)))
-        )
+        before, after = printed(*(self.held_out or self.errors(data, full)))
+        count = f"{len(self.names)} of {len(self.names) + len(self.dropped)} parameters"
+        model = f"reduced model: {count}" if self.dropped else "no reduced model: one by an F-test"
+        kind = "fit" if self.held_out is None else "cross-validated"
+        return f"{model}; {kind} error {after} (full model: {before})"
+
+
+NONE_LEAVES = 1e300
+"""Percent of `essential_parameters` below which no parameter leaves."""
 
 
 def essential_parameters(
@@ -70,8 +82,9 @@ def essential_parameters(
     and S_r are the weighted sums of squares of the full model and without k parameters, with the
     weights of the full model (Gautier and Khalil 1991; Janot, Vandanjon and Gautier 2014). Then
     each of those left out comes back for another, as long as fewer parameters, or as many with a
-    smaller S_r, are found so. An estimator that is the least squares of equations of its own is
-    reduced in these.
+    smaller S_r, are found so; none leaves that raises the fit error of a joint by more than 5 %,
+    which weights and priors may hide. An estimator that is the least squares of equations of its
+    own is reduced in these.
 
     Args:
         data: compressed rows.
@@ -89,7 +102,15 @@ def essential_parameters(
             f"essential parameters: got sigmas below {below:g} %; expected a number above 0, as 15"
         )
     whole = data.whole(full.sigma) if full.whole is None else full.whole
-    kept, dropped, ratio, limit = _eliminate(triangle(whole), full, below)
+    most = MOST_RAISED * np.maximum(data.residual_norms(full.beta), _EXACT * data.torque_norms())
+
+    def as_good(kept: list[int]) -> bool:
+        """True if every joint is described as well by these columns."""
+        beta = np.zeros(len(data.names))
+        beta[kept] = solve_by_qr(whole[:, kept], whole[:, -1])[0]
+        return bool(np.all(data.residual_norms(beta) <= most))
+
+    kept, dropped, ratio, limit = _eliminate(triangle(whole), full, below, as_good)
     left = tuple(data.names[i] for i in dropped)
     aside = [tangle.name for tangle in full.rank.aside]
     own = data.without([*left, *aside])
@@ -104,7 +125,7 @@ def essential_parameters(
 
 
 def _eliminate(
-    whole: np.ndarray, full: Estimate, below: float | None
+    whole: np.ndarray, full: Estimate, below: float | None, as_good: Callable[[list[int]], bool]
 ) -> tuple[list[int], list[int], float, float]:
     """Columns kept, columns dropped in the order of leaving, their F statistic and its limit."""
     every = list(full.rank.kept)
@@ -126,7 +147,8 @@ def _eliminate(
             weakest, share = kept[int(np.argmax(shares))], float(shares.max())
             rest = [i for i in kept if i != weakest]
             ratio, limit = tested(rest)
-            if not (ratio < limit if below is None else 100.0 * np.sqrt(noise) * share >= below):
+            vague = below is not None and 100.0 * np.sqrt(noise) * share >= below
+            if not (vague or (below is None and ratio < limit and as_good(rest))):
                 break
             kept, dropped, stays = rest, [*dropped, weakest], -1
         return kept, dropped
@@ -169,18 +191,6 @@ class Reduced(Brief):
     relative_error: float
     ratio: float
     limit: float | None
-
-    def lines(self) -> list[str]:
-        """Lines of text; none if nothing was left out. Its values stand beside those of all."""
-        if not self.dropped:
-            return []
-        count = len(self.parameters)
-        return [
-            f"reduced model: {count} essential of {count + len(self.dropped)} parameters, "
-            f"estimated anew; condition number {self.condition_number:.4g} "
-            f"({self.condition_scaled:.4g} with columns of length one), relative error "
-            f"{percent(self.relative_error)}"
-        ]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""

@@ -18,6 +18,7 @@ from itertools import combinations
 
 import numpy as np
 
+from modeler.estimation.gravity import ABSENT, gravity_of
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.nearest_body import Machine, machine_of, nearest_possible
 from modeler.observation import Doubt, Observation, ThinnedRows, Turn, clocks, thinned, turns, zero
@@ -81,10 +82,16 @@ class Products:
         return np.asarray(np.sqrt(np.maximum(square, 0.0)))
 
 
+def _lengths(y: np.ndarray) -> np.ndarray:
+    """(k,) norms of the torques of joints; none so small beside others that rows overflow."""
+    length = np.linalg.norm(y, axis=0)
+    return np.asarray(np.maximum(length, 1e-9 * length.max(initial=0.0) or 1.0))
+
+
 def _products(W: np.ndarray, tau: np.ndarray, used: np.ndarray, joints: Sequence[int]) -> Products:
     """Of rows W (m, n, c), tau (m, n), used (m, n)."""
     y = np.where(used, tau, 0.0)[:, joints]
-    length = np.maximum(np.linalg.norm(y, axis=0), 1e-300)
+    length = _lengths(y)
     X = (np.where(used[..., None], W, 0.0)[:, joints] / length[:, None]).transpose(1, 2, 0)
     return Products(X @ X.transpose(0, 2, 1), np.einsum("kcm,mk->kc", X, y / length))
 
@@ -156,12 +163,14 @@ class Hypothesis:
         data: of the log with the fault undone.
         touches: joints that it concerns; empty: all.
         least: what it must add to the sum of logarithms.
+        judge: of its columns, where they are not those of the robot.
     """
 
     fault: Doubt
     data: Products
     touches: tuple[int, ...] = ()
     least: float = ENOUGH
+    judge: Judge | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -270,11 +279,14 @@ def _by_prediction(
 
 def _explained(seen: Evidence) -> Hypothesis | None:
     """The hypothesis that explains most, with those that do as well in its words."""
-    tried = [*_torques(seen), *_motions(seen)]
+    gravities = [*_gravities(seen)]
+    tried = [*_torques(seen), *gravities, *_motions(seen, bool(gravities))]
     scores = mapped(partial(_lowered, seen), tried)
     found = [(score, one) for score, one in zip(scores, tried, strict=True) if score >= one.least]
     if not found:
         return None
+    if any(one.fault.line.startswith(ABSENT) for _, one in found):
+        found = [pair for pair in found if "the clock seems" not in pair[1].fault.line]
     most = max(score for score, _ in found)
     found.sort(key=lambda pair: -pair[0])
     likely = [one for score, one in found if score >= most - np.log(ALSO)]
@@ -290,7 +302,7 @@ def _lowered(seen: Evidence, one: Hypothesis) -> float:
     """By how much a hypothesis lowers the sum of logarithms; 0 if it is none."""
     score = 0.0
     for possible in (False, True):  # machines that can be built leave more, and take longer
-        errors = seen.judge.errors(one.data, possible)
+        errors = (one.judge or seen.judge).errors(one.data, possible)
         score = _evidence_for(errors, seen.errors)
         if score < one.least or errors.max() > WRONG:
             return 0.0
@@ -388,12 +400,48 @@ def _signs(seen: Evidence) -> Iterator[Hypothesis]:
         yield Hypothesis(Doubt(line, True), _with_gain(seen.data, own, -1.0), j)
 
 
+# Hypotheses about gravity.
+
+
+def _gravities(seen: Evidence) -> Iterator[Hypothesis]:
+    """Gravity absent, compensated by the drives, of another size, sense or direction."""
+    gravity = gravity_of(seen.compiled, seen.rows, free=seen.judge.beta is None)
+    if gravity is None:
+        return
+    judge, rows = replace(seen.judge, machine=gravity.machine), seen.rows
+    parts = np.concatenate([gravity.motion, *gravity.along], axis=2)
+    every, count = _products(parts, rows.tau, rows.used, seen.joints), len(gravity.along)
+
+    def data_of(g: np.ndarray) -> Products:
+        v, split = np.append(1.0, g), (len(every.gram), count + 1, -1)
+        gram = every.gram.reshape(*split, count + 1, gravity.motion.shape[2])
+        cross = np.einsum("kap,a->kp", every.cross.reshape(split), v)
+        return Products(np.einsum("kapbq,a,b->kpq", gram, v, v, optimize=True), cross)
+
+    def left(g: np.ndarray) -> float:
+        return _score(judge.errors(data_of(g), possible=False))
+
+    def step(g: np.ndarray) -> np.ndarray:
+        p = gravity.motion.shape[2]
+        beta, _ = judge.solved(data_of(g))
+        axes = np.kron(np.eye(count + 1)[:, 1:], beta[:, None])  # torques of single axes
+        mixed = np.hstack([np.kron(np.append(1.0, g)[:, None], np.eye(p)), axes])
+        gram = np.matmul(mixed.T, every.gram @ mixed)
+        return judge.solved(Products(gram, every.cross @ mixed))[0][p:]
+
+    for g in gravity.candidates(left, step, seen.grave):
+        yield Hypothesis(Doubt(gravity.line(g), True), data_of(g), judge=judge)
+
+
 # Hypotheses about positions and times.
 
 
-def _motions(seen: Evidence) -> Iterator[Hypothesis]:
-    """Positions in other units, reversed, exchanged, from another zero; what comes late."""
-    tried = [*clocks(seen.observation)] if seen.grave else []
+def _motions(seen: Evidence, clocked: bool) -> Iterator[Hypothesis]:
+    """Positions in other units, reversed, exchanged, from another zero; what comes late.
+
+    Other clocks where much is left, or where gravity looks like another.
+    """
+    tried = [*clocks(seen.observation)] if seen.grave or clocked else []
     tried += turns(seen.observation, zeros_only=not seen.grave) if seen.tree else []
     for turn, turned in zip(tried, mapped(partial(_turned, seen), tried), strict=True):
         if turned is not None:
@@ -507,7 +555,7 @@ def _bordered(data: Products, seen: Evidence, W: np.ndarray, column: np.ndarray)
     """Of rows W (m, n, c), whose products are there, with a column (m, n) more."""
     joints, used = list(seen.joints), seen.rows.used
     y, z = (np.where(used, x, 0.0)[:, joints] for x in (seen.rows.tau, column))
-    length = np.maximum(np.linalg.norm(y, axis=0), 1e-300)
+    length = _lengths(y)
     counted = (np.where(used[:, j, None], W[:, j], 0.0) for j in joints)
     beside = np.stack([own @ w for own, w in zip(z.T, counted, strict=True)])
     beside /= length[:, None] ** 2
@@ -561,6 +609,9 @@ def _channels(seen: Evidence) -> list[_Channel]:
 # What could not be seen in any case.
 
 
+A_THIRD = 4.0 / 3.0
+"""Times the error of a joint that a delay must make of it before it is detectable."""
+
 SURELY = 1.5
 """Times the evidence that is told, below which a fault would not be seen for sure."""
 
@@ -575,11 +626,10 @@ def _unseen(seen: Evidence) -> list[Doubt]:
         for what, data in _made(seen, place, beta):
             if _hides(seen, data):
                 hidden.setdefault(what, []).append(seen.name(place))
-    told = [f"{what} of joint {', '.join(hidden[what])}" for what in sorted(hidden)]
-    short = _short_delays(seen, beta) if seen.tree and len(seen.joints) > 1 else []
-    told += [f"a delay below {', '.join(short)}"] if short else []
-    line = f"could not be seen in these logs: {'; '.join(told)}"
-    return [Doubt(line, unseen=True)] if told else []
+    parts = [f"{what} of joint {', '.join(hidden[what])}" for what in sorted(hidden)]
+    parts += _short_delays(seen, beta) if seen.tree and len(seen.joints) > 1 else []
+    line = f"Not detectable in these logs: {'; '.join(parts)}"
+    return [Doubt(line, unseen=True)] if parts else []
 
 
 def _made(seen: Evidence, place: int, beta: np.ndarray) -> Iterator[tuple[str, Products]]:
@@ -588,32 +638,32 @@ def _made(seen: Evidence, place: int, beta: np.ndarray) -> Iterator[tuple[str, P
         _machine_data(seen, seen.rows.W, beta),
         seen.observation.joints[seen.joints[place]],
     )
-    yield "a torque of the other sign", _with_gain(data, place, -1.0)
-    yield "a torque twice as large", _with_gain(data, place, 0.5)
+    yield "a wrong sign of the torque", _with_gain(data, place, -1.0)
+    yield "a scale error of 2 on the torque", _with_gain(data, place, 0.5)
     if seen.tree and joint.unit == "rad":
         W = seen.rows.turned(seen.compiled, zero(seen.observation, seen.joints[place], 90))
-        yield "a zero that is off by 90 degrees", _machine_data(seen, W, beta)
+        yield "a zero off by 90 degrees", _machine_data(seen, W, beta)
 
 
 def _short_delays(seen: Evidence, beta: np.ndarray) -> list[str]:
-    """How late a joint may be without being seen."""
-    short = []
+    """How late a joint may be before its error rises by a third, beside a fit."""
+    short, never = list[str](), list[str]()
     for place, j in enumerate(seen.joints):
-        shift = _SHOWN * np.eye(len(seen.observation.joints))[j]
-        data = _machine_data(seen, seen.rows.shifted(seen.compiled, shift), beta)
-        least = _least_delay(seen, seen.judge.errors(data, possible=False))
-        if least > _DELAY:
-            short.append(f"{1e3 * least:.0f} ms of joint {seen.name(place)}")
-    return short
-
-
-def _least_delay(seen: Evidence, errors: np.ndarray) -> float:
-    """s that would be seen, by the errors (k,) that `_SHOWN` makes; `LONGEST` at most."""
-    for delay in np.geomspace(_DELAY, LONGEST, 20):
-        made = np.hypot(errors * delay / _SHOWN, seen.errors)
-        if _evidence_for(seen.errors, made) >= SURELY * _enough_of(delay):
-            return float(delay)
-    return LONGEST
+        own, least = max(float(seen.errors[place]), FLOOR), _SHOWN
+        for _ in range(2):  # what a delay makes grows with it: hypot(made, own) = A_THIRD own
+            later = seen.rows.shifted(
+                seen.compiled, least * np.eye(len(seen.observation.joints))[j]
+            )
+            made = seen.judge.errors(_machine_data(seen, later, beta), possible=False)[place]
+            least *= own * (A_THIRD**2 - 1.0) ** 0.5 / max(float(made), 1e-3 * own)
+            least = min(least, 1.1 * LONGEST)
+        if least > LONGEST:
+            never.append(seen.name(place))
+        elif least > _DELAY:
+            short.append(f"{1e3 * least:.2g} ms of joint {seen.name(place)}")
+    parts = [f"a delay below {', '.join(short)}"] if short else []
+    any_delay = f"any delay up to {1e3 * LONGEST:.0f} ms of joint {', '.join(never)}"
+    return [*parts, any_delay] if never else parts
 
 
 def _hides(seen: Evidence, data: Products) -> bool:

@@ -11,7 +11,7 @@ import numpy as np
 from modeler.core.errors import DataError, Method
 from modeler.core.json import entries
 from modeler.estimation.covariance import Halves, coloured, halves
-from modeler.estimation.essential import Essential, essential_parameters, reduced_model
+from modeler.estimation.essential import NONE_LEAVES, Essential, essential_parameters, reduced_model
 from modeler.estimation.least_squares import Estimate, Problem, kept_rows, least_sigma, residual_of
 from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import ParameterEstimate
@@ -170,17 +170,22 @@ def fit_equations(
     raised = np.sqrt(1.0 + (differ.factors**2 - 1.0) / share)
     factors = colour.factors * raised
     covariance = estimate.covariance * np.outer(factors, factors)
-    if prior is None:
-        essential = essential_parameters(data, estimate, method, below)
-        at = [equations.names.index(name) for name in essential.names]
-        reduced = raised[at] * coloured(problem, essential.reduced, at, share).factors
-        estimate = dataclasses.replace(estimate, covariance=covariance)
-    else:  # rows that repeat each other weigh less beside it
+    if prior is not None:  # rows that repeat each other weigh less beside it
         full = colour.raised(estimate.covariance)
         more = np.maximum(np.diag(covariance) - np.diag(full), 0.0)
-        estimate = prior.applied(estimate, data, full + np.diag(more))
-        essential = essential_parameters(data, estimate, method, below)
-        reduced = np.ones(len(essential.names))
+        estimate = prior.applied(estimate, data, full, more, [j.name for j in observation.joints])
+    essential = essential_parameters(data, estimate, method, below)
+    at = [equations.names.index(name) for name in essential.names]
+    if essential.dropped and below is None and not noise_only:
+        errors, as_good = held_out_errors(equations, alive, estimate.sigma, prior, at)
+        if not as_good:
+            essential = essential_parameters(data, estimate, method, NONE_LEAVES)
+        essential = dataclasses.replace(essential, held_out=errors)
+        at = [equations.names.index(name) for name in essential.names]
+    reduced = np.ones(len(at))
+    if prior is None:
+        reduced = raised[at] * coloured(problem, essential.reduced, at, share).factors
+        estimate = dataclasses.replace(estimate, covariance=covariance)
     return result_of(
         equations, method, estimate, essential, data, estimate.sigma,
         rows=count,
@@ -297,6 +302,18 @@ def _not_connected(observation: Observation, dead: Sequence[int]) -> list[str]:
     ]
 
 
+def relative_errors(observation: Observation, beta: np.ndarray) -> dict[str, float]:
+    """||y_j - W_j beta|| / ||y_j|| by joint: the one number that is called error."""
+    count, joint = len(observation.joints), observation.row_joint
+    left = np.bincount(joint, residual_of(observation, beta) ** 2, count)
+    total = np.bincount(joint, observation.y**2, count)
+    return {
+        each.name: float(np.sqrt(a / b))
+        for each, a, b in zip(observation.joints, left, total, strict=True)
+        if b > 0.0
+    }
+
+
 def joints_of(
     observation: Observation, data: Compressed, beta: np.ndarray, sigma: np.ndarray | None = None
 ) -> tuple[JointFit, ...]:
@@ -359,12 +376,14 @@ class CrossValidation:
         swing: s, half a period of the mean motion: the length of a stretch.
         stretches: that many.
         residual: (rows,) y - W beta, each row predicted from other stretches; 0 for those left out.
+        fold: (rows,) which stretches were left out together; of rows that were used.
     """
 
     errors: np.ndarray
     swing: float
     stretches: int
     residual: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    fold: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
 
 
 def errors_on(equations: Equations, residual: np.ndarray, rows: np.ndarray) -> np.ndarray:
@@ -381,6 +400,7 @@ def crossed(
     sigma: np.ndarray,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
     prior: Prior | None = None,
+    columns: Sequence[int] | None = None,
 ) -> CrossValidation:
     """Cross-validation over stretches of half a swing.
 
@@ -395,6 +415,7 @@ def crossed(
         refit: beta without the samples (s,) that are held out; None: least squares of the
             other rows.
         prior: beside those of least squares.
+        columns: that are fitted by least squares, others are 0; None: all.
     """
     observation = equations.observation
     speed, acceleration = (
@@ -414,11 +435,34 @@ def crossed(
     for k, own in enumerate(folds):
         if refit is None:
             others = np.vstack([known, *parts[:k], *parts[k + 1 :]])
-            beta = scaled_least_squares(others[:, :-1], others[:, -1], SEEN)
+            beta = np.zeros(others.shape[1] - 1)
+            own_columns = np.arange(len(beta)) if columns is None else np.asarray(columns)
+            beta[own_columns] = scaled_least_squares(others[:, own_columns], others[:, -1], SEEN)
         else:
             beta = refit(np.searchsorted(seen, number) % FOLDS == k)
         residual[own] = equations.residual(beta, own)
-    return CrossValidation(errors_on(equations, residual, rows), swing, len(seen), residual)
+    errors = errors_on(equations, residual, rows)
+    return CrossValidation(errors, swing, len(seen), residual, fold)
+
+
+def held_out_errors(
+    equations: Equations, rows: np.ndarray, sigma: np.ndarray, prior: Prior | None,
+    columns: Sequence[int],
+) -> tuple[tuple[float, float], bool]:  # fmt: skip
+    """Cross-validated relative errors of all columns and of some; whether these are as good.
+
+    They are if the mean over the folds of the logarithm of their error, rows weighed, is larger
+    than that of all by no more than its standard error.
+    """
+    every, some = (crossed(equations, rows, sigma, None, prior, own) for own in (None, columns))
+    size = sigma[equations.observation.row_joint[rows]]
+    left = [np.bincount(some.fold[rows], (own.residual[rows] / size) ** 2) for own in (every, some)]
+    seen = (left[0] > 0.0) & (left[1] > 0.0)
+    change = 0.5 * np.log(left[1][seen] / left[0][seen])
+    spread = np.std(change, ddof=1) / len(change) ** 0.5 if len(change) > 1 else 0.0
+    total = float(np.linalg.norm(equations.y[rows])) or np.nan
+    before, after = (float(np.linalg.norm(own.residual[rows])) / total for own in (every, some))
+    return (before, after), bool(len(change) and change.mean() <= spread)
 
 
 def _stretches(observation: Observation, swing: float) -> np.ndarray:

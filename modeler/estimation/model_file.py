@@ -203,7 +203,7 @@ class IdentifiedModel(Presented):
 
     @property
     def warning(self) -> list[str]:
-        """A line if its fit was found not usable."""
+        """A line if its fit is not valid."""
         return [] if self.fit.verdict is None else self.fit.verdict.warning()
 
     def to_json(self) -> dict[str, Any]:

@@ -189,7 +189,10 @@ class Prior:
         """True if a group is held as it is."""
         return not self.S[self.groups[name]].any()
 
-    def applied(self, estimate: Estimate, data: Compressed, covariance: np.ndarray) -> Estimate:
+    def applied(
+        self, estimate: Estimate, data: Compressed, covariance: np.ndarray,
+        more: np.ndarray | float = 0.0, joints: Sequence[str] = (),
+    ) -> Estimate:  # fmt: skip
         """The estimate of data and prior together.
 
         The data tell theta = M beta of covariance V, raised for all that their rows repeat, and
@@ -200,6 +203,10 @@ class Prior:
             estimate: of the data.
             data: of which columns; first the base parameters, then those of loads.
             covariance: (c, c) V, 0 for columns set aside.
+            more: (c,) variance of what halves of the data disagree about. It is no noise: beside
+                V, it would part values of which the data know the sum. Data that contradict the
+                prior do so beyond it, and it stays in the standard deviations.
+            joints: names, for a line on each that the prior makes worse.
         """
         whole = data.whole(estimate.sigma)
         kept, c = np.asarray(estimate.rank.kept, dtype=int), len(estimate.beta)
@@ -208,7 +215,8 @@ class Prior:
         M[:, kept] = np.eye(len(kept))
         M[:, rest] = scaled_least_squares(whole[:, kept], whole[:, rest])
         told = roots(V)[1] @ np.column_stack([M, estimate.beta[kept]])
-        against = self.contradictions(M[:, : len(self.names)], estimate.beta[kept], V)
+        doubt = V + np.diag(np.broadcast_to(more, c)[kept])
+        against = self.contradictions(M[:, : len(self.names)], estimate.beta[kept], doubt)
         left = self.but([name for name in against if not self._fixed(name)])
         both = np.vstack([told, left.beside(np.linalg.norm(told[:, :-1], axis=0))])
         rank = independent_columns(both[:, :-1], data.names)
@@ -217,6 +225,7 @@ class Prior:
         before, after = np.full(c, np.inf), np.diag(posterior)
         before[kept] = np.diag(V)
         share = np.clip(1.0 - after / before, 0.0, 1.0)
+        posterior = posterior + np.diag(np.where(after > 0.0, more, 0.0))
         noise = np.zeros((1, c + 1))
         noise[0, -1] = max(1, estimate.degrees) ** 0.5
         return dataclasses.replace(
@@ -227,7 +236,7 @@ class Prior:
             whole=triangle(np.vstack([both, noise])),
             share=share,
             held=self.held,
-            contradicted=tuple(against.values()),
+            contradicted=(*against.values(), *_raised(data, estimate.beta, beta, joints)),
             sentences=(*estimate.sentences, *left.sentences(share)),
         )
 
@@ -242,6 +251,25 @@ class Prior:
             told = ", ".join(f"{name} ({why})" for name, why in self.without.items())
             said.append(f"no prior from [parameters] on placeholders: {told}")
         return said
+
+
+RAISED = 0.1
+"""Of the fit error of a joint: what a prior may add to it unsaid, where it is beyond chance."""
+
+
+def _raised(
+    data: Compressed, free: np.ndarray, beta: np.ndarray, joints: Sequence[str]
+) -> list[str]:
+    """A line for each joint whose error the prior raises beyond three of its standard errors."""
+    torque = data.torque_norms()
+    before, after = data.residual_norms(free), data.residual_norms(beta)
+    chance = 3.0 / np.sqrt(2.0 * np.maximum(data.rows, 1))
+    return [
+        f"joint {name}: the prior of the robot file raises its fit error from {percent(a / t)} to "
+        f"{percent(b / t)}; correct [parameters] or its uncertainty"
+        for name, t, a, b, most in zip(joints, torque, before, after, chance, strict=False)
+        if t > 0.0 and b > (1.0 + max(RAISED, float(most))) * a
+    ]
 
 
 def prior_of(spec: ModuleSpec) -> Prior | None:

@@ -280,13 +280,13 @@ class JointVerdict(Brief):
     """What a fit is worth on one joint.
 
     Attributes:
-        light: "good": nothing speaks against it; "doubtful": its torques or its values are to be
-            taken with care; "bad": it is not described, not foretold, or its channels are wrong.
-        reasons: sentences; of what is good how well it is described and foretold.
+        state: "good": nothing speaks against it; "doubtful": its torques or its values are to be
+            taken with care; "undetermined": it is not predicted, or its channels are wrong.
+        why: sentences; of what is good its fit error and its cross-validated error.
     """
 
-    light: Literal["good", "doubtful", "bad"]
-    reasons: tuple[str, ...]
+    state: Literal["good", "doubtful", "undetermined"]
+    why: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -295,8 +295,8 @@ class Verdict(Brief):
 
     Attributes:
         usable: True if it predicts the torques of motion like that of its logs.
-        usable_for: "physics" (its values are those of a machine: simulation, control, other
-            motion), "like motion" (torques of motion like that of its logs), "nothing".
+        valid_for: "parameters" (its values are those of a machine: simulation, control, other
+            motion), "prediction" (torques of motion like that of its logs), "nothing".
         line: for people: usable or not, why, what to do.
         doubts: all that speaks against it.
         unseen: faults that logs may have and these would not show, in words.
@@ -306,7 +306,7 @@ class Verdict(Brief):
     """
 
     usable: bool
-    usable_for: str
+    valid_for: Literal["parameters", "prediction", "nothing"]
     line: str
     doubts: tuple[str, ...]
     unseen: tuple[str, ...] = ()
@@ -314,8 +314,9 @@ class Verdict(Brief):
     possible: bool | None = None
 
     def warning(self) -> list[str]:
-        """A line for whoever uses a model that is not usable; none for one that is."""
-        return [] if self.usable else [f"the fit of this model is {self.line}"]
+        """A line for whoever uses a model that is not valid; none for one that is."""
+        line = self.line[:1].lower() + self.line[1:]
+        return [] if self.usable else [f"the fit of this model is {line}"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -417,7 +418,6 @@ class FitResult(Presented):
                 f"{joint.rms:.4g} {joint.unit}"
             )
         lines += [*bodies_text(self.standard), *self.sentences]
-        lines += self.essential.lines() if self.essential is not None else []
         lines += self.energy.lines() if self.energy is not None else []
         if self.verdict is not None:
             others = (line for line in self.verdict.doubts if line not in self.verdict.line)
@@ -433,7 +433,7 @@ class FitResult(Presented):
                       "relative_error"),
             "relative_error_pools": POOLED,
             **entries(self, "by_unit essential_error"),
-            "joints": _joints_to_json(self.joints),
+            "joints": _joints_to_json(self.joints, {} if verdict is None else verdict.by_joint),
             "by_load": {
                 name: {"relative_error": pooled(own), "joints": _joints_to_json(own)}
                 for name, own in self.by_load.items()
@@ -443,10 +443,9 @@ class FitResult(Presented):
             "model": "torque" if self.energy is None else "energy",
             **entries(self, "energy bands"),
             "usable": None if verdict is None else verdict.usable,
-            "usable_for": None if verdict is None else verdict.usable_for,
+            "valid_for": None if verdict is None else verdict.valid_for,
             "verdict": None if verdict is None else verdict.line,
             "doubts": [] if verdict is None else verdict.doubts,
-            "by_joint": {} if verdict is None else verdict.by_joint,
             "possible": None if verdict is None else verdict.possible,
             **({"unseen": verdict.unseen} if verdict is not None and verdict.unseen else {}),
             **({"reading": dict(self.reading)} if self.reading else {}),
@@ -498,19 +497,34 @@ def pooled(joints: Sequence[JointFit]) -> float:
     return float(np.sqrt(left / total)) if total else float("nan")
 
 
-def _joints_to_json(joints: Sequence[JointFit]) -> dict[str, Any]:
-    return {joint.name: entries(joint, "relative_error rms sigma rows unit") for joint in joints}
+def _joints_to_json(
+    joints: Sequence[JointFit], judged: Mapping[str, JointVerdict] | None = None
+) -> dict[str, Any]:
+    own = {name: vars(one) for name, one in (judged or {}).items()}
+    return {
+        joint.name: entries(joint, "relative_error rms sigma rows unit") | own.get(joint.name, {})
+        for joint in joints
+    }
 
 
 def _named(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
-    return [{"name": name, **joint} for name, joint in joints.items()]
+    return [
+        {"name": name} | {key: value for key, value in joint.items() if key not in ("state", "why")}
+        for name, joint in joints.items()
+    ]
 
 
 def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
     """None where nobody has judged the fit, as in files of earlier versions."""
     if raw.get("usable") is None:
         return None
-    return read_back(Verdict, {"doubts": [], **raw, "line": raw["verdict"]}, "its verdict")
+    judged = {
+        name: {"state": joint["state"], "why": joint["why"]}
+        for name, joint in raw["joints"].items()
+        if "state" in joint
+    }
+    given = {"doubts": [], **raw, "line": raw["verdict"], "by_joint": judged}
+    return read_back(Verdict, given, "its verdict")
 
 
 def bodies_text(standard: Mapping[str, float]) -> list[str]:

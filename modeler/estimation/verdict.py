@@ -1,7 +1,7 @@
-"""Usable or not, what for, why, and what to do: how a fit ends."""
+"""What a fit is valid for, why, and what to do: how a fit ends."""
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from scipy.special import chdtri
@@ -159,17 +159,17 @@ def with_verdict(
 ) -> FitResult:
     """The fit with its verdict.
 
-    A fit is usable if it predicts the torques of motion like that of its logs: it describes every
-    joint, foretells stretches that are left out, the time runs in seconds, and a machine that
-    could be built describes the joints as well. Its values are usable as those of the machine if,
-    beyond that, one such machine lies in their confidence region, the logs tell the values
-    apart, and what is left of the torques is small or noise.
+    A fit is valid for prediction of torques of motion like that of its logs if it describes every
+    joint, predicts stretches that are left out, the time runs in seconds, and a machine that
+    could be built describes the joints as well. It is valid for its parameters if, beyond that,
+    no joint is doubtful, one such machine lies in their confidence region, the logs tell the
+    values apart, and what is left of the torques is small or noise.
 
     Args:
         model: the robot.
         observation: that was fitted.
         result: of the fit.
-        told: findings of other stages about the logs; one that is certain makes the fit unusable.
+        told: findings of other stages about the logs; one that is certain makes the fit invalid.
         equations: that were fitted; None: those of the bare robot.
         refit: how the fit is made without some samples; None: by least squares of the torques.
         data: all rows that were fitted, where the observation has a part of them only.
@@ -188,28 +188,56 @@ def with_verdict(
         if part:
             found += doubts.unexplained_joints(result, seen, _scale(data, observation, rows))
         found += doubts.systematic(result, _lasting(equations, rows, result))
-        found += [Doubt(line, values=True) for line in result.contradicted]
+        found += [Doubt(line, values=True, about=_named(line, result)) for line in
+                  result.contradicted]  # fmt: skip
         found += doubts.undetermined(model.spec, result, _spread(data, result))
         impossible = _impossible(model.spec, result, data)
         possible = not impossible
         found += [*impossible, *doubts.negative(model.spec, result)]
-    verdict = _verdict(found, _predicts(equations, rows, result, seen))
+    worst = _worst_blocks(seen, equations, rows)
+    by_joint = _by_joint([*found, *result.of_joints], result, seen, worst)
+    verdict = _verdict(found, by_joint, _predicts(equations, rows, result, seen))
     directions = friction_by_direction(model.spec, result)
-    by_joint = _by_joint([*found, *result.of_joints], result, seen)
-    verdict = dataclasses.replace(verdict, unseen=unseen, by_joint=by_joint, possible=possible)
+    verdict = dataclasses.replace(verdict, unseen=unseen, possible=possible)
     return dataclasses.replace(result, verdict=verdict, directions=directions)
 
 
+GOOD = 0.15
+"""Cross-validated error of a joint below which nothing speaks against its torques."""
+
+LAPSE = 0.3
+"""Cross-validated error in a fifth of the time above which a joint is doubtful."""
+
+LOST = 0.5
+"""Cross-validated error of a joint above which it is not determined."""
+
+FILTERED = 0.2
+"""Autocorrelation of residuals over one row up to which the filter of the rows makes it."""
+
+NOT_FITTED = "no row was fitted"
+"""Why a joint is not determined that has no motor, or no torque in its rows."""
+
+_BLOCKS = 5  # in time
+
+
+def _worst_blocks(seen: CrossValidation, equations: Equations, rows: np.ndarray) -> np.ndarray:
+    """(n,) largest cross-validated error in a block of time."""
+    observation = equations.observation
+    block = observation.row_sample * _BLOCKS // len(observation.time)
+    every = [errors_on(equations, seen.residual, rows & (block == k)) for k in range(_BLOCKS)]
+    return np.asarray(np.nan_to_num(every).max(axis=0))
+
+
 def _by_joint(
-    found: Sequence[Doubt], result: FitResult, seen: CrossValidation
+    found: Sequence[Doubt], result: FitResult, seen: CrossValidation, worst: np.ndarray
 ) -> dict[str, JointVerdict]:
-    """What speaks against each joint: what is said of it, and of the whole robot.
+    """What speaks against each joint: what is said of it, of the whole robot, and its errors.
 
     What is said of no joint, and leaves prediction and values as they are, speaks against none.
     """
     names = {joint.name for joint in result.joints}
-    told = {}
-    for joint, error in zip(result.joints, seen.errors, strict=True):
+    judged = {}
+    for joint, error, lapse in zip(result.joints, seen.errors, worst, strict=True):
         own = [
             doubt
             for doubt in found
@@ -217,39 +245,36 @@ def _by_joint(
             or (not names & set(doubt.about) and (doubt.certain or doubt.values))
         ]
         lines = tuple(dict.fromkeys(doubt.line for doubt in own))
-        if any(doubt.certain for doubt in own):
-            told[joint.name] = JointVerdict("bad", lines)
-        elif joint.relative_error is None:
-            told[joint.name] = JointVerdict("doubtful", ("none of its rows was fitted", *lines))
-        elif own:
-            told[joint.name] = JointVerdict("doubtful", lines)
+        errors = f"fit error {percent(joint.relative_error)}"
+        if np.isfinite(error):
+            errors += f", cross-validated error {percent(float(error))}"
+        if joint.relative_error is None:
+            judged[joint.name] = JointVerdict("undetermined", (NOT_FITTED, *lines))
+        elif any(doubt.certain for doubt in own) or error > LOST:
+            judged[joint.name] = JointVerdict("undetermined", lines or (errors,))
+        elif own or error > GOOD or lapse > LAPSE:
+            judged[joint.name] = JointVerdict("doubtful", lines or (errors,))
         else:
-            well = f"described to {percent(joint.relative_error)}"
-            if np.isfinite(error):
-                well += f", stretches that were left out foretold to {percent(float(error))}"
-            told[joint.name] = JointVerdict("good", (well,))
-    return told
+            judged[joint.name] = JointVerdict("good", (errors,))
+    return judged
 
 
 def _predicts(
     equations: Equations, rows: np.ndarray, result: FitResult, seen: CrossValidation
 ) -> str:
-    """What for a usable fit is good for; no better than it does where it was fitted."""
+    """How well torques are predicted; no better than where they were fitted."""
 
     def largest(errors: np.ndarray, joints: Sequence[JointFit]) -> str:
         own = [np.nan if j.relative_error is None else j.relative_error for j in joints]
         return percent(float(np.fmax(np.nan_to_num(errors), np.nan_to_num(own)).max()))
 
-    told = {
+    parts = {
         name: largest(errors_on(equations, seen.residual, own), result.by_load[name])
         for name, own in equations.conditions(rows).items()
         if name in result.by_load
     }
-    errors = " and ".join(f"{error} {name}" for name, error in told.items())
-    return (
-        f"predicts torques of motion like that of its logs to "
-        f"{errors or largest(seen.errors, result.joints)} on every joint (stretches left out)"
-    )
+    errors = " and ".join(f"{error} {name}" for name, error in parts.items())
+    return f"cross-validated error at most {errors or largest(seen.errors, result.joints)}"
 
 
 def _scale(data: Compressed, observation: Observation, rows: np.ndarray) -> np.ndarray:
@@ -269,7 +294,7 @@ def contradictions(
     told: Sequence[Doubt] = (),
     data: Compressed | None = None,
 ) -> list[str]:
-    """Why a fit is certainly not usable, other than for want of data.
+    """Why a fit is certainly not valid, other than for want of data.
 
     A log that is too short for a fit of its own may still say something beside others.
 
@@ -297,8 +322,14 @@ def _lasting(equations: Equations, rows: np.ndarray, result: FitResult) -> np.nd
         if joint.relative_error is None or not own.any():
             continue
         r = autocorrelation(residual[own], observation.row_sample[own], observation.segment)
-        found[j] = joint.relative_error * max(float(r[1]), 0.0) ** 0.5 if len(r) > 1 else 0.0
+        lasts = float(r[1]) if len(r) > 1 and r[1] > FILTERED else 0.0
+        found[j] = joint.relative_error * lasts**0.5
     return found
+
+
+def _named(line: str, result: FitResult) -> tuple[str, ...]:
+    """The joint that a line begins with."""
+    return tuple(j.name for j in result.joints if line.startswith(f"joint {j.name}: "))
 
 
 def _values(result: FitResult) -> np.ndarray:
@@ -377,16 +408,26 @@ def _colour(white: np.ndarray, result: FitResult) -> np.ndarray:
     return factors if kept.size == len(factors) else np.full(len(factors), factors.max())
 
 
-def _verdict(found: Sequence[Doubt], good: str) -> Verdict:
+def _verdict(found: Sequence[Doubt], by_joint: Mapping[str, JointVerdict], error: str) -> Verdict:
     lines = tuple(dict.fromkeys(doubt.line for doubt in found))
     fatal = [doubt for doubt in found if doubt.certain]
     if fatal:
-        return Verdict(False, "nothing", f"not usable: {fatal[0].line}", lines)
-    values = [doubt for doubt in found if doubt.values]
-    if values:
+        return Verdict(False, "nothing", f"Not valid: {fatal[0].line}", lines, (), by_joint)
+    values = [doubt.line for doubt in found if doubt.values]
+    doubtful = {
+        name: judged.why[0]
+        for name, judged in by_joint.items()
+        if judged.state != "good" and judged.why[0] != NOT_FITTED  # which blocks no other joint
+    }
+    if values or doubtful:
+        named = (why if why.startswith("joint") else f"joint {name}, {why}"
+                 for name, why in doubtful.items())  # fmt: skip
+        reason = [*values, *named][0]
         line = (
-            f"usable for torques of like motion only: {good}; not for its values: {values[0].line}"
+            f"Valid for torque prediction on similar motions only: {error} on every joint. "
+            f"Individual parameters are not reliable: {reason}"
         )
-        return Verdict(True, "like motion", line, lines)
-    rest = f"; {found[0].line}" if found else "; a machine with these values could be built"
-    return Verdict(True, "physics", f"usable: {good}{rest}", lines)
+        return Verdict(True, "prediction", line, lines, (), by_joint)
+    line = f"Valid for torque prediction: {error} on every joint. "
+    line += f"Note: {found[0].line}" if found else "Parameters are physically consistent."
+    return Verdict(True, "parameters", line, lines, (), by_joint)

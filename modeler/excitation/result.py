@@ -318,8 +318,9 @@ def picture(motion: Exciting, compiled: CompiledModel, kind: str) -> bytes:
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside right upper", title="joint")
         figure.suptitle(
-            f"{motion.robot}: condition number {motion.quality.condition:.3g}, best of 50 random "
-            f"{motion.random[0]:.3g}", x=0.01, ha="left", fontweight="bold", fontsize=11,
+            f"{motion.robot}: condition number {motion.quality.condition:.3g}, best of "
+            f"{motion.drawn} random {motion.random[0]:.3g}",
+            x=0.01, ha="left", fontweight="bold", fontsize=11,
         )  # fmt: skip
         stream = io.BytesIO()
         figure.savefig(stream, format=kind, dpi=120, metadata=_NO_DATE[kind])

@@ -29,7 +29,7 @@ class Doubt:
 
     Attributes:
         line: where and what; after the last semicolon what to do.
-        certain: True if no physics can look like it: then the model is not usable, and nothing can
+        certain: True if no physics can look like it: then the model is not valid, and nothing can
             be said of physics.
         values: True if it leaves the prediction of torques of like motion untouched, and only the
             values of parameters are in doubt.
@@ -66,10 +66,19 @@ class ThinnedRows:
     samples: tuple[tuple[Segment, np.ndarray], ...]
     read: np.ndarray | None
 
+    @property
+    def motion(self) -> np.ndarray:
+        """(3, samples, n) q, qd, qdd."""
+        every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
+        return np.concatenate(every, axis=1)
+
+    def filtered(self, values: np.ndarray) -> np.ndarray:
+        """(m, n, k) rows of what the samples have, (samples, n, k)."""
+        return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
+
     def turned(self, compiled: CompiledModel, turn: "Turn") -> np.ndarray:
         """(m, n, c) columns of the motion with other positions, or by another clock."""
-        every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
-        q, qd, qdd = np.concatenate(every, axis=1) @ turn.motion
+        q, qd, qdd = self.motion @ turn.motion
         moved = q + turn.offset, turn.speed * qd, turn.speed**2 * qdd
         return self._filtered(compiled, compiled.base_regressor, *moved)
 

@@ -218,7 +218,7 @@ def _sections(model: IdentifiedModel) -> list[Section]:
 def _judged(fit: FitResult) -> list[Verdict | Items]:
     blocks: list[Verdict | Items] = []
     if fit.verdict is not None:
-        kind, tag = ("noise", "usable") if fit.verdict.usable else ("pattern", "not usable")
+        kind, tag = ("noise", "valid") if fit.verdict.usable else ("pattern", "not valid")
         lines = [JudgedLine(kind, tag, "This fit", fit.verdict.line)]
         lines += [JudgedLine("other", "doubt", f"Doubt {k}", text)
                   for k, text in enumerate(fit.verdict.doubts, start=1)]  # fmt: skip

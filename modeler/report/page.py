@@ -320,7 +320,7 @@ def after_fit(
 
 def _lacks(fit: "FitResult") -> bool:
     """True if an effect seems to be missing."""
-    if fit.verdict is not None and fit.verdict.usable_for != "physics":
+    if fit.verdict is not None and fit.verdict.valid_for != "parameters":
         return True
     return any("`modeler diagnose`" in line for line in fit.sentences)
 

@@ -103,12 +103,10 @@ def _error(studio: Studio, step: Step) -> str:
     except ModelerError as error:
         return str(error)
     if "waterfall" not in result:
-        own = [one["relative_error"] for one in result["joints"].values()]
-        squares = [error**2 for error in own if error is not None]  # rms of joints, as bars have it
-        return f"{percent((sum(squares) / len(squares)) ** 0.5)} training" if squares else ""
+        return f"error {percent(result['relative_error'])}"
     last = result["waterfall"][-1]
-    where = "held-out" if last["held_out"] else "cross-validated"
-    return f"{percent(last['error'])} {where}, {percent(last['training_error'])} training"
+    kind = "held-out" if last["held_out"] else "cross-validated"
+    return f"{kind} error {percent(last['error'])}, rms over the joints"
 
 
 def _back(studio: Studio, step: Step) -> None:

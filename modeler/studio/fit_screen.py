@@ -18,7 +18,8 @@ from modeler.studio.elements import LIGHTS, Light, Markup, number
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import ROBOT, Step, Task
 
-_LIGHT: Mapping[str | None, Light] = {"physics": "good", "like motion": "doubtful"}
+_LIGHT: Mapping[str | None, Light] = {"parameters": "good", "prediction": "doubtful"}
+_STATE: Mapping[str, Light] = {"good": "good", "doubtful": "doubtful", "undetermined": "bad"}
 _BUILT: Mapping[bool | None, tuple[Light, str]] = {
     True: ("good", "yes: masses, inertias and friction of a possible machine give the same"),
     False: ("doubtful", "no, see the doubts"),
@@ -141,25 +142,27 @@ def _stale(studio: Studio, step: Step) -> None:
 def _verdict(fit: Mapping[str, Any]) -> None:
     """Lights of the whole and of every joint, with the reasons."""
     with elements.part("What it is worth"):
-        by_joint = fit.get("by_joint") or {}
-        every = [_LIGHT.get(fit["usable_for"], "bad"), *(one["light"] for one in by_joint.values())]
-        named = [name for name, one in by_joint.items() if one["light"] != "good"]
+        by_joint = {name: one for name, one in fit["joints"].items() if "state" in one}
+        lights = {name: _STATE[one["state"]] for name, one in by_joint.items()}
+        every = [_LIGHT.get(fit["valid_for"], "bad"), *lights.values()]
+        named = [name for name, light in lights.items() if light != "good"]
         worst = max(every, key=LIGHTS.index)
         elements.light(worst, worst + (f": joint {', '.join(named)}" if named else ""))
         ui.label(fit["verdict"] or "nobody has judged this fit")
         with ui.element("div").classes("studio-joints"):
             for name, joint in fit["joints"].items():
-                judged = by_joint.get(name, {"light": "doubtful", "reasons": ["not judged"]})
-                with ui.card().classes(f"studio-card studio-joint studio-edge-{judged['light']}"):
+                judged = by_joint.get(name, {"state": "doubtful", "why": ["not judged"]})
+                light = _STATE[judged["state"]]
+                with ui.card().classes(f"studio-card studio-joint studio-edge-{light}"):
                     ui.label(f"joint {name}").classes("studio-part")
-                    elements.light(judged["light"])
+                    elements.light(light, judged["state"])
                     left, rms = percent(joint["relative_error"]), number(joint["rms"])
                     text = f"error {left}, residual {rms} {joint['unit']} rms"
                     ui.label(text).classes("studio-soft")
-                    elements.told(judged["reasons"])
+                    elements.told(judged["why"])
         ui.label("Can such a machine be built?").classes("studio-part")
         elements.light(*_BUILT[fit.get("possible")])
-        reasons = {reason for joint in by_joint.values() for reason in joint["reasons"]}
+        reasons = {reason for joint in by_joint.values() for reason in joint["why"]}
         elements.doubt_lines(line for line in fit["doubts"] if line not in reasons)
         elements.folded("What else is to be known", [*fit["sentences"], *fit.get("unseen", ())])
 

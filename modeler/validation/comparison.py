@@ -181,47 +181,42 @@ def worst_window(prediction: Prediction, e: np.ndarray, width: float = WINDOW) -
     )
 
 
-_AGAINST = -0.7  # correlation of measured and predicted torque below which the sign is wrong
-_ALIKE = 0.9  # from which on they have one shape
+_OPPOSITE = -0.5  # factor below which the sign is wrong, if turning it helps
 _OFF = 0.1  # a scale nearer to one is no wrong scale
 _EXPLAINS = 0.75  # of the squared residual, by the scale alone
 _FEWEST = 20  # samples
+_BLOCKS = 5  # in time; the factor for each comes from the others
 
 
 @dataclass(frozen=True)
 class Scale:
-    """measured = factor * predicted + constant, by least squares."""
+    """measured = factor * predicted, by least squares: no constant, which nobody could apply."""
 
     factor: float
-    correlation: float
-    mended: float  # share of the squared residual that the factor takes away
+    mended: float  # share of the squared residual that the factor of other blocks takes away
 
     @property
     def opposite(self) -> bool:
         """True if the prediction has the wrong sign."""
-        return self.correlation < _AGAINST
+        return self.factor < _OPPOSITE and self.mended > _EXPLAINS
 
     @property
     def off(self) -> bool:
         """True if the prediction is right but for a factor."""
-        wrong = abs(self.factor - 1.0) > _OFF and self.mended > _EXPLAINS
-        return self.correlation > _ALIKE and wrong
+        return abs(self.factor - 1.0) > _OFF and self.mended > _EXPLAINS
 
 
 def scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
-    """The factor between two torques, (n,) each; None for too few samples or a constant."""
-    if measured.size < _FEWEST:
+    """The factor between two torques, (n,) each in order of time; None for too few samples."""
+    blocks = np.arange(measured.size) * _BLOCKS // max(1, measured.size)
+    own, cross = (np.bincount(blocks, predicted * x, _BLOCKS) for x in (predicted, measured))
+    if measured.size < _FEWEST or not np.all(own.sum() - own > 0.0):
         return None
-    m, p = measured - measured.mean(), predicted - predicted.mean()
-    squares, own = float(p @ p), float(m @ m)
-    if squares <= 0.0 or own <= 0.0:
-        return None
-    factor = float(m @ p) / squares
-    before, after = float(np.sum((m - p) ** 2)), float(np.sum((m - factor * p) ** 2))
+    elsewhere = (cross.sum() - cross) / (own.sum() - own)
+    before = float(np.sum((measured - predicted) ** 2))
+    after = float(np.sum((measured - elsewhere[blocks] * predicted) ** 2))
     return Scale(
-        factor=factor,
-        correlation=float(m @ p) / float(np.sqrt(squares * own)),
-        mended=1.0 - after / before if before > 0.0 else 0.0,
+        factor=float(cross.sum() / own.sum()), mended=1.0 - after / before if before > 0.0 else 0.0
     )
 
 

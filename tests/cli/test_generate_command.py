@@ -119,14 +119,14 @@ def test_a_model_that_is_not_usable_is_written_and_told(fitted, usable, capsys, 
     verdict = None
     if usable is False:
         doubts = ("joint 2 is not described", "joint 1 is */ strange")
-        verdict = Verdict(False, "nothing", "not usable: joint 2 is not described", doubts)
+        verdict = Verdict(False, "nothing", "Not valid: joint 2 is not described", doubts)
     save_model(tmp_path / "m.json", changed(fitted, verdict=verdict))
     status, _, err = run(capsys, "generate", tmp_path / "m.json", "--out", tmp_path / "c")
     header = (tmp_path / "c" / "two_link_fitted.h").read_text()
     assert status == 0
     if usable is False:
-        assert err == "modeler: the fit of this model is not usable: joint 2 is not described\n"
-        assert "* WARNING. The fit of this model is not usable: joint 2 is not desc" in header
+        assert err == "modeler: the fit of this model is not valid: joint 2 is not described\n"
+        assert "* WARNING. The fit of this model is not valid: joint 2 is not desc" in header
         assert "* Doubt: joint 1 is * / strange" in header
     else:
         assert "* WARNING. The fit of this model is one that nobody has judged" in header

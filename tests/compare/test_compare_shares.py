@@ -216,9 +216,26 @@ def test_a_missing_effect_is_no_wrong_scale() -> None:
 
 
 def test_scale_by_hand() -> None:
-    """m = -2 p + 3 exactly; a constant has no scale."""
-    p = np.arange(30.0)
-    found = scale(-2.0 * p + 3.0, p)
-    assert found is not None and found.opposite
-    assert (found.factor, found.correlation, found.mended) == pytest.approx((-2.0, -1.0, 1.0))
-    assert scale(p, np.ones(30)) is None and scale(p[:5], p[:5]) is None
+    """m = -2 p exactly, and each block from the other four; nothing comes of nothing."""
+    p = np.random.default_rng(1).normal(size=200)
+    found = scale(-2.0 * p, p)
+    assert found is not None and found.opposite and found.off
+    assert (found.factor, found.mended) == pytest.approx((-2.0, 1.0))
+    assert scale(p, np.zeros(200)) is None and scale(p[:5], p[:5]) is None
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_factor_is_stated_only_where_applying_it_lowers_the_residual(seed: int) -> None:
+    """Measured torques that are another slope and a constant of the predicted ones."""
+    rng = np.random.default_rng(seed)
+    p = prediction(rows=1500)
+    own = p.predicted[:, 1]
+    slope, shift = rng.uniform(0.6, 1.6), rng.uniform(-3.0, 3.0) * own.std()
+    measured = p.measured.copy()
+    measured[:, 1] = slope * own + shift
+    item = compare(dataclasses.replace(p, measured=measured)).joints[1]
+    _, stated, tail = joint_verdict(item).partition("measured is ")
+    if stated:
+        factor = float(tail.split()[0])
+        left = np.linalg.norm(measured[:, 1] - factor * own)
+        assert left < 0.6 * np.linalg.norm(measured[:, 1] - own), (slope, shift, factor)

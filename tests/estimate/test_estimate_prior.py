@@ -1,5 +1,8 @@
 """What a robot file knows beforehand, against Bayes' rule on all standard parameters."""
 
+import dataclasses
+import sys
+
 import numpy as np
 import pytest
 from scipy.signal import lfilter
@@ -8,6 +11,7 @@ from modeler.api import Load, fit_gains
 from modeler.api.fitting import FitRequest, estimated
 from modeler.codegen import derive
 from modeler.core.errors import DataError
+from modeler.estimation.covariance import Halves
 from modeler.estimation.identify import base_equations, fit_equations, identify
 from modeler.estimation.least_squares import least_squares
 from modeler.estimation.nearest_body import PREFIXES
@@ -16,9 +20,11 @@ from modeler.estimation.prior import body_covariance, prior_of
 from modeler.estimation.result import fit_from_json
 from modeler.numerics.least_squares import compress, merged
 from modeler.observation import Log, observe
+from modeler.observation.read import read_log
 from modeler.robot import robot_from_text
+from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.bodies import ten_of_points
-from tests.link_data import compiled, drawn, links, text
+from tests.link_data import buildable, compiled, drawn, links, text
 
 NOMINAL = links()
 FRICTION = {f"F{kind}{j}": 2.0 for kind in "vs" for j in "123"}
@@ -256,3 +262,77 @@ def test_other_ways_to_fit_refuse_a_prior(model, seen):
             estimated(asked, robot, model, seen)
     with pytest.raises(DataError, match="method tls takes no prior"):
         fit_gains(derive(robot), [], Load(["none.csv"], 3.0))
+
+
+def test_a_fit_with_a_prior_is_the_least_of_its_objective(model):
+    """|V^-1/2 (beta - theta)|^2 + |R (beta - beta_0)|^2 on 50 problems; what halves disagree about
+    stays in the standard deviations and moves no value."""
+    for seed in range(50):
+        rng = np.random.default_rng([seed, 3])
+        _, W, y, joint = rows(model, seed, true_chi(seed))
+        y = y + rng.uniform(0.0, 2.0) * np.sign(rng.normal(size=len(y)))  # no noise of the model
+        names = tuple(base.name for base in model.spec.base)
+        data = compress(W, y, joint, 3, names)
+        white = least_squares(data, "weighted")
+        raised = rng.uniform(1.0, 3.0) * white.covariance
+        more = rng.uniform(0.0, 30.0, len(names)) * np.diag(raised)
+        prior = prior_of(model.spec)
+        found = prior.applied(white, data, raised, more)
+        V = np.linalg.inv(raised)
+        if found.contradicted:
+            continue
+        # lengths of the columns beside which what is held is held, as the fit has them
+        lengths = np.sqrt(np.diag(V))
+        R = prior.rows(lengths)
+        slope = V @ (found.beta - white.beta) + R[:, :-1].T @ (R[:, :-1] @ found.beta - R[:, -1])
+        size = np.sqrt(np.diag(V + R[:, :-1].T @ R[:, :-1]))
+        assert np.abs(slope / size).max() < 1e-4
+        moving = np.diag(found.covariance) > 0.0
+        assert np.all(np.diag(found.covariance)[moving] >= more[moving])
+
+
+def test_a_weighted_fit_is_the_least_of_its_objective(model):
+    """sum_j |y_j - W_j beta|^2 / sigma_j^2 with the weights that it ends with."""
+    for seed in range(50):
+        _, W, y, joint = rows(model, seed, true_chi(seed), noise=0.2 + 0.02 * seed)
+        names = tuple(base.name for base in model.spec.base)
+        found = least_squares(compress(W, y, joint, 3, names), "weighted")
+        X = W / found.sigma[joint][:, None]
+        slope = X.T @ (X @ found.beta - y / found.sigma[joint])
+        assert np.abs(slope / np.linalg.norm(X, axis=0)).max() < 1e-6
+
+
+def test_a_prior_that_raises_the_error_of_a_joint_is_named(model, monkeypatch):
+    _, W, y, joint = rows(model, 3, true_chi(3), noise=0.05)
+    data = compress(W, y, joint, 3, tuple(base.name for base in model.spec.base))
+    white = least_squares(data, "weighted")
+    prior = prior_of(model.spec)
+    right = prior.applied(white, data, white.covariance, joints="123")
+    assert right.contradicted == ()
+    wrong = dataclasses.replace(prior, mean=2.0 * prior.mean)
+    monkeypatch.setattr(type(prior), "contradictions", lambda *_: {})
+    found = wrong.applied(white, data, 100.0 * white.covariance, joints="123")
+    assert any("the prior of the robot file raises its fit error from" in x
+               for x in found.contradicted)  # fmt: skip
+
+
+def test_values_that_halves_disagree_about_do_not_leave_their_sums(tmp_path, monkeypatch):
+    """Standard deviations that are raised one by one part an offset and a weight whose sum is
+    known: with a prior the fit would leave more of the torque than without."""
+    effects = '[effects]\nrotor_inertia = "all"\noffset = "all"'
+    own = text(NOMINAL | FRICTION, {"inertial": 0.3}).replace("[effects]", effects)
+    truth = buildable(0.3, np.random.default_rng(1), NOMINAL) | FRICTION
+    machine = robot_from_text(text(truth).replace("[effects]", effects), "arm")
+    write_log(
+        tmp_path / "a.parquet", simulate(machine, SimulationSettings(duration=12.0, rate=250.0))
+    )
+    model = compiled(own)
+    seen = observe(model, [read_log(tmp_path / "a.parquet", model.spec)])
+    errors = []
+    for raised in (1.0, 30.0):
+        factors = 1.0 + (raised - 1.0) * np.random.default_rng(2).uniform(size=len(seen.names))
+        module = sys.modules["modeler.estimation.identify"]
+        monkeypatch.setattr(module, "halves", lambda *_, f=factors: Halves(f))
+        fit = identify(seen, "weighted", model)
+        errors.append([joint.relative_error for joint in fit.joints])
+    assert np.all(np.array(errors[1]) < 1.05 * np.array(errors[0])), errors

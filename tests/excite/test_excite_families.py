@@ -70,7 +70,8 @@ def test_a_trapezoid_stops_at_its_places_and_its_jerk_is_constant_by_pieces():
 
 
 @pytest.mark.parametrize("family", NEW)
-def test_the_command_writes_a_family_in_the_same_columns(family, tmp_path, capsys):
+def test_the_command_writes_a_family_in_the_same_columns(family, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("modeler.excitation.search.RANDOM", 7)
     place, told = tmp_path / "m.csv", tmp_path / "m.json"
     words = ["excite", "two-link", "--family", family, "--duration", "4", "--starts", "1"]
     words += ["--harmonics", "3", "--laps", "2", "--picture", tmp_path / "m.svg"]
@@ -78,6 +79,7 @@ def test_the_command_writes_a_family_in_the_same_columns(family, tmp_path, capsy
     assert main([str(word) for word in words]) == 0, capsys.readouterr().err
     motion, raw = read_motion(place, ["1", "2"]), json.loads(told.read_text())
     assert raw["family"] == raw["series"]["family"] == family
+    assert raw["random"]["motions"] == 7 and "best of 7 random" in (tmp_path / "m.svg").read_text()
     curve, t = curve_of(motion), np.linspace(0.0, 4.0, 1001)
     assert np.allclose(curve(t), curve(t + 4.0), atol=1e-6)
     for j, name in enumerate("12"):

@@ -64,7 +64,7 @@ MISTAKES = {
 }  # fmt: skip
 
 
-UNSEEN = {"zero": "90 degrees", "twice": "twice as large", "torque sign": "other sign"}
+UNSEEN = {"zero": "90 degrees", "twice": "scale error of 2", "torque sign": "wrong sign"}
 
 
 @pytest.mark.parametrize("name", ROBOTS)
@@ -122,7 +122,7 @@ def test_torques_in_mN_m_make_no_machine(runs, name):
     machine, (log, _) = runs[name]
     observation = observe(machine, [replace(log, tau=1e3 * log.tau)])
     fit = with_verdict(machine, observation, identify(observation, "weighted", machine))
-    assert fit.verdict.line.startswith("not usable: the links would weigh ")
+    assert fit.verdict.line.startswith("Not valid: the links would weigh ")
     assert "mN m" in fit.verdict.line
 
 
@@ -172,7 +172,7 @@ def test_a_clock_that_is_wrong_is_named_without_speeds(runs, name):
     observation = observe(machine, [replace(log, time=20.0 * log.time)])
     told = log_findings(machine, observation)
     fit = with_verdict(machine, observation, identify(observation, "weighted", machine), told)
-    assert fit.verdict.line.startswith("not usable: the clock seems to be wrong: ")
+    assert fit.verdict.line.startswith("Not valid: the clock seems to be wrong: ")
     assert not any(
         "clock" in found.line for found in log_findings(machine, observe(machine, [log]))
     )
@@ -257,3 +257,26 @@ def test_damaged_values_are_used_when_asked_for(arm, capsys):
     words = ["fit", "demo-arm", arm / "bad.parquet", "--out", arm / "b.json", "--keep-damaged"]
     assert main([str(word) for word in words]) == 0
     assert "values that no robot can have made are used as logged" in capsys.readouterr().out
+
+
+def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(runs, monkeypatch):
+    """Told per joint, far below the longest that is looked for where a robot moves well."""
+    from modeler.estimation import findings
+
+    machine, (log, _) = runs["demo-arm"]
+    monkeypatch.setattr(findings, "_DELAY", 0.0)
+    noisy = np.random.default_rng(3).normal(size=log.tau.shape) * log.tau.std(axis=0)
+    observation = observe(machine, [replace(log, tau=log.tau + noisy)])
+    (found, *_) = log_findings(machine, observation)
+    assert found.unseen and found.line.startswith("Not detectable in these logs: ")
+    stated = found.line.partition("a delay below ")[2].split(";")[0].split(", ")
+    delays = {text.split()[-1]: 1e-3 * float(text.split()[0]) for text in stated}
+    assert delays and max(delays.values()) < findings.LONGEST
+    seen = findings._evidence(machine, observation)
+    beta = seen.judge.possible(seen.data, *seen.judge.solved(seen.data))
+    for name, delay in delays.items():
+        place = [seen.name(k) for k in range(len(seen.joints))].index(name)
+        shift = delay * np.eye(len(log.joints))[seen.joints[place]]
+        late = findings._machine_data(seen, seen.rows.shifted(machine, shift), beta)
+        made = np.hypot(seen.judge.errors(late, False)[place], seen.errors[place])
+        assert made / seen.errors[place] == pytest.approx(4.0 / 3.0, rel=0.1)

@@ -57,7 +57,7 @@ def test_clean_logs_raise_no_alarm():
         for seed in seeds:
             fit, errors = fitted(name, seed, rate=250.0)
             assert not [line for line in fit.sentences if TOLD in line]
-            assert fit.verdict.usable_for == "physics", fit.verdict.line
+            assert fit.verdict.valid_for == "parameters", fit.verdict.line
             z += errors.values()
     assert 0.6 < np.sqrt(np.mean(np.square(z))) < 1.4
 
@@ -76,11 +76,11 @@ def test_the_terminal_ends_with_the_verdict_and_the_command_to_go_on_with(
              "--out", f"{name}.parquet", *words)  # fmt: skip
     *_, verdict, following = last(capsys, "fit", "emps", "good.parquet", "--out", "m.json",
                                   "--report", "m.html")  # fmt: skip
-    assert verdict.startswith("usable: ")
+    assert verdict.startswith("Valid for torque prediction: ")
     assert following == "next: modeler compare m.json HELD_OUT_LOG --report compare.html"
     assert following.removeprefix("next: ") in (tmp_path / "m.html").read_text()
     *told, verdict, following = last(capsys, "fit", "emps", "poor.parquet", "--out", "p.json")
-    assert verdict.startswith("usable")
+    assert verdict.startswith("Valid for torque prediction on similar motions only: ")
     assert following == "next: modeler diagnose p.json poor.parquet --report diagnosis.html"
     assert sum(line.startswith("parameter ") for line in told) == 1  # one table
     commands = (

@@ -45,7 +45,7 @@ def test_what_is_told_is_the_model_that_is_written(arm, tmp_path, seed, more):
     for joint in seen.joints:
         assert bare[joint.joint.name] == pytest.approx(joint.relative_error, rel=0.05)
     worst = 100.0 * max(joint.relative_error for joint in seen.joints)
-    told = re.search(r"to ([\d.]+) % bare and ([\d.]+) % loaded", read.fit.verdict.line)
+    told = re.search(r"at most ([\d.]+) % bare and ([\d.]+) % loaded", read.fit.verdict.line)
     assert told, read.fit.verdict.line
     assert 0.95 * worst < float(told[1]) < 1.5 * worst
-    assert read.fit.verdict.usable_for == ("physics" if more == 0.0 else "like motion")
+    assert read.fit.verdict.valid_for == ("parameters" if more == 0.0 else "prediction")

@@ -32,7 +32,8 @@ pytestmark = [
 ]
 
 
-LIKE_MOTION = ("like motion", "is left and is no noise")
+LIKE_MOTION = ("prediction", "is left and is no noise")
+HALVES = ("prediction", "tell different F")
 
 
 @dataclass(frozen=True)
@@ -44,14 +45,14 @@ class Run:
     training: tuple[str, ...]
     held_out: tuple[str, ...]
     readme: tuple[float, ...]
-    verdict: tuple[str, str] = ("physics", "a machine with these values")
+    verdict: tuple[str, str] = LIKE_MOTION
     processing: Processing | None = None
 
 
 RUNS = {
     run.robot: run
     for run in (
-        Run("emps", "emps", ("train.parquet",), ("pulses.parquet",), (5.63,)),
+        Run("emps", "emps", ("train.parquet",), ("pulses.parquet",), (5.63,), HALVES),
         Run(
             "odrive", "odrive_cogging",
             ("slow2__nocomp_0.parquet", "slow2__nocomp_1.parquet"),
@@ -132,9 +133,9 @@ def test_held_out_errors_are_below_the_published_ones(results, robot):
     limits |= {str(j): limit for (name, j), limit in EXCEPTIONS.items() if name == robot}
     assert found.keys() == limits.keys()
     assert {joint: error for joint, error in found.items() if error >= limits[joint]} == {}
-    verdict, (usable_for, words) = model.fit.verdict, RUNS[robot].verdict
-    assert verdict.usable_for == usable_for and words in verdict.line, verdict.line
-    assert verdict.usable is (usable_for != "nothing")
+    verdict, (valid_for, words) = model.fit.verdict, RUNS[robot].verdict
+    assert verdict.valid_for == valid_for and words in verdict.line, verdict.line
+    assert verdict.usable is (valid_for != "nothing")
 
 
 @in_turn("fits of measured logs")
@@ -152,7 +153,7 @@ def test_other_measured_logs_make_no_model(robot, log, words):
     emitted = generate(derivation)
     model = fit(derivation, emitted, observe(compile_model(emitted), [str(DATA / log)]))
     line = model.fit.verdict.line
-    assert line.startswith("not usable: ") and words in line
+    assert line.startswith("Not valid: ") and words in line
 
 
 @in_turn("fits of measured logs")

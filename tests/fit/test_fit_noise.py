@@ -103,12 +103,12 @@ def test_what_the_noise_would_have_bent_is_said(stage):
     assert any(told in line and "sigma (" in line for line in coarse.sentences)
     assert coarse.processing.parallel_cutoff < fine.processing.parallel_cutoff
     assert coarse.bands.limited_by == "1" and fine.bands.limited_by is None
-    assert fine.verdict.usable_for == "physics"
+    assert fine.verdict.valid_for == "parameters"
 
 
 def test_a_motion_that_is_mostly_noise_gives_no_values(stage):
     _, fit = fitted(stage, np.random.default_rng(5), slow_noise(0.3))
-    assert fit.verdict.usable_for != "physics"
+    assert fit.verdict.valid_for != "parameters"
     assert any(
         "values may be drawn to zero by more than their sigmas" in line
         for line in fit.verdict.doubts

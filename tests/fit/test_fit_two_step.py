@@ -300,6 +300,6 @@ def test_a_joint_that_never_moves_alone_is_named(tmp_path, capsys):
     words = f"fit {robot} {log} --method two-step --out {tmp_path / 'm.json'}"
     assert main(words.split()) == 0
     out = capsys.readouterr().out
-    assert "not usable: joint e never moved alone for long enough" in out
+    assert "Not valid: joint e never moved alone for long enough" in out
     assert "check units, signs and columns" not in out
     assert main(words.replace("two-step", "weighted").split()) == 0

@@ -34,7 +34,7 @@ def test_a_good_log_of_a_built_in_robot_is_usable(name, tmp_path):
     observation = observe(compiled(name), [tmp_path / "a.parquet"])
     verdict = with_verdict(compiled(name), observation, identify(observation)).verdict
     assert verdict.usable
-    assert verdict.usable_for == ("like motion" if name in VAGUE else "physics"), verdict.line
+    assert verdict.valid_for == ("prediction" if name in VAGUE else "parameters"), verdict.line
 
 
 def test_loops_that_close_near_home_only_have_shafts_too():

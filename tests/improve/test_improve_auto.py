@@ -44,7 +44,7 @@ def test_nothing_is_searched_for_again(
     assert left_out == ()
     lines = notes(better, 1)
     assert len(lines) == len(better.history) - 1
-    assert all("the error falls: joint" in line for line in lines)
+    assert all("error falls: joint" in line for line in lines)
 
 
 def test_every_step_lowers_the_error(case: Case, sprung: Found) -> None:

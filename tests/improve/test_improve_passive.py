@@ -29,7 +29,7 @@ def test_viscous_and_coulomb_one_after_the_other(loops: Path, run: Run, tmp_path
     assert (status, err) == (0, "")
     line = ("add", one, "coulomb", "--joint", "21", *logs, "--out", two, "--robot-out", robot)
     status, out, _ = run(*line)
-    assert status == 0 and "coulomb, joint 21: the error falls: joint 11" in out
+    assert status == 0 and "coulomb, joint 21: the held-out error falls: joint 11" in out
     text = robot.read_text(encoding="utf-8")
     assert 'viscous = ["21"]' in text and 'coulomb = ["21"]' in text
     error = load_model(two).history[-1].error

@@ -64,7 +64,7 @@ def test_a_guess_that_fits_worse_is_dropped(capsys, tmp_path, plain):
 def test_exchanged_torques_are_told(capsys, tmp_path, plain):
     plain["tau1"], plain["tau2"] = plain["tau2"], plain["tau1"]
     lines = told(capsys, tmp_path, plain, "--robot", "demo-arm")["doubts"]
-    assert any("not usable" in line for line in lines)
+    assert any("Not valid" in line for line in lines)
 
 
 @pytest.mark.parametrize(("own", "factor", "unit"), [("q", 1.0, "deg"), ("tau", 1e3, "mN m")])

@@ -1,0 +1,45 @@
+"""One number is called error: fit, compare, diagnose and add print the same of one log."""
+
+import json
+
+import pytest
+
+from modeler.cli import main
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    place = tmp_path_factory.mktemp("error")
+    run(["simulate", "two-link", "--hide", "stribeck@2", "--duration", "12", "--rate", "250",
+         "--seed", "5", "--out", place / "a.parquet"])  # fmt: skip
+    run(["fit", "two-link", place / "a.parquet", "--out", place / "m.json"])
+    return place
+
+
+def run(words):
+    assert main([str(word) for word in words]) == 0
+
+
+def errors(place, words):
+    run([*words, "--json", place / "out.json"])
+    joints = json.loads((place / "out.json").read_text())["joints"]
+    return {name: joint["relative_error"] for name, joint in joints.items()}
+
+
+def test_error_is_one_number_of_one_model_and_log(folder, capsys):
+    log, model = folder / "a.parquet", folder / "m.json"
+    fit = errors(folder, ["fit", "two-link", log, "--out", folder / "again.json"])
+    assert errors(folder, ["compare", model, log]) == pytest.approx(fit)
+    capsys.readouterr()
+    assert errors(folder, ["diagnose", model, log]) == pytest.approx(fit)
+    said = capsys.readouterr().out
+    bare = said.replace("cross-validated error", "").replace("held-out error", "")
+    lines = [line for line in bare.splitlines() if " error " in line and "%" in line]
+    assert all(line.startswith("error of the model on these logs") for line in lines), lines
+    better = folder / "better.json"
+    words = ["add", model, "stribeck", "--joint", "2", log, "--out", better]
+    added = errors(folder, words)
+    said = capsys.readouterr().out
+    assert "error of the model on the logs of the fit: joint 1" in said
+    assert "the cross-validated error falls: joint 2" in said
+    assert errors(folder, ["compare", better, log]) == pytest.approx(added)
