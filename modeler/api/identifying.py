@@ -81,7 +81,7 @@ def identify(
 
     made, _, _, loaded = fitted_on(
         asked, derivation, emitted, compiled, given, load or fitting.Load((), None),
-        processing or fitting.processing_of(stated), mapping, check, Telling(steps),
+        processing or workflow.processing_of(stated), mapping, check, Telling(steps),
     )  # fmt: skip
     memory = [log for log in given if isinstance(log, Log)]
     memory += [log for log in loaded if not log.path]

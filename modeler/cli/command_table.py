@@ -317,16 +317,17 @@ _COMPARE = Command(
     "measured against predicted torque: how good, where it fails",
     "Predicts the torques of the logs with MODEL and shows per joint how good it is, where it "
     "fails, and whether the rest still has structure. Of several models: whose error is smaller on "
-    "which joint, and where that is beyond doubt. With --free-run: the positions that the robot "
-    "takes under the logged torques.",
+    "which joint, and where that is beyond doubt. Of a ROBOT: with the values that its file "
+    "states, 0 for others. With --free-run: the positions that the robot takes under the logged "
+    "torques.",
     "modeler compare ur10e.model.json held_out.parquet --report page.html; "
     "modeler compare ur10e.model.json better.model.json held_out.parquet; "
     "modeler compare ur10e.model.json held_out.parquet --free-run --picture free_run",
     (
-        MODEL,
+        value("model", "MODEL|ROBOT", places.RobotOrModel, ROBOT_OR_MODEL),
         value("logs", "LOG", places.model_or_log,
-              f"{LOGS}; before them perhaps further models, which are set beside the first",
-              nargs="+"),
+              f"{LOGS}; before them perhaps further models or robot files, which are set beside "
+              "the first", nargs="+"),
         MAP, *page(places.PageOrFolder), pictures(places.PictureFolder),
         Group("load", "that the robot carries in these logs", (
             value("--payload-mass", "KG", float,
