@@ -465,7 +465,8 @@ def check_motion(
     compiled = compile_model(generate(derive(robot)))
     bounds = bounds_of(robot, compiled, {}, {}, clearance)
     assert bounds.clearance is not None
-    return nearest_along(compiled, bounds.clearance, motion)
+    names = [joint.name for joint in compiled.spec.joints]
+    return nearest_along(compiled, bounds.clearance, simulation.read_motion(motion, names))
 
 
 # Measurements by simulation.

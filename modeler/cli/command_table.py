@@ -490,8 +490,8 @@ _EXCITE = Command(
                     "logs that there are: the motion adds to what they tell; with --choose: logs "
                     "or motions to choose from", dest="candidates"),
             value("--check", "MOTION", places.MotionFile,
-                  "say how near links come along this motion or log; status 1 if nearer than "
-                  "--clearance; takes no --out"),
+                  "does this motion or log keep to [limits], start and end at rest, and keep links "
+                  "apart by --clearance? status 1 if not; takes no --out"),
         )),
     ),
     "write what was found for machines",
