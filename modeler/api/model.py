@@ -249,6 +249,7 @@ class Model(IdentifiedModel):
         return labelled(values, {"log": logs, "time": rows.time}, names)
 
     @cached_property
+    @checked
     def _rows(self) -> Observation:
         return observe(recompile(self), self.its_logs(None, "resid"), self.processing)
 
@@ -309,8 +310,9 @@ class Model(IdentifiedModel):
     ) -> diagnosis.Diagnosis:
         """Which physical effects the model lacks, ranked, with their status.
 
-        >>> model.missing().effects[0].effect
-        'spring'
+        >>> found = model.missing()
+        >>> len(found), found[0].effect
+        (1, 'spring')
 
         Args:
             held_out: logs of other motion, on which errors are told; None: those of `identify`.
