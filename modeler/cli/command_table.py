@@ -99,8 +99,8 @@ _SHOW = Command(
     (
         ROBOT,
         value("--out", "PAGE", places.Output,
-              "page to write (default NAME.html, if no picture is asked for)", old=("--report",)),
-        value("--picture", "FILE", places.Output, f"{DRAWN}, one column wide", old=("--png",)),
+              "page to write (default NAME.html, if no picture is asked for)"),
+        value("--picture", "FILE", places.Output, f"{DRAWN}, one column wide"),
         flag("--open", "show the page in the browser"),
     ),
     "write poses at home and gaps of loops for machines",
@@ -122,7 +122,7 @@ _HOME = Command(
         value("--mode", "LETTER", places.Word, "the mode that is meant (default A)"),
         flag("--write", "write it into the robot file as [home]"),
         value("--picture", "FILE", places.Output,
-              "draw every mode, beside each other: .png, .svg or .pdf", old=("--pictures",)),
+              "draw every mode, beside each other: .png, .svg or .pdf"),
         *page(),
     ),
     "write the modes for machines",
@@ -417,8 +417,7 @@ _ADD = Command(
         value("--joint", "J", places.Word, "default: where it explains most"),
         value("--out", "MODEL2", places.Output, "model file to write", **REQUIRED),
         several("--holdout", "LOG", places.LogFile, "logs of other motion to judge on"),
-        value("--robot-out", "FILE.toml", places.Output, "write the new robot file too",
-              old=("--robot",)),
+        value("--robot-out", "FILE.toml", places.Output, "write the new robot file too"),
         EFFECTS_FROM,
         MAP, *page(), pictures(),
         Group("of `learned`, and of `auto`", None, (
@@ -508,8 +507,7 @@ _SIMULATE = Command(
     (
         ROBOT, CHANGED,
         value("--out", "LOG", places.NewLog, "log to write, .parquet or .csv", **REQUIRED),
-        value("--truth-out", "FILE.json", places.Output, "write the true parameters",
-              old=("--truth",)),
+        value("--truth-out", "FILE.json", places.Output, "write the true parameters"),
         Group("the motion", None, (
             value("--motion", "MOTION", places.MotionOrKind,
                   "exciting: at several speeds, and a Fourier series; point-to-point: as fast as "
