@@ -99,8 +99,8 @@ def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodie
                 continue
             result.effects.setdefault(effect, []).append(f"{k + 1}")
             result.add(f"{prefix}{k + 1}", entry)
-    rubbing = {j for effect in ("viscous", "coulomb") for j in result.effects.get(effect, ())}
-    if offset := [j for k in range(found.links) if made[k].mu and (j := f"{k + 1}") in rubbing]:
+    rubbing = {name for each in ("viscous", "coulomb") for name in result.effects.get(each, ())}
+    if offset := [f"{k + 1}" for k in range(found.links) if made[k].mu and f"{k + 1}" in rubbing]:
         result.effects["offset"] = offset
         result.notes.append(f"added to the joints with friction: offset ({listed(offset)})")
     if without:
