@@ -39,7 +39,7 @@ class Cost:
 
 def modeler(words: Sequence[str]) -> Cost:
     """`modeler WORDS` in this Python."""
-    return cost([sys.executable, "-m", "modeler.cli", *words])
+    return cost([sys.executable, "-m", "modeler", *words])
 
 
 def cost(command: Sequence[str]) -> Cost:

@@ -122,7 +122,7 @@ def _command(*words: str | Path) -> dict[str, float]:
     """What a command of the program took."""
     start = time.perf_counter()
     child = subprocess.Popen(
-        [sys.executable, "-m", "modeler.cli", "-q", *map(str, words)], stdout=subprocess.DEVNULL
+        [sys.executable, "-m", "modeler", "-q", *map(str, words)], stdout=subprocess.DEVNULL
     )
     _, status, used = os.wait4(child.pid, 0)
     child.returncode = os.waitstatus_to_exitcode(status)

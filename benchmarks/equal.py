@@ -131,7 +131,7 @@ def _log(log: str, data: Path) -> str:
 def _answer(words: list[str], tree: Path, scratch: Path) -> Any:
     out = scratch / "answer.json"
     out.unlink(missing_ok=True)
-    command = [sys.executable, "-m", "modeler.cli", *words, "--json", str(out)]
+    command = [sys.executable, "-m", "modeler", *words, "--json", str(out)]
     done = subprocess.run(command, cwd=tree, capture_output=True, text=True, check=False)
     if not out.exists():
         return f"no answer, status {done.returncode}: {done.stderr.strip()}"

@@ -13,6 +13,7 @@ from .api import (
     Emitted as Emitted,
     Exported as Exported,
     FitResult as FitResult,
+    FitWarning as FitWarning,
     Fleet as Fleet,
     FreeRunSettings as FreeRunSettings,
     GpuModel as GpuModel,

@@ -150,6 +150,8 @@ def _breaks(relative: str, text: str) -> Iterator[tuple[int, str]]:
 
 def _stage(relative: str) -> str:
     """The stage of a file; "" for the package's own __init__.py."""
+    if relative == "__main__.py":  # `python -m modeler`
+        return "cli"
     return "" if relative == "__init__.py" else relative.split("/")[0].removesuffix(".py")
 
 

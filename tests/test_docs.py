@@ -15,8 +15,7 @@ from pathlib import Path
 import pytest
 
 from modeler.cli import main
-from modeler.cli.command_table import COMMANDS, FAMILIES
-from modeler.cli.old_words import OLD_COMMANDS
+from modeler.cli.command_table import FAMILIES
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import RobotError
 from modeler.effects.catalogue import CATALOGUE
@@ -359,14 +358,6 @@ def test_commands_stand_on_their_page_by_family():
         elif "modeler" in names:
             told[list(told)[-1]] += re.findall(r"modeler ([\w-]+)", names)
     assert told == {title: [command.name for command in each] for title, each in FAMILIES.items()}
-
-
-def test_old_names_stand_on_the_page_of_commands():
-    text = text_of("docs/reference/commands.md")
-    for command in COMMANDS.values():
-        for old in command.old:
-            assert f"{old} " in text or f"{old}`" in text, f"{command.name} {old}"
-    assert all(f"`modeler {name} " in text for name in OLD_COMMANDS)
 
 
 def test_every_file_and_function_of_the_c_is_described():

@@ -1,16 +1,11 @@
-"""What a version promises (docs/reference/versions.md): names stay, old words work for a while."""
+"""What a version promises (docs/reference/versions.md): names stay."""
 
 import inspect
 import json
 from typing import Any
 
-from packaging.version import Version
-
-import modeler
 from docsite.commands import commands
 from modeler import api
-from modeler.cli.command_table import COMMANDS
-from modeler.cli.old_words import STAY_BEFORE
 from modeler.codegen.package import C_INTERFACE
 from modeler.core.builtin import EFFECTS
 from modeler.core.estimators import ABOUT
@@ -60,14 +55,12 @@ def _written(names: dict[str, dict[str, list[str]]]) -> str:
 def test_no_name_that_was_promised_is_gone(regenerate: bool) -> None:
     """A name that goes is taken out of `promised.json` by hand, a version after it was replaced."""
     kept, now = json.loads(KEPT.read_text(encoding="utf-8")), offered()
-    aliases = {name: {*command.old} for name, command in COMMANDS.items()}
     gone = [
         f"{kind}: {name} {each}"
         for kind, names in kept.items()
         for name, inner in names.items()
         for each in ("", *inner)
-        if name not in now[kind]
-        or each not in {"", *now[kind][name], *(aliases[name] if kind == "commands" else ())}
+        if name not in now[kind] or each not in {"", *now[kind][name]}
     ]
     assert not gone, "\n".join(["promised, and gone:", *gone])
     if regenerate:
@@ -88,15 +81,6 @@ def test_no_name_that_was_promised_is_gone(regenerate: bool) -> None:
         if each not in kept.get(kind, {}).get(name, ())
     ]
     assert not new, "\n".join(["new names are a promise: run `make regenerate`", *new])
-
-
-def test_old_words_are_taken_out_when_their_time_is_over() -> None:
-    assert Version(modeler.__version__) < Version(STAY_BEFORE), (
-        "modeler/cli/old_words.py: the old words have worked as long as was promised; take them "
-        "out, list them under Removed in CHANGELOG.md, and set STAY_BEFORE for those that are left"
-    )
-    told = (ROOT / "docs" / "reference" / "versions.md").read_text(encoding="utf-8")
-    assert f"until {STAY_BEFORE.removesuffix('.0')}" in told
 
 
 def test_the_page_tells_the_numbers_of_this_version() -> None:

@@ -49,6 +49,7 @@ from .reexports import (
     Emitted as Emitted,
     Exported as Exported,
     FitResult as FitResult,
+    FitWarning as FitWarning,
     Fleet as Fleet,
     FreeRunSettings as FreeRunSettings,
     GpuModel as GpuModel,

@@ -5,6 +5,7 @@ Without it, a wrong kind shows as an error of Python's deep inside.
 
 import functools
 import inspect
+import re
 import types
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
@@ -12,7 +13,7 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import Any, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, ModelerError
 from modeler.core.json import shown
 from modeler.core.toml_cells import near
 
@@ -72,9 +73,37 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
             if signature.parameters[name].kind is not inspect.Parameter.VAR_KEYWORD:
                 hint = hints.get(name, Any)  # `self` has none
                 given.arguments[name] = fitting(function.__name__, name, hint, value)
-        return function(*given.args, **given.kwargs)
+        try:
+            return function(*given.args, **given.kwargs)
+        except ModelerError as error:
+            error.args = (in_python(str(error)),)
+            raise
 
     return checked_call
+
+
+_OPTION = re.compile(r"`[^`]*`|(?<![\w-])--([a-z][a-z-]*)")
+_ARGUMENTS = {
+    "cutoff": "position_cutoff", "decimate": "decimation", "map": "mapping",
+    "payload-log": "load", "payload-mass": "mass", "payload-moved": "moved",
+    "run-embedded-c": "model.compile()", "drive-gain": "drive_gains", "controller": "gains",
+    "from": "of", "mode": "letter", "workers": "processes",
+}  # fmt: skip
+"""Options of the command line that have another name in Python."""
+
+
+def in_python(message: str) -> str:
+    """A message in the words of Python: options of commands are arguments, but in a command line.
+
+    >>> in_python("no column q3; say which it is, --map q3=COLUMN")
+    'no column q3; say which it is, mapping q3=COLUMN'
+    """
+
+    def renamed(found: re.Match[str]) -> str:
+        option = found[1]
+        return _ARGUMENTS.get(option, option.replace("-", "_")) if option else found[0]
+
+    return _OPTION.sub(renamed, message)
 
 
 @functools.cache

@@ -5,25 +5,89 @@ from __future__ import annotations  # what a signature names is loaded when it i
 from collections.abc import Callable, Mapping, Sequence
 from string import ascii_uppercase
 
+import numpy as np
+
 import modeler.api.workflow as workflow
 from modeler import validation
 from modeler.api.log_maps import Mapped
 from modeler.api.workflow import AnyLog, are_long, sources_of, too_long
 from modeler.core.errors import DataError
-from modeler.estimation import IdentifiedModel
-from modeler.observation import Log, Observation, WholeLogNeeded, check_apart
+from modeler.derivation import with_home
+from modeler.estimation import FitResult, IdentifiedModel, ParameterEstimate
+from modeler.observation import Log, Observation, Processing, WholeLogNeeded, check_apart
+from modeler.robot import Robot
 from modeler.runtime import CompiledModel
 
 
 def compare(
-    model: IdentifiedModel, logs: Sequence[AnyLog], mapping: Mapped = ()
+    model: IdentifiedModel | Robot, logs: Sequence[AnyLog], mapping: Mapped = ()
 ) -> validation.Comparison:
     """Measured against predicted torque on logs, after the processing of the fit.
 
     >>> [joint.joint.name for joint in compare(model, ["tue.parquet"]).joints]
     ['1', '2']
+
+    Args:
+        model: fitted; or a robot, with the values that its file states and 0 for all others.
+        logs: that it predicts.
+        mapping: as of `read_logs`.
     """
-    return compared(model, logs, workflow.recompile(model), mapping)[0]
+    (own,) = with_stated([model])
+    return compared(own, logs, workflow.recompile(own), mapping)[0]
+
+
+def with_stated(things: Sequence[IdentifiedModel | Robot]) -> list[IdentifiedModel]:
+    """Models as they are, robots as `stated_model`, with the processing of the first model."""
+    fitted = (thing.processing for thing in things if isinstance(thing, IdentifiedModel))
+    first = next(fitted, None)
+    return [stated_model(own, first) if isinstance(own, Robot) else own for own in things]
+
+
+def stated_model(robot: Robot, processing: Processing | None = None) -> IdentifiedModel:
+    """The values that the file of a robot states, as a model; those that it does not state are 0.
+
+    Args:
+        robot: as loaded.
+        processing: of logs; None: by [fit] of the robot file, or chosen from the logs.
+
+    Raises:
+        DataError: the file states no value.
+    """
+    robot = with_home(robot).in_text(robot) if robot.loops else robot
+    emitted = workflow.derived(robot.text, f"robot {robot.name} in the model file")[1]
+    spec, missing = emitted.spec, dict[str, dict[str, None]]()
+    used = {term.parameter for base in spec.base for term in base.terms}
+    for p in spec.standard:
+        if p.nominal is None and p.name in used:
+            missing.setdefault(p.effect, {})[p.joint] = None
+    if all(p.nominal is None for p in spec.standard):
+        raise DataError(
+            f"{robot.name}: its file states no parameter values; expected [parameters], or a model "
+            "of `modeler fit`"
+        )
+    value = {p.name: p.nominal or 0.0 for p in spec.standard}
+    chi = [sum(term.value * value[term.parameter] for term in base.terms) for base in spec.base]
+    places = {", ".join(joints): "" for joints in missing.values()}
+    listed = "; ".join(
+        f"{', '.join(effect for effect, own in missing.items() if ', '.join(own) == place)} of "
+        f"joint {place}"
+        for place in places
+    )
+    said = f"predicted with the values that the robot file of {robot.name} states"
+    none = float("nan")
+    fit = FitResult(
+        robot=robot.name, method="stated", status="ok", samples=0, rows=0,
+        condition_number=none, condition_scaled=none, relative_error=none, essential_error=none,
+        joints=(), loads=(),
+        parameters=tuple(
+            ParameterEstimate(base.name, base.unit, own, None, True, "stated")
+            for base, own in zip(spec.base, chi, strict=True)
+        ),
+        covariance=np.zeros((len(chi), len(chi))),
+        sentences=(said, *([f"not stated there and taken as 0: {listed}"] if listed else [])),
+        processing=processing or workflow.processing_of(robot.fit),
+    )  # fmt: skip
+    return IdentifiedModel(robot.text, spec, emitted.code, fit, ())
 
 
 def compared(
@@ -61,7 +125,7 @@ def compared(
 
 
 def contest(
-    models: Mapping[str, IdentifiedModel] | Sequence[IdentifiedModel],
+    models: Mapping[str, IdentifiedModel | Robot] | Sequence[IdentifiedModel | Robot],
     logs: Sequence[AnyLog],
     mapping: Mapped = (),
 ) -> validation.Contest:
@@ -71,7 +135,8 @@ def contest(
     ('all', 'few')
 
     Args:
-        models: by the name that they are to have; of a list they are called A, B, C ...
+        models: by the name that they are to have; of a list they are called A, B, C ...; a robot
+            has the values that its file states.
         logs: of motion that none was fitted on.
         mapping: as of `read_logs`.
 
@@ -89,9 +154,9 @@ def contest(
             f"contest: got a list of {len(models)} models, more than there are letters; expected a "
             "mapping of names, each to a model"
         )
-    return contested(named, [workflow.recompile(model) for model in named.values()], logs, mapping)[
-        0
-    ]
+    stated = dict(zip(named, with_stated(list(named.values())), strict=True))
+    compiled = [workflow.recompile(model) for model in stated.values()]
+    return contested(stated, compiled, logs, mapping)[0]
 
 
 def contested(

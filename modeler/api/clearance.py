@@ -3,7 +3,6 @@
 import dataclasses
 import itertools
 import math
-from pathlib import Path
 
 import numpy as np
 
@@ -72,16 +71,10 @@ def _solids(robot: Robot, compiled: CompiledModel) -> excitation.Solids:
 
 
 def nearest_along(
-    compiled: CompiledModel, clearance: excitation.Clearance, path: str | Path
+    compiled: CompiledModel, clearance: excitation.Clearance, motion: simulation.Reference
 ) -> excitation.Nearest | None:
-    """The nearest two along the motion of a file; None if there are none to look at.
-
-    Raises:
-        DataError: the file has no motion of this robot.
-    """
+    """The nearest two along a motion; None if there are none to look at."""
     if not len(clearance.solids.pairs):
         return None
-    names = [joint.name for joint in compiled.spec.joints]
-    motion = simulation.read_motion(path, names)
     curve, samples = simulation.curve_of(motion), max(excitation.SAMPLES, 2 * len(motion.time))
     return excitation.nearest(compiled, clearance.solids, curve, float(motion.time[-1]), samples)

@@ -51,14 +51,6 @@ class FitRequest:
     below: float | None = None
 
 
-def processing_of(options: Mapping[str, Any]) -> Processing:
-    """The processing by options of `modeler fit`, or by `[fit]` of a robot file."""
-    names = {"cutoff": "position_cutoff", "decimate": "decimation"}
-    own = {field.name for field in dataclasses.fields(Processing)}
-    known = {names.get(name, name): value for name, value in options.items()}
-    return Processing(**{name: value for name, value in known.items() if name in own})
-
-
 def request_of(options: Mapping[str, Any]) -> FitRequest:
     """The fit by `[fit]` of a robot file."""
     energy, below = options.get("model") == "energy", options.get("essential_below")
@@ -97,20 +89,21 @@ def estimated(
     _check(asked)
     if asked.energy or asked.method == TWO_STEPS:
         what = "the energy model" if asked.energy else f"method {asked.method}"
-        estimation.refuse_prior(compiled.spec, f"fit: {what}")
+        unused = estimation.describe_unused_prior(compiled.spec, what, _UNUSED)
     method: Any = asked.method
     if asked.energy:
         energy = estimation.identify_energy(
             compiled, observation, asked.window, method, asked.below
         )
-        return FitOutcome(energy.result, refit=energy.without)
+        return FitOutcome(_with_sentences(energy.result, unused), refit=energy.without)
     if asked.method == TWO_STEPS:
         ways = estimation.Directions(joint_directions(robot))
         steps = estimation.two_step_result.identify_in_two_steps(
             compiled, observation, ways, asked.below
         )
         further = {"two_step": steps.to_json()}
-        return FitOutcome(steps.result, steps.doubts(), lines=steps.lines(), further=further)
+        result = _with_sentences(steps.result, unused)
+        return FitOutcome(result, steps.doubts(), lines=steps.lines(), further=further)
     if asked.payloads:
         result = estimation.identify_with_payloads(
             compiled, observation, asked.payloads, method, asked.below
@@ -120,6 +113,13 @@ def estimated(
         equations = estimation.loaded_equations(compiled, observation, asked.payloads).equations
         return FitOutcome(result, told, equations=equations)
     return FitOutcome(estimation.identify(observation, method, compiled, asked.below))
+
+
+_UNUSED = ", nor the values of the robot file"
+
+
+def _with_sentences(fit: estimation.FitResult, more: Sequence[str]) -> estimation.FitResult:
+    return dataclasses.replace(fit, sentences=(*fit.sentences, *more))
 
 
 def judged(
@@ -314,7 +314,7 @@ def found_with_gains(
     will: all that is told of the fit is told of those torques. `check` refuses logs, bare and
     loaded, that do not belong together; None: those that share rows.
     """
-    estimation.refuse_prior(compiled.spec, f"fit: method {GAIN_METHOD}")
+    unused = estimation.describe_unused_prior(compiled.spec, f"method {GAIN_METHOD}", _UNUSED)
 
     def observed(
         model: CompiledModel, processing: Processing
@@ -349,8 +349,8 @@ def found_with_gains(
         equations = estimation.loaded_equations(again, observation, payloads).equations
         result = judged(again, observation, FitOutcome(result, told, equations=equations))
     if lines := estimation.deviations(compiled.spec, found):
-        against = f"against the robot file: {'; '.join(lines)}"
-        result = dataclasses.replace(result, sentences=(*result.sentences, against))
+        unused += (f"against the robot file: {'; '.join(lines)}",)
+    result = _with_sentences(result, unused)
     return identified(derivation, emitted, observation, result), observation
 
 

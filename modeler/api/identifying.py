@@ -1,6 +1,7 @@
 """From a robot and its logs to a model, in one call."""
 
 import dataclasses
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
@@ -12,7 +13,7 @@ from modeler.api.long_logs import Telling, fit_if_long
 from modeler.api.model import Model
 from modeler.api.workflow import AnyLog, Logs, listed, read_logs
 from modeler.codegen import Derivation
-from modeler.core.errors import GAIN_METHOD, DataError, Method
+from modeler.core.errors import GAIN_METHOD, DataError, FitWarning, Method
 from modeler.core.manifest import Emitted
 from modeler.derivation import with_home
 from modeler.observation import Log, Observation, Processing, check_apart, observe
@@ -55,6 +56,9 @@ def identify(
         processing: of the logs; None: by [fit] of the robot file, or chosen from them.
         steps: is called with the title of each step.
 
+    Warns:
+        FitWarning: the fit is not usable; says why and what to do.
+
     Raises:
         RobotError: a mistake in the robot file, or an effect that there is not.
         DataError: a log cannot be read, rows are given twice, or cannot be fitted.
@@ -81,8 +85,10 @@ def identify(
 
     made, _, _, loaded = fitted_on(
         asked, derivation, emitted, compiled, given, load or fitting.Load((), None),
-        processing or fitting.processing_of(stated), mapping, check, Telling(steps),
+        processing or workflow.processing_of(stated), mapping, check, Telling(steps),
     )  # fmt: skip
+    for line in made.warning:
+        warnings.warn(line, FitWarning, stacklevel=3)  # of who called, past the check of arguments
     memory = [log for log in given if isinstance(log, Log)]
     memory += [log for log in loaded if not log.path]
     return dataclasses.replace(

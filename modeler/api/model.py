@@ -249,6 +249,7 @@ class Model(IdentifiedModel):
         return labelled(values, {"log": logs, "time": rows.time}, names)
 
     @cached_property
+    @checked
     def _rows(self) -> Observation:
         return observe(recompile(self), self.its_logs(None, "resid"), self.processing)
 
@@ -309,8 +310,9 @@ class Model(IdentifiedModel):
     ) -> diagnosis.Diagnosis:
         """Which physical effects the model lacks, ranked, with their status.
 
-        >>> model.missing().effects[0].effect
-        'spring'
+        >>> found = model.missing()
+        >>> len(found), found[0].effect
+        (1, 'spring')
 
         Args:
             held_out: logs of other motion, on which errors are told; None: those of `identify`.
@@ -481,8 +483,13 @@ def load(place: str | Path) -> Any:
         RobotError: no such file or name, or a mistake in a robot file.
         ManifestError: a model file that cannot be read.
     """
+    return open_model(place) if holds_model(place) else open_robot(place)
+
+
+def holds_model(place: str | Path) -> bool:
+    """True of a model file, by its ending or because it begins as JSON does; False of a robot."""
     try:
-        holds_json = Path(place).is_file() and read_file(Path(place)).lstrip()[:1] == b"{"
+        begins = Path(place).is_file() and read_file(Path(place)).lstrip()[:1] == b"{"
     except OSError:
-        holds_json = False  # the robot's reader says why
-    return open_model(place) if holds_json else open_robot(place)
+        begins = False  # the robot's reader says why
+    return begins or Path(place).suffix.lower() == ".json"

@@ -11,9 +11,17 @@ import numpy as np
 
 from modeler import excitation, simulation
 from modeler.api.clearance import USUAL, nearest_along, with_clearance
-from modeler.api.fitting import processing_of
 from modeler.api.log_maps import Mapped
-from modeler.api.workflow import Logs, compile_model, derive, generate, listed, read_logs, recompile
+from modeler.api.workflow import (
+    Logs,
+    compile_model,
+    derive,
+    generate,
+    listed,
+    processing_of,
+    read_logs,
+    recompile,
+)
 from modeler.core.errors import DataError
 from modeler.effects import effect_named
 from modeler.estimation import FitResult, IdentifiedModel, identify
@@ -458,7 +466,8 @@ def check_motion(
     compiled = compile_model(generate(derive(robot)))
     bounds = bounds_of(robot, compiled, {}, {}, clearance)
     assert bounds.clearance is not None
-    return nearest_along(compiled, bounds.clearance, motion)
+    names = [joint.name for joint in compiled.spec.joints]
+    return nearest_along(compiled, bounds.clearance, simulation.read_motion(motion, names))
 
 
 # Measurements by simulation.

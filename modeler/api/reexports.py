@@ -1,6 +1,7 @@
 """What other rooms define and `modeler.api` hands on: the things its functions take and give."""
 
 from modeler.codegen import Derivation as Derivation
+from modeler.core.errors import FitWarning as FitWarning
 from modeler.core.manifest import Emitted as Emitted
 from modeler.diagnosis import Diagnosis as Diagnosis
 from modeler.estimation import (

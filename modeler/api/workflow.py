@@ -238,6 +238,14 @@ def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
         )
 
 
+def processing_of(options: Mapping[str, Any]) -> observation.Processing:
+    """The processing by options of `modeler fit`, or by `[fit]` of a robot file."""
+    names = {"cutoff": "position_cutoff", "decimate": "decimation"}
+    own = {field.name for field in dataclasses.fields(observation.Processing)}
+    known = {names.get(name, name): value for name, value in options.items()}
+    return observation.Processing(**{name: value for name, value in known.items() if name in own})
+
+
 def sources_of(
     compiled: CompiledModel, places: Sequence[AnyLog], mapping: Mapped = ()
 ) -> list[observation.Source]:

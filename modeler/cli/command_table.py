@@ -99,8 +99,8 @@ _SHOW = Command(
     (
         ROBOT,
         value("--out", "PAGE", places.Output,
-              "page to write (default NAME.html, if no picture is asked for)", old=("--report",)),
-        value("--picture", "FILE", places.Output, f"{DRAWN}, one column wide", old=("--png",)),
+              "page to write (default NAME.html, if no picture is asked for)"),
+        value("--picture", "FILE", places.Output, f"{DRAWN}, one column wide"),
         flag("--open", "show the page in the browser"),
     ),
     "write poses at home and gaps of loops for machines",
@@ -122,7 +122,7 @@ _HOME = Command(
         value("--mode", "LETTER", places.Word, "the mode that is meant (default A)"),
         flag("--write", "write it into the robot file as [home]"),
         value("--picture", "FILE", places.Output,
-              "draw every mode, beside each other: .png, .svg or .pdf", old=("--pictures",)),
+              "draw every mode, beside each other: .png, .svg or .pdf"),
         *page(),
     ),
     "write the modes for machines",
@@ -317,16 +317,17 @@ _COMPARE = Command(
     "measured against predicted torque: how good, where it fails",
     "Predicts the torques of the logs with MODEL and shows per joint how good it is, where it "
     "fails, and whether the rest still has structure. Of several models: whose error is smaller on "
-    "which joint, and where that is beyond doubt. With --free-run: the positions that the robot "
-    "takes under the logged torques.",
+    "which joint, and where that is beyond doubt. Of a ROBOT: with the values that its file "
+    "states, 0 for others. With --free-run: the positions that the robot takes under the logged "
+    "torques.",
     "modeler compare ur10e.model.json held_out.parquet --report page.html; "
     "modeler compare ur10e.model.json better.model.json held_out.parquet; "
     "modeler compare ur10e.model.json held_out.parquet --free-run --picture free_run",
     (
-        MODEL,
+        value("model", "MODEL|ROBOT", places.RobotOrModel, ROBOT_OR_MODEL),
         value("logs", "LOG", places.model_or_log,
-              f"{LOGS}; before them perhaps further models, which are set beside the first",
-              nargs="+"),
+              f"{LOGS}; before them perhaps further models or robot files, which are set beside "
+              "the first", nargs="+"),
         MAP, *page(places.PageOrFolder), pictures(places.PictureFolder),
         Group("load", "that the robot carries in these logs", (
             value("--payload-mass", "KG", float,
@@ -416,8 +417,7 @@ _ADD = Command(
         value("--joint", "J", places.Word, "default: where it explains most"),
         value("--out", "MODEL2", places.Output, "model file to write", **REQUIRED),
         several("--holdout", "LOG", places.LogFile, "logs of other motion to judge on"),
-        value("--robot-out", "FILE.toml", places.Output, "write the new robot file too",
-              old=("--robot",)),
+        value("--robot-out", "FILE.toml", places.Output, "write the new robot file too"),
         EFFECTS_FROM,
         MAP, *page(), pictures(),
         Group("of `learned`, and of `auto`", None, (
@@ -489,8 +489,8 @@ _EXCITE = Command(
                     "logs that there are: the motion adds to what they tell; with --choose: logs "
                     "or motions to choose from", dest="candidates"),
             value("--check", "MOTION", places.MotionFile,
-                  "say how near links come along this motion or log; status 1 if nearer than "
-                  "--clearance; takes no --out"),
+                  "does this motion or log keep to [limits], start and end at rest, and keep links "
+                  "apart by --clearance? status 1 if not; takes no --out"),
         )),
     ),
     "write what was found for machines",
@@ -507,8 +507,7 @@ _SIMULATE = Command(
     (
         ROBOT, CHANGED,
         value("--out", "LOG", places.NewLog, "log to write, .parquet or .csv", **REQUIRED),
-        value("--truth-out", "FILE.json", places.Output, "write the true parameters",
-              old=("--truth",)),
+        value("--truth-out", "FILE.json", places.Output, "write the true parameters"),
         Group("the motion", None, (
             value("--motion", "MOTION", places.MotionOrKind,
                   "exciting: at several speeds, and a Fourier series; point-to-point: as fast as "

@@ -9,7 +9,6 @@ from typing import Any, NoReturn
 from modeler import __version__
 from modeler.cli.command_table import COMMANDS, FAMILIES
 from modeler.cli.console import Loudness, write_stdout
-from modeler.cli.old_words import OLD_COMMANDS, renewed
 from modeler.cli.options import (
     arguments_of,
     did_you_mean,
@@ -84,7 +83,7 @@ class _Parser(argparse.ArgumentParser):
         if action.choices is None or value in action.choices:
             return
         if isinstance(action, argparse._SubParsersAction):
-            near = did_you_mean(value, [*COMMANDS, *OLD_COMMANDS])
+            near = did_you_mean(value, COMMANDS)
             self.error(f"unknown command {value}{near}")
         raise argparse.ArgumentError(action, unknown(value, [*map(str, action.choices)]))
 
@@ -180,9 +179,11 @@ def parsed(words: Sequence[str]) -> tuple[argparse.Namespace, Loudness]:
     Wrong usage ends the program with status 2.
     """
     top = parser()
-    read = renewed(words, commands_of(top))
-    args = top.parse_args(read.words)
-    args.read_as = [*read.told, *filter(None, [args.read_as])]
+    at = next((i for i, word in enumerate(words) if not word.startswith("-")), None)
+    if at is not None and words[at] == "help":  # as other programs have it
+        words = [*words[:at], *words[at + 1 :], "--help"]
+    args = top.parse_args(words)
+    args.read_as = [*filter(None, [args.read_as])]
     wanted = [loudness for loudness in Loudness if vars(args).pop(loudness.value, False)]
     if len(wanted) > 1:
         top.error("got --quiet and --verbose; expected one of them")

@@ -9,9 +9,11 @@ from typing import Any
 import modeler.api.checks as checks
 from modeler import validation
 from modeler.api.log_maps import Mapped
+from modeler.api.model import holds_model
 from modeler.api.workflow import are_long, read_logs, recompile
 from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, say_lines, working
-from modeler.cli.places import ModelFile
+from modeler.cli.lists import read_robot_with_notes
+from modeler.cli.places import LogFile
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
 from modeler.estimation import (
@@ -22,7 +24,8 @@ from modeler.estimation import (
     with_load,
 )
 from modeler.observation import Doubt, Observation, check_apart
-from modeler.report import Origin, after_compare, comparison as pages
+from modeler.report import Origin, after_compare, after_stated, comparison as pages
+from modeler.robot import Robot
 from modeler.runtime import CompiledModel
 
 _TRAINING = "training only: "
@@ -30,7 +33,7 @@ _TRAINING = "training only: "
 
 def run_compare(args: argparse.Namespace) -> Json:
     """Prints the table and the verdict; writes page and pictures."""
-    others = [place for place in args.logs if isinstance(place, ModelFile)]
+    others = [place for place in args.logs if not isinstance(place, LogFile)]
     _check_free_run(args, others)
     if args.free_run:
         return _run_free(args)
@@ -45,7 +48,8 @@ def run_compare(args: argparse.Namespace) -> Json:
     told = [line for line in lines if line.startswith((_TRAINING, "long logs: "))]
     beside = _without_load(args, model, compiled)
     loads = [] if beside is None else ["", *validation.contest_lines(beside)]
-    summary = [comparison.summary(), *loads, ""]
+    said = [] if model.logs else model.fit.sentences
+    summary = [comparison.summary(), *loads, *said, ""]
     say_lines([*summary, *validation.verdict(comparison), *model.warning, *told, *doubts])
     held = not any(line.startswith(_TRAINING) for line in lines)
     noise = (
@@ -53,13 +57,17 @@ def run_compare(args: argparse.Namespace) -> Json:
     )
     folder = Path(args.model).parent
     fitted = dict.fromkeys(log.place(folder) or "FITTED_LOG" for log in model.logs)
-    following = after_compare(args.model, [*fitted], args.logs, held, noise)
+    following = (
+        after_compare(args.model, [*fitted], args.logs, held, noise)
+        if model.logs
+        else after_stated(args.model, args.logs, args.map)
+    )
     origin = Origin(args.model, comparison.prediction.logs, held, [following])
     draw_page(args.report, lambda: pages.comparison_page(comparison, lines, origin))
     more = [] if beside is None else pages.contest_pictures(beside)
     draw_pictures(args.picture, lambda: [*pages.all_pictures(comparison), *more])
     say_lines([following], "next: ")
-    return comparison.to_json() | {"doubts": doubts}
+    return comparison.to_json() | {"doubts": [*said[1:], *doubts]}
 
 
 def judged(
@@ -74,7 +82,7 @@ def judged(
         f"model: {model.spec.robot}, {len(model.beta)} base parameters, "
         f"{what}{titled(model.fit.method)} on {fitted}; relative error there "
         f"{model.fit.error_told()}"
-    ]
+    ] if model.logs else [*model.fit.sentences]  # fmt: skip
     lines += [*model.warning, *_training(model, observation), *observation.report.lines()]
     found = log_findings(compiled, observation, model)
     lines += [fault.line for fault in found if fault.certain]
@@ -95,8 +103,9 @@ def _training(model: IdentifiedModel, observation: Observation) -> list[str]:
 
 def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
     """Prints the errors by joint and model, and who is better; writes page and pictures."""
-    logs = [place for place in args.logs if not isinstance(place, ModelFile)]
-    models = [_loaded(args, place) for place in places]
+    logs = [place for place in args.logs if isinstance(place, LogFile)]
+    models = checks.with_stated([_opened(args, place) for place in places])
+    models = [_with_load(args, model) for model in models]
     if not logs:
         raise DataError(
             f"{', '.join(places)}: got models only; expected a log too, as in run.csv or "
@@ -119,10 +128,11 @@ def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
         if any(used.shares_rows(log) for used in model.logs)
     ]
     lines = [
-        f"{name}: {model.spec.robot}, {len(model.beta)} base parameters, fitted on "
-        f"{', '.join(log.name for log in model.logs)}"
+        f"{name}: {model.spec.robot}, {len(model.beta)} base parameters, "
+        + (f"fitted on {', '.join(log.name for log in model.logs)}" if model.logs
+           else "; ".join(model.fit.sentences))
         for name, model in zip(names, models, strict=True)
-    ]
+    ]  # fmt: skip
     lines.append(f"logs: {', '.join(log.name for log in read)}, processed as those of {names[0]}")
     lines += [
         f"{_TRAINING}{name} was fitted on rows of {log}, which flatters it" for name, log in trained
@@ -138,13 +148,29 @@ def _run_contest(args: argparse.Namespace, places: Sequence[str]) -> Json:
     }
 
 
+def _opened(args: argparse.Namespace, place: str) -> IdentifiedModel | Robot:
+    if holds_model(place):
+        model = load_model(place)
+        return with_essential_only(model, place) if args.essential else model
+    for option in ("essential", "run_embedded_c"):
+        if getattr(args, option):
+            raise DataError(
+                f"--{option.replace('_', '-')}: {place} is a robot; expected a model file of "
+                "`modeler fit`; leave the option out"
+            )
+    return read_robot_with_notes(place)
+
+
 def _bare(args: argparse.Namespace, place: str) -> IdentifiedModel:
-    model = load_model(place)
-    return with_essential_only(model, place) if args.essential else model
+    return checks.with_stated([_opened(args, place)])[0]
 
 
 def _loaded(args: argparse.Namespace, place: str) -> IdentifiedModel:
-    model, load = _bare(args, place), _load(args)
+    return _with_load(args, _bare(args, place))
+
+
+def _with_load(args: argparse.Namespace, model: IdentifiedModel) -> IdentifiedModel:
+    load = _load(args)
     return model if load["mass"] is None else with_load(model, **load)
 
 

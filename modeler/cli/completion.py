@@ -6,10 +6,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from modeler.cli import places
-from modeler.cli.command_table import COMMANDS
 from modeler.cli.commands import commands_of
 from modeler.cli.console import Json, say, say_lines
-from modeler.cli.old_words import OLD_COMMANDS, renewed
 from modeler.cli.options import ALL, METHODS, arguments_of, options_of, sorted_words
 from modeler.core.builtin import paper_names
 from modeler.core.estimators import ABOUT
@@ -69,16 +67,12 @@ def candidates(words: Sequence[str], top: argparse.ArgumentParser) -> list[str]:
     words, before = _joined(words)
     names = commands_of(top)
     *typed, last = words or [""]
-    typed = renewed(typed, names).words
     command = next((word for word in typed if not word.startswith("-")), None)
     if command is None:
-        found = _beginning(last, [*names, *options_of(top)] if last[:1] == "-" else names)
-        return found or _beginning(last, OLD_COMMANDS)
+        return _beginning(last, [*names, *options_of(top)] if last[:1] == "-" else names)
     if command not in names:
         return []
     found = _of_command(names[command], typed[typed.index(command) + 1 :], last)
-    if last.startswith("--"):  # an old name only where there is no other
-        found = found or _beginning(last, COMMANDS[command].old)
     return [before + each for each in found]
 
 

@@ -12,17 +12,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from modeler import formulas
-from modeler.cli.browser import forget_page
-from modeler.cli.console import Json, note, print_error, say, say_lines, show_next, working
+from modeler.cli.console import Json, print_error, say, say_lines, show_next, working
 from modeler.cli.lists import robot_of, robot_with_effects
-from modeler.cli.old_words import OPEN_CUT
 from modeler.cli.options import FEW_JOINTS, Form
 from modeler.codegen import Derivation, derive, generate
 from modeler.core.errors import ALSO, Also, DataError, ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.core.formula import latex_text
 from modeler.derivation import LinkColumn, SymbolicModel, random_states, regressor_values, relations
-from modeler.robot import Robot
 
 if TYPE_CHECKING:
     from modeler.core.manifest import FunctionSpec
@@ -156,8 +153,8 @@ _FORMS = ("closed_form", "regressor", "blocks", "energy", "kane")
 def run_derive(args: argparse.Namespace) -> Json:
     """Prints relations, proof, and for small robots the coefficients."""
     check_request(args)
-    robot = robot_with_effects(args) if args.cut_loops or args.open else None
-    if robot is not None and (args.cut_loops or _cut_as_before(args, robot)):
+    robot = robot_with_effects(args) if args.cut_loops else None
+    if robot is not None:
         # the tree of loops that are not closed: every joint has a torque
         if not robot.loops:
             raise RobotError(
@@ -194,15 +191,6 @@ def run_derive(args: argparse.Namespace) -> Json:
         words.say(f"written: {write_page(Path(args.report), page)}")
     words.end()
     return result
-
-
-def _cut_as_before(args: argparse.Namespace, robot: Robot) -> bool:
-    """`--open` alone cut loops until it showed pages; with a page it shows that."""
-    if not (args.page_is_temporary and robot.loops):
-        return False
-    forget_page(args)
-    note(OPEN_CUT)
-    return True
 
 
 def _tied_lines(model: SymbolicModel) -> list[str]:

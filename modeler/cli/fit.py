@@ -11,7 +11,7 @@ import modeler.api.fitting as fitting
 from modeler.api.identifying import fitted_on
 from modeler.api.log_maps import settled
 from modeler.api.long_logs import Telling
-from modeler.api.workflow import compile_model, derive, generate
+from modeler.api.workflow import compile_model, derive, generate, processing_of
 from modeler.cli.console import (
     Json,
     draw_page,
@@ -40,7 +40,7 @@ def run_fit(args: argparse.Namespace) -> Json:
     use_options_of(args, "fit", read_robot(args.robot).fit)
     args.method = Methods(args.method)
     _check_options(args)
-    processing = fitting.processing_of(vars(args))
+    processing = processing_of(vars(args))
     if args.method.several:
         return _compare_methods(args, processing)
     robot = robot_of(args)

@@ -89,11 +89,20 @@ def run_excite(args: argparse.Namespace) -> Json:
 
 
 def _check(args: argparse.Namespace, subject: motions.Subject, bounds: excitation.Bounds) -> Json:
-    """Do links keep their distance along the motion of a file?"""
-    kept = bounds.clearance
+    """Does the motion of a file keep to the limits, and do links keep their distance?"""
+    kept, joints = bounds.clearance, subject.compiled.spec.joints
     assert kept is not None
     with working(f"looking at {args.check}"):
-        near = nearest_along(subject.compiled, kept, args.check)
+        motion = simulation.read_motion(args.check, bounds.joints)
+        stated = (motion.qd, motion.qdd) if motion.is_complete else None
+        units = tuple(joint.unit for joint in joints)
+        excess = excitation.exceeded_limits(bounds, units, motion.time, motion.q, stated)
+        near = nearest_along(subject.compiled, kept, motion)
+    lines = [f"{args.check}: {each.line()}" for each in excess]
+    say_lines(lines or [f"{args.check}: within the limits of position, speed and acceleration"])
+    typed = {text.partition("=")[0] for text in args.limit}
+    if assumed := [name for name in bounds.joints if name not in {*subject.robot.limits, *typed}]:
+        say(f"joint {', '.join(assumed)}: no [limits] in the robot file; these are assumed")
     say(f"{args.check}: {kept.line(near)}")
     _draw_nearest(args, subject.robot, bounds, near)
     if near is not None and near.bound < kept.margin:
@@ -102,7 +111,14 @@ def _check(args: argparse.Namespace, subject: motions.Subject, bounds: excitatio
             f"{1e3 * near.distance:.1f} mm apart; expected {1e3 * kept.margin:g} mm or more; take "
             "another motion, or a smaller --clearance"
         )
-    return {"robot": subject.robot.name, "clearance": kept.to_json(near)}
+    wrong = [each for each in excess if not (motion.is_measured and "speed at" in each.what)]
+    if wrong:
+        raise DataError(
+            f"{args.check}, {wrong[0].line()}; limits exceeded: {len(wrong)}; take another motion, "
+            "or state other limits: [limits] of the robot file, or --limit"
+        )
+    exceeded = [each.to_json() for each in excess]
+    return {"robot": subject.robot.name, "clearance": kept.to_json(near), "exceeded": exceeded}
 
 
 def _draw_nearest(

@@ -34,12 +34,10 @@ class Argument:
     Attributes:
         names: as typed.
         settings: of argparse.
-        old: names that it had before, which work still; see `old_words`.
     """
 
     names: tuple[str, ...]
     settings: Mapping[str, Any]
-    old: tuple[str, ...] = ()
 
     def add_to(self, parser: argparse._ActionsContainer) -> None:
         """To the parser of a command, or a group in it."""
@@ -99,12 +97,6 @@ class Command:
     json: str = "write the result for machines"
     lacks: Callable[[argparse.Namespace], str] = lambda args: ""
 
-    @property
-    def old(self) -> dict[str, str]:
-        """{name of an option until now: its name}."""
-        flat = [o for a in self.arguments for o in (a.options if isinstance(a, Group) else [a])]
-        return {old: option.names[0] for option in flat for old in option.old}
-
     def add_to(self, commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
         """Its parser, among those of all commands."""
         parser = commands.add_parser(
@@ -135,17 +127,12 @@ def _imported(place: str) -> Run:
 
 
 def value(
-    name: str,
-    metavar: str,
-    kind: Callable[[str], Any],
-    text: str,
-    old: tuple[str, ...] = (),
-    **further: Any,
+    name: str, metavar: str, kind: Callable[[str], Any], text: str, **further: Any
 ) -> Argument:
     """An argument, or an option with a value; the help of a number tells its default, if any."""
     if kind in (int, float) and further.get("default") is not None:
         text += " (default %(default)s)"
-    return Argument((name,), {"metavar": metavar, "type": kind, "help": text, **further}, old)
+    return Argument((name,), {"metavar": metavar, "type": kind, "help": text, **further})
 
 
 def repeated(name: str, metavar: str, kind: type[str], text: str) -> Argument:
@@ -164,9 +151,9 @@ def choice(name: str, choices: Sequence[str], text: str, default: str | None = N
     return Argument((name,), {"choices": choices, "default": default, "help": text})
 
 
-def flag(name: str, text: str, old: tuple[str, ...] = ()) -> Argument:
+def flag(name: str, text: str) -> Argument:
     """An option without a value."""
-    return Argument((name,), {"action": "store_true", "help": text}, old)
+    return Argument((name,), {"action": "store_true", "help": text})
 
 
 def did_you_mean(got: str, known: Iterable[str]) -> str:

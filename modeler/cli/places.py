@@ -82,6 +82,10 @@ class RobotOrModel(RobotFile):
 
     endings = (*RobotFile.endings, *ModelFile.endings)
 
+    def __new__(cls, text: str) -> Any:
+        """A model, by its ending; else a robot."""
+        return ModelFile(text) if text.endswith(ModelFile.endings) else super().__new__(cls, text)
+
 
 class LogFile(Input):
     """A log, as FILE or FILE@START:END."""
@@ -102,12 +106,12 @@ class ListFile(Input):
 
 
 def model_or_log(text: str) -> Input:
-    """A model, by its ending or because it begins as JSON does; else a log."""
+    """A robot or a model, by its ending or because it begins as JSON does; else a log."""
     path = Path(text)
     if path.suffix.lower() in LOG_ENDINGS:
         return LogFile(text)
-    if path.suffix.lower() == ".json":
-        return ModelFile(text)
+    if path.suffix.lower() in RobotOrModel.endings:
+        return RobotOrModel(text)
     try:
         with path.open("rb") if path.is_file() else io.BytesIO() as file:  # a pipe may never end
             begins = file.read(64).lstrip()[:1] == b"{"

@@ -45,10 +45,9 @@ def logs(text: str, nargs: str = "+") -> Argument:
 def page(kind: type[places.Output] = places.Output) -> tuple[Argument, Argument]:
     """`--report` and `--open`."""
     text = "write one self-contained page"
-    return value("--report", "PAGE.html", kind, text, old=("--page",)), _OPEN
+    return value("--report", "PAGE.html", kind, text), _OPEN
 
 
 def pictures(kind: type[places.Pictures] = places.Pictures) -> Argument:
     """`--picture` of all that a command draws."""
-    old = () if kind is places.Pictures else ("--pictures",)
-    return value("--picture", "DIR|FILE.json", kind, _PICTURES, old=old)
+    return value("--picture", "DIR|FILE.json", kind, _PICTURES)

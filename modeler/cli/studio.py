@@ -7,6 +7,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 from modeler.cli.console import flush_stdout, note, say
+from modeler.cli.program import loading
 from modeler.core.errors import ModelerError, installing
 
 _PORTS = range(65536)
@@ -20,7 +21,8 @@ def run_studio(args: argparse.Namespace) -> None:
         if not Path(place).is_dir():
             raise ModelerError(f"--allow {place}: no such folder; expected one that holds logs")
     try:
-        from modeler.studio import serve
+        with loading():
+            from modeler.studio import serve
     except ModuleNotFoundError as error:
         if (error.name or "").split(".")[0] == "modeler":
             raise

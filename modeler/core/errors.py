@@ -47,6 +47,10 @@ class SolutionError(ModelerError):
     """Equations have no solution: an inertia that is not positive, a singular posture."""
 
 
+class FitWarning(UserWarning):
+    """A model is returned whose fit is not usable; Python shows it once for each line of code."""
+
+
 def installing(part: str) -> str:
     """What installs an optional part; what is imported as modeler is installed by another name."""
     return f'pip install "modeler-robotics[{part}]"'

@@ -296,7 +296,7 @@ class Processes(Workers):
         return lambda: in_pairs(_gathered(futures, untold), merge)
 
     def _sent(self, work: Callable[[S, J], R], shared: S, jobs: Sequence[J]) -> "list[Future[R]]":
-        with undisturbed(), _deaf_to_interrupts():  # here they are started
+        with undisturbed(), without_interrupts():  # here they are started
             return [self._pool.submit(work, shared, job) for job in jobs]
 
 
@@ -330,7 +330,7 @@ def attend() -> None:
 
 
 @contextmanager
-def _deaf_to_interrupts() -> Iterator[None]:
+def without_interrupts() -> Iterator[None]:
     """What is started meanwhile leaves Ctrl-C, which a terminal sends to all, to this process."""
     mask = getattr(signal, "pthread_sigmask", None)
     before = mask(signal.SIG_BLOCK, {signal.SIGINT}) if mask else ()

@@ -7,7 +7,7 @@ here and nowhere else.
 import html
 import io
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -65,6 +65,11 @@ class Table(Brief):
 
     def __len__(self) -> int:
         return len(self.rows)
+
+    def __iter__(self) -> Iterator[dict[str, str | float | None]]:
+        """Its rows, cells by the names of their columns: `DataFrame(table)` is `to_frame`."""
+        names = [name for name, _ in self.columns]
+        return (dict(zip(names, map(_bare, row), strict=True)) for row in self.rows)
 
     def __str__(self) -> str:
         return self.text()

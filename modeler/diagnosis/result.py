@@ -2,7 +2,7 @@
 
 import math
 import textwrap
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -403,6 +403,16 @@ class Diagnosis(Presented):
     def __repr__(self) -> str:
         said = textwrap.shorten(self.sentences[0], LONGEST, placeholder=" ...")
         return f"Diagnosis({self.robot}: {said})"
+
+    def __len__(self) -> int:
+        return len(self.effects)
+
+    def __iter__(self) -> Iterator[Finding]:
+        return iter(self.effects)
+
+    def __getitem__(self, place: int) -> Finding:
+        """One of the effects that it names, best first."""
+        return self.effects[place]
 
     @property
     def band(self) -> float:

@@ -60,8 +60,8 @@ from .payload import (
 from .prior import (
     Prior as Prior,
     body_covariance as body_covariance,
+    describe_unused_prior as describe_unused_prior,
     prior_of as prior_of,
-    refuse_prior as refuse_prior,
 )
 from .result import (
     FitResult as FitResult,

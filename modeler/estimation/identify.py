@@ -15,7 +15,7 @@ from modeler.estimation.essential import NONE_LEAVES, Essential, essential_param
 from modeler.estimation.least_squares import Estimate, Problem, kept_rows, least_sigma, residual_of
 from modeler.estimation.methods import method_of
 from modeler.estimation.parameter import ParameterEstimate
-from modeler.estimation.prior import Prior, prior_of, refuse_prior
+from modeler.estimation.prior import Prior, describe_unused_prior, prior_of
 from modeler.estimation.result import FitResult, JointFit
 from modeler.numerics.least_squares import Compressed, compress, scaled_least_squares
 from modeler.observation import SAMPLES, Observation, is_streamed, triangles
@@ -151,11 +151,13 @@ def fit_equations(
             "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
         )
     problem = Problem(observation, equations.kept, equations.y, alive, equations.names, data, model)
-    prior = None
+    prior, unused = None, tuple[str, ...]()
     if model is not None and not noise_only:
-        prior = prior_of(model.spec)
-        if not estimator.takes_prior:
-            refuse_prior(model.spec, f"method {method}")
+        if estimator.takes_prior:
+            prior = prior_of(model.spec)
+        else:
+            use = "; the values of the robot file are a guide that the data overrule"
+            unused = describe_unused_prior(model.spec, f"method {method}", use)
     estimate = estimator.estimate(problem)
     colour = coloured(problem, estimate, share=share)
     white = np.sqrt(np.diag(estimate.covariance))
@@ -189,7 +191,8 @@ def fit_equations(
     return result_of(
         equations, method, estimate, essential, data, estimate.sigma,
         rows=count,
-        sentences=(*equations.sentences, *_not_connected(observation, dead), *estimate.sentences,
+        sentences=(*equations.sentences, *unused, *_not_connected(observation, dead),
+                   *estimate.sentences,
                    *(tangle.sentence() for tangle in estimate.rank.aside), *estimate.unsettled(),
                    essential.sentence(data, estimate.beta), *colour.sentences(),
                    *(doubt.line for doubt in told),

@@ -337,14 +337,23 @@ def body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndarray]:
     return "", turned @ turned.T
 
 
-def refuse_prior(spec: ModuleSpec, what: str) -> None:
-    """Refuse a prior where an estimator takes none.
+def describe_unused_prior(spec: ModuleSpec, what: str, use: str) -> tuple[str, ...]:
+    """What an estimator without a prior makes of [parameters], as a sentence; none without it.
+
+    Args:
+        spec: of the robot.
+        what: estimates.
+        use: of the values of the bodies.
 
     Raises:
-        DataError: the robot file states one.
+        DataError: the robot file states how sure single parameters are, or holds them.
     """
-    if prior_of(spec) is not None:
+    if named := [p.name for p in spec.standard if p.deviation is not None]:
         raise DataError(
-            f"{what} takes no prior; got [parameters.uncertainty] or held in the robot file of "
-            f"{spec.robot}; leave them out there, or use method weighted"
+            f"{what} cannot hold parameters or weigh them one by one; got {', '.join(named)} in "
+            f"[parameters.uncertainty] or held of {spec.robot}; leave them out there, or use "
+            "method weighted"
         )
+    share = spec.inertial_uncertainty
+    said = f"{what} does not use inertial = {share:g} of [parameters.uncertainty]{use}"
+    return () if share is None else (said,)

@@ -8,6 +8,7 @@ from .clearance import (
     without_neighbours as without_neighbours,
 )
 from .criterion import Known as Known, condition as condition, signals as signals
+from .limit_check import Excess as Excess, exceeded_limits as exceeded_limits
 from .motion import Bounds as Bounds, Box as Box
 from .result import (
     Exciting as Exciting,

@@ -251,7 +251,7 @@ class LogTable:
         head, colon, unit = wanted.rpartition(":")
         if colon and head in there:
             hint = f' (if column {head} is meant, "{unit}" is no unit that is known)'
-        guess = "or let it be guessed, --map auto (mapping in Python), "
+        guess = "or let it be guessed, --map auto, "
         return (
             f"no column {name if wanted == name else f'{wanted} ({name})'}{hint}; the columns are "
             f"{', '.join(there[:_SHOWN])}; say which it is, --map {name}=COLUMN, "

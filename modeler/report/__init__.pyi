@@ -34,6 +34,7 @@ from .page import (
     after_compare as after_compare,
     after_diagnosis as after_diagnosis,
     after_fit as after_fit,
+    after_stated as after_stated,
     write_page as write_page,
 )
 from .robot_closing import Posture as Posture

@@ -21,8 +21,14 @@ from modeler.report.values import joints_table, values_table
 
 def _fit_summary(fit: FitResult) -> str:
     first = (f"{fit.robot}: {len(fit.parameters)} base parameters by {fit.method}, relative error "
-             f"{percent(fit.relative_error)}")  # fmt: skip
+             f"{percent(fit.relative_error)}{_refused(fit)}")  # fmt: skip
     return "\n".join([first, *fit.lines()])
+
+
+def _refused(fit: FitResult) -> str:
+    """That a fit is not usable, and why: for a headline; "" of one that is."""
+    verdict = fit.verdict
+    return "" if verdict is None or verdict.usable else f"; {verdict.line.partition(';')[0]}"
 
 
 def fit_tables(fit: FitResult) -> Tables:
@@ -48,16 +54,15 @@ def _estimates(title: str, parameters: Sequence[ParameterEstimate]) -> Table:
          p.unit, p.essential if p.sigma is not None else p.status, *([p.prior] if known else []))
         for p in parameters
     ]  # fmt: skip
-    head = "parameter, value, sigma, relative sigma [%], unit, essential"
+    head = "parameter, value, sigma, relative_sigma_percent, unit, essential"
     return Table.of(title, f"{head}, prior share" if known else head, rows)
 
 
 def _errors(fit: FitResult) -> Table:
     return Table.of(
         f"{fit.robot}: what the fit leaves",
-        "joint, relative error [%], rms, unit, rows",
-        [(j.name, j.relative_error and 100.0 * j.relative_error, j.rms, j.unit, j.rows)
-         for j in fit.joints],
+        "joint, relative error, rms, unit, rows",
+        [(j.name, j.relative_error, j.rms, j.unit, j.rows) for j in fit.joints],
         f"all rows together: {percent(fit.relative_error)}, on the logs of the fit",
     )  # fmt: skip
 
@@ -71,7 +76,7 @@ def _fit_figures(fit: FitResult) -> Figures:
 def _model_summary(model: IdentifiedModel) -> str:
     logs = ", ".join(log.name for log in model.logs)
     lines = [f"model of {model.spec.robot}: {len(model.beta)} base parameters by "
-             f"{model.fit.method}, fitted on {logs}"]  # fmt: skip
+             f"{model.fit.method}, fitted on {logs}{_refused(model.fit)}"]  # fmt: skip
     lines += [_step_line(step) for step in model.history]
     return "\n".join([*lines, *model.fit.lines()])
 
@@ -91,8 +96,8 @@ def _waterfall(model: IdentifiedModel) -> Table:
     held = ", ".join(model.history[-1].held_out)
     return Table.of(
         f"{model.spec.robot}: error after every effect",
-        "effect, joint, error [%], on the fitted logs [%]",
-        [(step.effect or "as fitted", step.joint, 100.0 * step.error, 100.0 * step.training_error)
+        "effect, joint, error, on the fitted logs",
+        [(step.effect or "as fitted", step.joint, step.error, step.training_error)
          for step in model.history],
         f"error: on {held}" if held else "error: on parts of the fitted logs, left out in turn",
     )  # fmt: skip

@@ -23,9 +23,9 @@ def _contest_summary(found: validation.Contest) -> str:
 
 
 def _contest_tables(found: validation.Contest) -> Tables:
-    head = ["joint", *(f"{name} [%]" for name in found.names), "best beyond doubt", "chance"]
+    head = ["joint", *found.names, "best beyond doubt", "chance"]
     rows = [
-        (item.joint.name, *(100.0 * error for error in item.errors),
+        (item.joint.name, *item.errors,
          None if item.best is None else found.names[item.best], item.chance)
         for item in found.joints
     ]  # fmt: skip
@@ -48,7 +48,7 @@ def _comparison_tables(comparison: validation.Comparison) -> Tables:
 
 def _errors(comparison: validation.Comparison) -> Table:
     rows = [
-        (item.joint.name, 100.0 * item.relative_error, item.rms, item.joint.effort_unit,
+        (item.joint.name, item.relative_error, item.rms, item.joint.effort_unit,
          item.largest.value, item.largest.time, item.largest.log, item.r2,
          None if item.shares is None else item.shares.systematic,
          None if item.shares is None else item.shares.floor, item.bias)
@@ -56,17 +56,16 @@ def _errors(comparison: validation.Comparison) -> Table:
     ]  # fmt: skip
     return Table.of(
         f"{comparison.prediction.robot}: measured against predicted",
-        "joint, relative error [%], rms, unit, largest, at [s], of, R2, repeatable, noise, bias",
+        "joint, relative error, rms, unit, largest, at [s], of, R2, repeatable, noise, bias",
         rows, " ".join(f"{line}." for line in validation.method_lines(comparison)),
     )  # fmt: skip
 
 
 def _by_log(comparison: validation.Comparison) -> Table:
-    joints = [f"joint {name} [%]" for name, _ in comparison.logs[0].joints]
-    rows = [
-            (log.log, log.samples, 100.0 * log.relative_error, *(100.0 * e for _, e in log.joints))
+    joints = [f"joint {name}" for name, _ in comparison.logs[0].joints]
+    rows = [(log.log, log.samples, log.relative_error, *(e for _, e in log.joints))
             for log in comparison.logs]  # fmt: skip
-    head = ["log", "samples", "all joints [%]", *joints]
+    head = ["log", "samples", "all joints", *joints]
     return Table.of("relative error of each log", head, rows)
 
 
@@ -112,8 +111,7 @@ def _diagnosis_tables(diagnosis: Diagnosis) -> Tables:
         "effects": lambda: _effects(diagnosis),
         "joints": lambda: _joints(diagnosis),
         "rivals": lambda: Table.of(
-            "rivals of the first effect", "effect, joint, gain [%]",
-            [(effect, joint, 100.0 * gain) for effect, joint, gain in diagnosis.rivals],
+            "rivals of the first effect", "effect, joint, gain", diagnosis.rivals
         ),
         "blind spots": lambda: Table.of(*blind, blind_spots(diagnosis)),
     }  # fmt: skip
@@ -124,7 +122,7 @@ def _effects(diagnosis: Diagnosis) -> Table:
     rows += [_finding(f, "refines the model") for f in diagnosis.refinements]
     return Table.of(
         f"{diagnosis.robot}: {diagnosis.verdict}",
-        "effect, joint, error before [%], error after [%], gain [%], values [SI], what, evidence",
+        "effect, joint, error before, error after, gain, values [SI], what, evidence",
         rows, diagnosis.sentences[0],
     )  # fmt: skip
 
@@ -134,20 +132,19 @@ def _finding(finding: Finding, what: str) -> tuple[Cell, ...]:
         f"{name} = {value:.4g} {finding.units.get(name, '')}".rstrip()
         for name, value in finding.parameters.items()
     )
-    return (finding.effect, finding.joint, 100.0 * finding.error_before,
-            100.0 * finding.error_after, 100.0 * finding.gain, values, what,
-            finding.evidence)  # fmt: skip
+    errors = finding.error_before, finding.error_after
+    return finding.effect, finding.joint, *errors, finding.gain, values, what, finding.evidence
 
 
 def _joints(diagnosis: Diagnosis) -> Table:
     rows = [
-        (name, 100.0 * j.error_before, 100.0 * j.error_after, j.rms_before, j.rms_after, j.unit,
+        (name, j.error_before, j.error_after, j.rms_before, j.rms_after, j.unit,
          j.explained, j.systematic, j.noise)
         for name, j in diagnosis.joints.items()
     ]  # fmt: skip
     return Table.of(
         "errors without and with the effects",
-        "joint, error [%], with effects [%], rms, rms with effects, unit, explained, systematic, "
+        "joint, error, with effects, rms, rms with effects, unit, explained, systematic, "
         "noise", rows,
     )  # fmt: skip
 

@@ -344,6 +344,13 @@ def after_compare(
     return f"modeler diagnose {_listed([model, *fitted])} --holdout {_listed(logs)}"
 
 
+def after_stated(robot: str, logs: Sequence[str], mapped: Sequence[str] = ()) -> str:
+    """Fit what a robot file states otherwise."""
+    words = "".join(f" --map {_listed([word])}" for word in mapped)
+    stem = Path(robot).name.partition(".")[0]
+    return f"modeler fit {_listed([robot, *logs])}{words} --out {_listed([f'{stem}.model.json'])}"
+
+
 def after_diagnosis(
     model: str, logs: Sequence[str], holdout: Sequence[str], diagnosis: "Diagnosis",
     effects_from: str | None = None,

@@ -99,6 +99,10 @@ def bodies(statements: Statements, found: Counts, made: list[ParFrame]) -> Bodie
                 continue
             result.effects.setdefault(effect, []).append(f"{k + 1}")
             result.add(f"{prefix}{k + 1}", entry)
+    rubbing = {name for each in ("viscous", "coulomb") for name in result.effects.get(each, ())}
+    if offset := [f"{k + 1}" for k in range(found.links) if made[k].mu and f"{k + 1}" in rubbing]:
+        result.effects["offset"] = offset
+        result.notes.append(f"added to the joints with friction: offset ({listed(offset)})")
     if without:
         result.notes.append(
             f"{listed(without)}: left out, rotor inertias of joints without a motor (Mu 0)"

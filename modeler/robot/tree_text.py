@@ -222,8 +222,9 @@ class _Writing:
         return [n for n, joint in self.joints.items() if getattr(joint, key) or n in every]
 
     def effects(self) -> list[str]:
-        """Friction and rotors of every joint, and springs that the file states."""
+        """Friction, rotors and offset of every joint, and springs that the file states."""
         having = {effect: self._having(key) for effect, (key, _) in _EFFECTS.items()}
+        having["offset"] = self.driven
         if self.loops and any(joint.stiffness for joint in self.joints.values()):
             self.symbols.notes.append("springs are left out: robots with loops have none here")
         springs = [
@@ -233,7 +234,8 @@ class _Writing:
         silent = [
             effect
             for effect in having
-            if not any(getattr(joint, _EFFECTS[effect][0]) for joint in self.joints.values())
+            if effect == "offset"
+            or not any(getattr(joint, _EFFECTS[effect][0]) for joint in self.joints.values())
         ]
         if silent:
             joints = "actuated joints" if self.loops else "joints"

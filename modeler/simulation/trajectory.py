@@ -37,12 +37,16 @@ class Reference:
     Attributes:
         time: (n,) s.
         q, qd, qdd: (n, joints), SI; qd and qdd are the exact derivatives.
+        is_complete: True of a file that states speeds and accelerations too.
+        is_measured: True of a log, which has torques or currents.
     """
 
     time: np.ndarray
     q: np.ndarray
     qd: np.ndarray
     qdd: np.ndarray
+    is_complete: bool = False
+    is_measured: bool = False
 
 
 def widened(limits: tuple[Limits, ...], motion: Reference) -> tuple[Limits, ...]:
@@ -288,7 +292,7 @@ def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
     if len(time) < _FEWEST:
         raise DataError(f"{path}: got {len(time)} samples; expected {_FEWEST} or more")
     if not np.all(np.diff(time) > 0.0):
-        row = int(np.argmin(np.diff(time) > 0.0)) + 2
+        row = int(np.argmin(np.diff(time) > 0.0)) + 3
         raise DataError(f"{path}, row {row}: time does not increase; expected seconds in order")
     prefix = "qc" if all(f"qc{joint}" in table.column_names for joint in joints) else "q"
     path_of = {
@@ -297,10 +301,12 @@ def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
         if p == prefix or (prefix == "q" and f"{p}{joints[0]}" in table.column_names)
     }
     q = path_of[prefix]
+    measured = any(f"{p}{j}" in table.column_names for p in ("tau", "current") for j in joints)
     if {"qd", "qdd"} <= path_of.keys():
-        return Reference(time - time[0], q, path_of["qd"], path_of["qdd"])
+        return Reference(time - time[0], q, path_of["qd"], path_of["qdd"], True, measured)
     spline = make_interp_spline(time, q, k=_DEGREE)
-    return Reference(time - time[0], q, spline.derivative()(time), spline.derivative(2)(time))
+    derivatives = spline.derivative()(time), spline.derivative(2)(time)
+    return Reference(time - time[0], q, *derivatives, is_measured=measured)
 
 
 def curve_of(motion: Reference) -> BPoly:

@@ -1,6 +1,6 @@
 """Commands that the studio runs: one at a time, each a process of its own with progress and cancel.
 
-What computes something new is a command line, `python -m modeler.cli WORDS...` in the project
+What computes something new is a command line, `python -m modeler WORDS...` in the project
 folder; so the same words typed in a shell give the same numbers, and an error is the one line that
 the command prints.
 """

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from modeler.core.errors import DataError, ModelerError, short_of_memory
-from modeler.core.jobs import attend
+from modeler.core.jobs import attend, without_interrupts
 from modeler.studio import places
 
 
@@ -75,7 +75,9 @@ class Viewer:
                 1, mp_context=context, initializer=_begun, initargs=self._places
             )
         loop = asyncio.get_running_loop()
-        return await loop.run_in_executor(self._pool, answer, function, arguments)
+        with without_interrupts():  # of the process that this starts
+            found = loop.run_in_executor(self._pool, answer, function, arguments)
+        return await found
 
     def end(self) -> None:
         """Lets go of the process; the next question starts another."""

@@ -191,25 +191,27 @@ def overview_picture(comparison: Comparison) -> Picture:
     names = tuple(item.joint.name for item in comparison.joints)
     errors = np.array([100.0 * item.relative_error for item in comparison.joints])
     bars = Bars("relative error", names, errors, tuple(f"{e:.1f}" for e in errors), Style(BLUE))
-    panels = (
+    panels = [
         (
             Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,)),
             Panel("Where: share of squared residual [%]", "velocity", "joint",
                   (_regions(comparison),)),
         ),
-        share_panels(comparison),
-        (
+    ]  # fmt: skip
+    if any(item.shares is not None for item in comparison.joints):
+        panels.append(share_panels(comparison))
+    if any(item.structure is not None for item in comparison.joints):
+        panels.append((
             Panel("Follows its own ... [%]", "coordinate", "joint", (_shares(comparison),)),
             Panel("Follows the velocity of ... [%]", "joint or motor moving", "joint",
                   (_across(comparison),)),
-        ),
-    )  # fmt: skip
+        ))  # fmt: skip
     return Picture(
         name="overview",
         title="All joints",
         caption=_overview_caption(comparison),
-        panels=panels,
-        height=max(780, 360 + 3 * 44 * len(names)),
+        panels=tuple(panels),
+        height=len(panels) * max(260, 120 + 44 * len(names)),
     )
 
 
@@ -218,7 +220,7 @@ def _overview_caption(comparison: Comparison) -> str:
     how = "; ".join(METHODS[name] for name in METHODS if name in methods)
     return (
         "Relative error: unexplained share of each joint's own torque or force. Variance: of it, "
-        "and of what is left alone. "
+        "and of what is left alone; without that panel, too few samples tell. "
         + (f"Repeatable is {how}; noise is the rest. " if how else "")
         + "Where: in which velocity region the squared residual sits, and in brackets the share of "
         "the samples there; fast is beyond 40 %, around zero within 5 % of the joint's own top "

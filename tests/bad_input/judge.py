@@ -170,7 +170,7 @@ def _in_a_process(words: tuple[str, ...], how: Process, yard: Yard) -> Result:
             env[name] = value.replace("YARD", str(yard.work))
     if how.anew:
         env["PYTHONPATH"] = str(ROOT)
-        command = shlex.join([sys.executable, "-m", "modeler.cli", *words])
+        command = shlex.join([sys.executable, "-m", "modeler", *words])
         done = subprocess.run(
             ["/bin/sh", "-c", f"{command} {how.redirect}"], cwd=yard.work, env=env, check=False,
             capture_output=True, text=True, errors="replace", timeout=how.seconds,

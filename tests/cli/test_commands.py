@@ -364,7 +364,7 @@ def test_another_robot_text_is_not_taken_for_the_fitted_one(capsys, arm, tmp_pat
 
 
 def test_a_reader_that_stops_is_no_error():
-    command = f"{shlex.quote(sys.executable)} -m modeler.cli derive wrist | head -1"
+    command = f"{shlex.quote(sys.executable)} -m modeler derive wrist | head -1"
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
     assert done.stdout.startswith("wrist: ") and done.stderr == ""
 

@@ -28,7 +28,7 @@ def folder(tmp_path: Path, monkeypatch) -> Path:
     (tmp_path / "logs" / "one.parquet").touch()
     program = tmp_path / ".bin" / "modeler"
     program.parent.mkdir()
-    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m modeler.cli "$@"\n')
+    program.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m modeler "$@"\n')
     program.chmod(program.stat().st_mode | stat.S_IXUSR)
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PATH", f"{program.parent}:{os.environ['PATH']}")
@@ -59,7 +59,7 @@ CASES = [
     (["fit", "emps", "logs/../r"], ["logs/../run 1.parquet", "logs/../run2.csv"]),
     (["fit", "emps", "--method", ""], [*ABOUT, "tls", "two-step", "all"]),
     (["fit", "emps", "--window", ""], []),
-    (["compare", ""], ["arm.model.json", "logs/"]),
+    (["compare", "arm"], ["arm.model.json", "arm.toml"]),
     (["diagnose", "arm.model.json", "--holdout", ""], LOGS),
     (["diagnose", "--holdout", ""], ["arm.model.json", *LOGS]),
     (["diagnose", "arm.model.json", "--without", "load"], ["load_friction"]),

@@ -20,7 +20,7 @@ DOCUMENTED = {0, 1, 2, 130}
 
 
 def run(*words: str, **options) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "modeler.cli", *words]
+    command = [sys.executable, "-m", "modeler", *words]
     return subprocess.run(command, capture_output=True, text=True, timeout=60, **options)
 
 
@@ -90,7 +90,7 @@ def test_interrupted(tmp_path: Path) -> None:
     """In the midst of the work, which `--verbose` tells."""
     words = ("-v", "simulate", "panda", "--duration", "600", "--out", str(tmp_path / "x.parquet"))
     running = subprocess.Popen(
-        [sys.executable, "-m", "modeler.cli", *words], stderr=subprocess.PIPE, text=True,
+        [sys.executable, "-m", "modeler", *words], stderr=subprocess.PIPE, text=True,
         env=os.environ | {"PYTHONUNBUFFERED": "1"},
         preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # a shell's & ignores it
     )  # fmt: skip

@@ -11,8 +11,6 @@ import pytest
 from modeler.cli import main, parser, places
 from modeler.cli.command_table import COMMANDS, FAMILIES, Methods
 from modeler.cli.commands import commands_of, parsed
-from modeler.cli.completion import candidates
-from modeler.cli.old_words import OLD_COMMANDS
 from modeler.cli.options import arguments_of
 
 PARSERS = commands_of(parser())
@@ -102,97 +100,15 @@ def test_the_help_lists_commands_by_family() -> None:
     for family, below in zip(FAMILIES, [*list(FAMILIES)[1:], "options"], strict=True):
         part = text.split(f"\n{family}:\n")[1].split(f"\n{below}:\n")[0]
         assert re.findall(r"^  (\S+)", part, re.M) == [c.name for c in FAMILIES[family]]
-    assert not any(old in text for old in OLD_COMMANDS)
 
 
 @pytest.mark.parametrize(
-    ("line", "usage"), [("help", "modeler [-h]"), ("help free-run", "modeler compare MODEL")]
+    ("line", "usage"), [("help", "modeler [-h]"), ("help compare", "modeler compare MODEL")]
 )
 def test_help_may_be_a_command(capsys, line: str, usage: str) -> None:
     with pytest.raises(SystemExit) as stop:
         main(line.split())
     assert stop.value.code == 0 and capsys.readouterr().out.startswith(f"usage: {usage}")
-
-
-# What was typed until now.
-
-
-def read(line: str) -> dict[str, object]:
-    found = vars(parsed(shlex.split(line))[0])
-    return {k: v for k, v in found.items() if k not in ("read_as", "load", "lacks")}
-
-
-_SAME = """\
-show wrist --png w.png
-= show wrist --picture w.png
-derive wrist --page p.html
-= derive wrist --report p.html
-derive wrist --report c.md --page p.html
-= derive wrist --coefficients-out c.md --report p.html
-derive wrist --report=c.md
-= derive wrist --coefficients-out c.md
-derive evra --open --page p.html
-= derive evra --cut-loops --report p.html
-add m.json spring a.csv --out n.json --robot r.toml
-= add m.json spring a.csv --out n.json --robot-out r.toml
-home evra --pictures m.svg
-= home evra --picture m.svg
-log a.csv --robot wrist --page=p.html --pictures d
-= log a.csv --robot wrist --report p.html --picture d
-compare m.json a.csv --page p.html --pictures d
-= compare m.json a.csv --report p.html --picture d
-simulate wrist --out a.csv --truth t.json
-= simulate wrist --out a.csv --truth-out t.json
-robots --show wrist
-= robots wrist
-robots --show=wrist --json j
-= robots wrist --json j
--q free-run m.json a.csv --window 2 --pictures d
-= -q compare m.json a.csv --free-run --window 2 --picture d
-estimators emps a.csv b.csv --holdout c.csv
-= fit emps a.csv b.csv --holdout c.csv --method all
-estimators --holdout c.csv --methods iv,ridge -- emps a.csv
-= fit emps a.csv --holdout c.csv --method iv,ridge
-estimators --methods iv,ridge
-= estimators iv,ridge
-fleet emps a.csv --page p.html
-= fleet emps a.csv --report p.html
-fit emps a.csv --out m --pag p.html
-= fit emps a.csv --out m --report p.html
-"""
-SAME = [tuple(pair.split("\n= ")) for pair in re.findall(r"^.+\n= .+$", _SAME, re.M)]
-
-
-@pytest.mark.parametrize(("old", "new"), SAME)
-def test_old_spellings_mean_what_they_meant(old: str, new: str) -> None:
-    assert read(old) == read(new)
-    assert parsed(shlex.split(new))[0].read_as == []
-    quiet = old.startswith("estimators --methods")  # the list has nothing to tell
-    assert bool(parsed(shlex.split(old))[0].read_as) != quiet
-
-
-def test_every_old_option_is_tried_here() -> None:
-    tried = {word.partition("=")[0] for old, _ in SAME for word in old.split()}
-    for command in COMMANDS.values():
-        assert set(command.old) - {"--report"} <= tried, command.name
-    assert all(any(command in old for old, _ in SAME) for command in OLD_COMMANDS)
-
-
-def test_open_alone_cut_loops_and_still_does(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["derive", "sr400", "--open", "--no-terms"]) == 0
-    out, err = capsys.readouterr()
-    assert "its loops cut open" in out and "written" not in out
-    assert err.startswith("modeler: --open is read as --cut-loops") and err.count("\n") == 1
-
-
-def test_old_words_complete_where_nothing_else_does() -> None:
-    top = parser()
-    assert candidates(["free"], top) == ["free-run"]
-    assert candidates(["show", "wrist", "--pn"], top) == ["--png"]
-    assert candidates(["log", "--pic"], top) == ["--picture"]
-    assert "--page" not in candidates(["derive", "wrist", "--"], top)
-    assert candidates(["free-run", "m.json", "--wi"], top) == ["--window"]
-    assert candidates(["estimators", "emps", "a.csv", "--hold"], top) == ["--holdout"]
 
 
 # Words that are none.

@@ -55,7 +55,7 @@ def test_what_is_not_asked_for_is_not_told(capsys) -> None:
 )
 def test_a_command_tells_its_steps_and_the_same_result(tmp_path: Path, words: str) -> None:
     """Quiet or not: it is asked for. An error stays the last line."""
-    command = [sys.executable, "-m", "modeler.cli", "simulate", "two-link", "--duration", "2"]
+    command = [sys.executable, "-m", "modeler", "simulate", "two-link", "--duration", "2"]
     out = tmp_path / "a.csv"
     done = subprocess.run(
         [*command, *words.split(), "--out", str(out), "--json", "-"], capture_output=True, text=True

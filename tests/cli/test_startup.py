@@ -150,7 +150,7 @@ def test_an_interrupt_while_loading_is_one_line(package: str) -> None:
 
 def test_an_interrupt_at_any_moment_is_one_line(tmp_path: Path) -> None:
     """As a terminal sends it."""
-    command = [sys.executable, "-m", "modeler.cli", "generate", "scara", "--out"]
+    command = [sys.executable, "-m", "modeler", "generate", "scara", "--out"]
     begun = time.perf_counter()
     subprocess.run([*command, str(tmp_path / "whole")], check=True, capture_output=True)
     whole = time.perf_counter() - begun

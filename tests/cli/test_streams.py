@@ -76,14 +76,14 @@ def test_what_is_only_told_at_the_end_is_told(monkeypatch, capsys) -> None:
 @pytest.mark.parametrize(("words", "status"), [("robots", 0), ("robots no-such-robot", 1)])
 def test_closed_streams_are_no_error(closed: str, words: str, status: int) -> None:
     sign = {"stdout": ">&-", "stderr": "2>&-"}[closed]
-    command = f'"{sys.executable}" -m modeler.cli {words} {sign}'
+    command = f'"{sys.executable}" -m modeler {words} {sign}'
     done = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=60)
     assert done.returncode == status
     assert "Traceback" not in done.stderr and "ignored" not in done.stderr
 
 
 def test_a_reader_that_has_gone_is_no_error_with_help() -> None:
-    command = f'"{sys.executable}" -m modeler.cli fit --help | true'
+    command = f'"{sys.executable}" -m modeler fit --help | true'
     done = subprocess.run(command, shell=True, capture_output=True, text=True, timeout=60)
     assert done.stderr == ""
 
@@ -101,7 +101,7 @@ def test_letters_that_a_terminal_lacks_are_shown_as_codes(tmp_path: Path, settin
     (tmp_path / "bräs.toml").write_text(ARM, encoding="utf-8")
     for name, status in (("bräs.toml", 0), ("bräs.tom", 1)):
         done = subprocess.run(
-            [sys.executable, "-m", "modeler.cli", "robots", name], cwd=tmp_path,
+            [sys.executable, "-m", "modeler", "robots", name], cwd=tmp_path,
             capture_output=True, env=os.environ | setting, timeout=60,
         )  # fmt: skip
         assert done.returncode == status and b"Traceback" not in done.stderr
@@ -115,7 +115,7 @@ def test_progress_on_a_terminal_without_letters(tmp_path: Path) -> None:
     """A title in brackets is no markup either."""
     (tmp_path / "arm.toml").write_text(ARM, encoding="utf-8")
     ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "modeler.cli", "simulate", "arm.toml", "--duration", "1"]
+    command = [sys.executable, "-m", "modeler", "simulate", "arm.toml", "--duration", "1"]
     try:
         done = subprocess.run(
             [*command, "--out", "[/b].csv"], cwd=tmp_path, stderr=theirs, timeout=60,
@@ -132,7 +132,7 @@ def test_progress_on_a_terminal_without_letters(tmp_path: Path) -> None:
 def test_json_on_dev_stdout_is_only_json(tmp_path: Path) -> None:
     if not Path("/dev/stdout").exists():
         pytest.skip("NOT CHECKED: there is no /dev/stdout here")
-    command = [sys.executable, "-m", "modeler.cli", "robots", "--json", "/dev/stdout"]
+    command = [sys.executable, "-m", "modeler", "robots", "--json", "/dev/stdout"]
     piped = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout
     with (tmp_path / "out.json").open("w") as out:
         subprocess.run(command, stdout=out, check=True, timeout=60)

@@ -155,10 +155,10 @@ def test_what_comes_near_between_samples_is_seen(arm):
 
 def test_the_command_checks_a_motion_and_draws_the_nearest_two(arm, tmp_path, capsys):
     (tmp_path / "arm.toml").write_text(arm_text())
-    t = np.linspace(0.0, 4.0, 401)
+    t = np.linspace(0.0, np.pi, 401)
     columns = {"time": t} | {f"q{j}": 0.0 * t for j in "123"}
     columns["q3"] = 1.5 + 0.9 * np.sin(t) ** 2  # the forearm folds back to the column
-    columns["q2"] = 0.2 + 0.2 * np.sin(t)
+    columns["q2"] = 0.2 + 0.2 * np.sin(t) ** 2
     place, page = tmp_path / "fold.csv", tmp_path / "fold.html"
     place.write_text(csv_text(columns))
     words = ["excite", str(tmp_path / "arm.toml"), "--check", str(place)]

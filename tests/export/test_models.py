@@ -48,13 +48,14 @@ def test_the_exported_file_has_the_torques_of_the_fit(fitted) -> None:
     rng = np.random.default_rng()
     q, qd, qdd = (rng.uniform(-1.0, 1.0, (50, 3)) for _ in range(3))
     joints = ["shoulder", "elbow", "slide"]
-    rotors = {name: x for lost in found.not_held for name, x in lost.values.items()}
-    assert set(rotors) == {"Ia1", "Ia2", "Ia3"}
-    ours = torques_without(model, q, qd, qdd, ("Fv", "Fs"), rotors)
+    lost = {name: x for lost in found.not_held for name, x in lost.values.items()}
+    assert set(lost) == {f"{prefix}{j}" for prefix in ("Ia", "Off") for j in "123"}
+    rotors = {name: x for name, x in lost.items() if name.startswith("Ia")}
+    ours = torques_without(model, q, qd, qdd, ("Fv", "Fs", "Off"), rotors)
     exact = found.data.replace(b'"1.5708 ', b'"1.5707963267948966 ')  # as it is read
     assert close(pinocchio_torques(exact, joints, q, qd, qdd), ours)
     assert not close(pinocchio_torques(URDF, joints, q, qd, qdd), ours, 0.05)
-    whole = torques_without(model, q, qd, qdd, ("Fs",))
+    whole = torques_without(model, q, qd, qdd, ("Fs", "Off"))
     standing = export(model, to="mjcf")
     fresh = standing.data
     assert all(f'name="{value.part}"'.encode() in fresh for value in standing.values)

@@ -23,15 +23,15 @@ SHOWN: dict[str, dict[str, str]] = {
         "alike.base.rank": "23",
         "model": "MPR",
     },
-    "csv-to-c": {"arm": "theta", "model": "relative sigma", "comparison": "repeatable"},
+    "csv-to-c": {"arm": "theta", "model": "relative_sigma_percent", "comparison": "repeatable"},
     "what-is-missing": {
-        "model": "relative sigma",
+        "model": "relative_sigma_percent",
         "comparison": "repeatable",
         "found": "load_friction",
         'better.table("waterfall")': "load_friction",
         "better.missing()": "nothing",
     },
-    "urdf": {"model": "relative sigma", "exported": "friction"},
+    "urdf": {"model": "relative_sigma_percent", "exported": "friction"},
     "fleet": {"found": "viscous"},
 }
 """Of each notebook: lines that end a cell, and a word in what they show."""

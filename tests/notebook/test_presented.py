@@ -146,7 +146,7 @@ def test_the_html_of_a_notebook_is_small_and_well_formed(name: str) -> None:
 
 def test_html_says_what_was_found() -> None:
     better = session()["better"]._repr_html_()
-    assert "load_friction" in better and "relative sigma [%]" in better
+    assert "load_friction" in better and "relative_sigma_percent" in better
     assert "mu2" in session()["diagnosis"]._repr_html_()
     assert "$" in session()["derivation"]._repr_html_()  # relations are typeset
 

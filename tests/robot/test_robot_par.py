@@ -195,9 +195,11 @@ def test_bodies_with_and_without_parameters():
     assert robot.parameters["ZZ2"] == 0.01 and robot.parameters["XY2"] == 0
     assert robot.parameters["Fs2"] == 1.5
     uses = {use.effect: use.joints for use in robot.effects}
+    assert uses.pop("offset") == ("1", "2")  # of the joints with a motor and friction
     assert uses == {"rotor_inertia": ("1",), "viscous": ("1", "2", "3"), "coulomb": ("2",)}
     told = "\n".join(found.notes)
     assert "ZZ1 (there J)" in told and "IA3: left out" in told
+    assert "added to the joints with friction: offset (1, 2)" in told
 
 
 @pytest.mark.parametrize(

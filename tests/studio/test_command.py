@@ -16,7 +16,7 @@ from tests.json_schemas import check_schema
 from tests.studio.requests import ask, let_in
 from tests.studio.window import Served, served
 
-WORDS = [sys.executable, "-m", "modeler.cli", "studio", "--no-open"]
+WORDS = [sys.executable, "-m", "modeler", "studio", "--no-open"]
 
 
 def test_the_address_stands_in_the_json_before_it_serves(tmp_path: Path) -> None:
@@ -49,6 +49,28 @@ def test_json_alone_on_stdout_over_a_pipe(tmp_path: Path) -> None:
         process.send_signal(signal.SIGINT)
         assert process.wait(20) == 130
         assert process.stdout.read() == "" and process.stderr.read() == "modeler: interrupted\n"
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="finds the processes in /proc")
+def test_ctrl_c_of_a_terminal_goes_to_all_its_processes(tmp_path: Path) -> None:
+    """The one that draws logs says nothing of it."""
+    with subprocess.Popen(
+        [*WORDS, str(tmp_path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        start_new_session=True,
+    ) as process:  # fmt: skip
+        assert process.stdout is not None and process.stderr is not None
+        process.stdout.readline()
+        begun, end = False, time.monotonic() + 20
+        while not begun and time.monotonic() < end:
+            lists = Path(f"/proc/{process.pid}/task").glob("*/children")
+            children = [name for text in lists for name in text.read_text().split()]
+            told = [Path(f"/proc/{name}/cmdline").read_bytes() for name in children]
+            begun = any(b"spawn_main" in words for words in told)
+            time.sleep(0.3)
+        assert begun
+        os.killpg(process.pid, signal.SIGINT)
+        assert process.wait(20) == 130
+        assert process.stderr.read() == "modeler: interrupted\n"
 
 
 def test_it_says_how_to_reach_it_over_ssh(tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ RANGES = """() => [...document.querySelectorAll('.js-plotly-plot')]
 
 def command(folder: Path, *words: str) -> None:
     subprocess.run(
-        [sys.executable, "-m", "modeler.cli", *words, "-q"], cwd=folder, check=True,
+        [sys.executable, "-m", "modeler", *words, "-q"], cwd=folder, check=True,
         stdout=subprocess.DEVNULL, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
     )  # fmt: skip
 

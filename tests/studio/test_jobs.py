@@ -177,7 +177,7 @@ def simulated(folder: Path, robot: str, hidden: str) -> list[Path]:
     found = [folder / f"{name}.parquet" for name in ("one", "other")]
     for seed, place in enumerate(found, start=11):
         words = ["simulate", robot, "--duration", "8", "--seed", str(seed), "--noise", "0.005"]
-        line = [sys.executable, "-m", "modeler.cli", *words, "--hide", hidden, "--out", str(place)]
+        line = [sys.executable, "-m", "modeler", *words, "--hide", hidden, "--out", str(place)]
         subprocess.run(line, check=True, stdout=subprocess.DEVNULL)
     return found
 

@@ -64,7 +64,7 @@ class Served:
 @contextmanager
 def served(folder: Path, *options: str) -> Iterator[Served]:
     """A studio of a folder, as the command starts it."""
-    words = [sys.executable, "-m", "modeler.cli", "studio", str(folder), "--no-open", *options]
+    words = [sys.executable, "-m", "modeler", "studio", str(folder), "--no-open", *options]
     environment = os.environ | {"PYTHONUNBUFFERED": "1"}
     process = subprocess.Popen(
         words, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True

@@ -1,4 +1,4 @@
-"""`python -m modeler.cli`."""
+"""`python -m modeler`."""
 
 import sys
 

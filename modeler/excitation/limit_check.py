@@ -1,0 +1,115 @@
+"""Does a motion of a file keep to the limits of its joints?"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from modeler.core.brief import Brief
+from modeler.core.json import entries
+from modeler.excitation.motion import Bounds
+
+WINDOW = 0.02
+"""s, over which speed and acceleration are means of positions; of shorter ones little is left but
+the last digits of a file."""
+
+EXCESS = 1e-3
+"""Share of a limit that is no excess: what a search on samples leaves between them."""
+_MOST_DIGITS = 9  # after the point; of more, the last is no acceleration
+
+
+@dataclass(frozen=True)
+class Excess(Brief):
+    """Where a joint exceeds a limit most.
+
+    Attributes:
+        joint: name.
+        what: "position" | "speed" | "acceleration" | "speed at the start" | "speed at the end".
+        time: s, from the first sample on.
+        value, limit: SI.
+        unit: of them.
+        step: (rad or m, s) of the largest step between two samples there; None for others.
+    """
+
+    joint: str
+    what: str
+    time: float
+    value: float
+    limit: float
+    unit: str
+    step: tuple[float, float] | None = None
+
+    def line(self) -> str:
+        """As a sentence."""
+        step = ""
+        if self.step is not None:
+            way, seconds = self.step
+            step = f" ({way:.3g} {self.unit.partition('/')[0]} in {1e3 * seconds:.3g} ms)"
+        expected = "expected rest" if "speed at" in self.what else f"limit {self.limit:.4g}"
+        return (
+            f"joint {self.joint}, {self.time:.4g} s: {self.what} {self.value:.4g} {self.unit}"
+            f"{step}, {expected}"
+        )
+
+    def to_json(self) -> dict[str, object]:
+        """Plain data."""
+        return entries(self, "joint what time value limit unit")
+
+
+def exceeded_limits(
+    bounds: Bounds, units: tuple[str, ...], time: np.ndarray, q: np.ndarray,
+    stated: tuple[np.ndarray, np.ndarray] | None,
+) -> list[Excess]:  # fmt: skip
+    """Where each joint exceeds each of its limits most, first by time.
+
+    Mean speeds over a window, and their mean change, are never above the largest ones between. A
+    motion that begins or ends faster than its acceleration reaches in a window is not at rest.
+
+    Args:
+        bounds: limits.
+        units: (J,) "rad" or "m".
+        time: (n,) s.
+        q: (n, J).
+        stated: speeds and accelerations (n, J) of the file; None: it has none.
+    """
+    step = float(np.median(np.diff(time)))
+    k = min(math.ceil(WINDOW / step), (len(time) - 1) // 2)
+    rounded = (10.0**-n for n in range(_MOST_DIGITS) if np.allclose(q, q.round(n), 0.0, 1e-12))
+    digit = next(rounded, 0.0)
+    v = (q[k:] - q[:-k]) / (time[k:] - time[:-k])[:, None]
+    a = 2.0 * (v[k:] - v[:-k]) / (time[2 * k :] - time[: -2 * k])[:, None]
+    found = []
+
+    def look(
+        what: str, at: np.ndarray, values: np.ndarray, most: np.ndarray, per: str, slack: float
+    ) -> None:
+        for j in np.flatnonzero(np.abs(values).max(axis=0) > (1.0 + EXCESS) * most + slack):
+            i = int(np.abs(values[:, j]).argmax())
+            place, step, value = at[i], None, float(values[i, j])
+            if values is v:
+                ways = np.abs(np.diff(q[i : i + k + 1, j]))
+                m = i + int(ways.argmax())
+                place, step = time[m + 1], (float(ways.max()), float(time[m + 1] - time[m]))
+                value = math.copysign(step[0] / step[1], value)
+            excess = float(place), value, float(most[j]), units[j] + per, step
+            found.append(Excess(bounds.joints[j], what, *excess))
+
+    reach = bounds.half
+    for j in np.flatnonzero((np.abs(q - bounds.middle) > (1.0 + EXCESS) * reach).any(axis=0)):
+        i = int(np.abs(q[:, j] - bounds.middle[j]).argmax())
+        limit = bounds.upper[j] if q[i, j] > bounds.middle[j] else bounds.lower[j]
+        own = float(time[i]), float(q[i, j]), float(limit), units[j]
+        found.append(Excess(bounds.joints[j], "position", *own))
+    speed, acceleration = bounds.speed, bounds.acceleration
+    digits = digit / (k * step), 2.0 * digit / (k * step) ** 2
+    look("speed", time[k:], v, speed, "/s", digits[0])
+    look("acceleration", time[k:-k], a, acceleration, "/s2", digits[1])
+    if stated is not None:
+        change = np.diff(stated[0], axis=0) / np.diff(time)[:, None]
+        look("speed", time, stated[0], speed, "/s", 0.0)
+        look("acceleration", time, stated[1], acceleration, "/s2", 0.0)
+        look("acceleration", time[1:], change, acceleration, "/s2", digit / step)
+    for end, at, value in (("start", time[:1], v[:1]), ("end", time[-1:], v[-1:])):
+        look(f"speed at the {end}", at, value, acceleration * k * step, "/s", digits[0])
+    first = {(each.joint, each.what): each for each in reversed(found)}
+    return sorted(first.values(), key=lambda each: each.time)

@@ -1,0 +1,137 @@
+"""What a user of Python sees: a fit that is not usable, units, messages, tables, pictures."""
+
+import ast
+import dataclasses
+import inspect
+import re
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import modeler
+from modeler.api.arguments import in_python
+from modeler.core.errors import DataError, FitWarning
+from modeler.excitation import Wish
+from modeler.observation import Processing
+from modeler.simulation import SimulationSettings
+
+PACKAGE = Path(modeler.__file__).parent
+
+
+@pytest.fixture(scope="module")
+def run() -> dict[str, np.ndarray]:
+    made = modeler.simulate(modeler.open_robot("two-link"), duration=6.0, seed=1)
+    return {"time": made.time, "q": made.q, "tau": made.tau}
+
+
+@pytest.fixture(scope="module")
+def model(run) -> modeler.Model:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", FitWarning)  # a good fit says nothing
+        return modeler.identify("two-link", run)
+
+
+def test_a_fit_that_is_not_usable_says_so_wherever_it_is_seen(run, model) -> None:
+    noise = np.random.default_rng().normal(size=run["tau"].shape)
+    with pytest.warns(FitWarning) as seen:
+        spoilt = modeler.identify("two-link", run | {"tau": 20.0 * noise})
+    assert spoilt.fit.verdict is not None and not spoilt.fit.verdict.usable
+    (told,) = [each for each in seen if each.category is FitWarning]
+    assert Path(told.filename) == Path(__file__)  # the line that called
+    said = spoilt.fit.verdict.line.partition(";")[0]
+    assert said in str(told.message) and said in repr(spoilt)
+    assert said.partition(":")[0] in spoilt._repr_html_()
+    assert said.partition(":")[0] not in repr(model) + model._repr_html_()
+
+
+def test_every_relative_error_is_a_fraction(run, model) -> None:
+    found = model.compare(run)
+    assert 0.0 < model.error(run) == found.relative_error < 0.01
+    by_joint = {item.joint.name: item.relative_error for item in found.joints}
+    frame = found.to_frame("errors")
+    assert dict(zip(frame["joint"], frame["relative error"], strict=True)) == by_joint
+    assert frame.attrs["units"]["relative error"] == ""
+    fitted = model.to_frame("errors")
+    assert list(fitted["relative error"]) == [j.relative_error for j in model.fit.joints]
+    assert model.to_dict()["relative_error"] == model.fit.relative_error
+    own = model.to_frame()
+    expected = 100.0 * own["sigma"] / own["value"].abs()
+    assert np.allclose(own["relative_sigma_percent"], expected)
+    names = {"a": model, "b": model}
+    errors = modeler.contest(names, [run]).to_frame("errors")
+    assert np.allclose(errors[["a", "b"]].to_numpy().T, list(by_joint.values()))
+
+
+def test_a_table_is_what_a_frame_is_made_of(model) -> None:
+    for name in ("parameters", "errors", "logs"):
+        table = model.table(name)
+        assert pd.DataFrame(table).equals(pd.DataFrame(table.to_frame()))
+        assert [row[table.columns[0][0]] for row in table] == table.column(table.columns[0][0])
+
+
+def test_a_diagnosis_is_a_sequence_of_its_effects() -> None:
+    found = object.__new__(modeler.Diagnosis)
+    object.__setattr__(found, "effects", ("first", "second"))
+    assert len(found) == 2 and found[0] == "first" and [*found] == ["first", "second"]
+
+
+def test_messages_name_arguments_of_python(run, tmp_path) -> None:
+    with pytest.raises(DataError, match=r"no column q2.* mapping q2=COLUMN") as error:
+        modeler.identify("two-link", {"time": run["time"], "q1": run["q"][:, 0]})
+    assert "--" not in str(error.value)
+    with pytest.raises(DataError) as error:
+        modeler.identify("two-link", run, processing=Processing(parallel_cutoff=1e-3))
+    assert "--" not in str(error.value)
+
+
+def raised() -> set[str]:
+    """Options that errors outside of the command line and the studio name."""
+    found = set()
+    for path in PACKAGE.rglob("*.py"):
+        if {"cli", "studio"} & set(path.relative_to(PACKAGE).parts):
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Raise):
+                texts = [(n.lineno, n.col_offset, n.value) for n in ast.walk(node)
+                         if isinstance(n, ast.Constant) and isinstance(n.value, str)]  # fmt: skip
+                message = " ".join(text for *_, text in sorted(texts))
+                found |= set(re.findall(r"`[^`]*`|(?<![\w-])--[a-z][a-z-]*", message))
+    return {option for option in found if option.startswith("--")}
+
+
+WORDS = {"help", "list", "sets", "cad", "blocks", "nonzero", "dask", "energy", "structured_text"}
+"""That a message may hold as a plain word: "leave blocks out"."""
+
+
+def test_options_in_errors_are_arguments_of_python() -> None:
+    known = {"load", "mass", "moved", "model.compile()", "gains", "window", "bound"}
+    for name in dir(modeler.api):
+        thing = getattr(modeler.api, name)
+        own = [thing] if inspect.isfunction(thing) else []
+        if inspect.isclass(thing):
+            own = [each for each in vars(thing).values() if inspect.isfunction(each)]
+        for each in own:
+            known |= set(inspect.signature(each).parameters)
+    for kind in (Processing, Wish, SimulationSettings):
+        known |= {field.name for field in dataclasses.fields(kind)}
+    words = {in_python(option) for option in raised()}
+    assert len(words) > 20 and not any("--" in word for word in words)
+    assert words <= known | WORDS, words - known - WORDS
+
+
+def test_commands_keep_their_options() -> None:
+    told = "use --method weighted, or run `modeler fit arm.toml log.csv --out m.json`"
+    assert in_python(told) == told.replace("--method", "method")
+    assert in_python("run--a.csv: x -- y") == "run--a.csv: x -- y"
+
+
+def test_no_panel_of_a_comparison_is_empty(run, model) -> None:
+    """Too few samples to split the variance: those panels are not drawn."""
+    drawn = model.compare(run).plot()
+    assert drawn.axes and all(axis.has_data() for axis in drawn.axes)
+    for legend in drawn.legends:
+        colours = [handle.get_facecolor() for handle in legend.legend_handles]
+        assert len(set(map(tuple, colours))) == len(colours)

@@ -1,0 +1,134 @@
+"""`modeler compare ROBOT LOG`: with the values that the robot's file states, before any fit."""
+
+import json
+import re
+import shlex
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler import compare, contest, identify, open_robot, simulate
+from modeler.cli import main
+from modeler.core.errors import DataError
+from modeler.robot import read_robot
+
+INERTIAL = """<inertial><origin xyz="{centre} 0 0.01"/><mass value="{mass}"/>
+<inertia ixx="0.01" iyy="0.03" izz="0.03" ixy="0" ixz="0" iyz="0"/></inertial>"""
+FRICTION = '<dynamics damping="0.4" friction="0.6"/>'
+
+
+def urdf(mass: float = 3.0, friction: str = "") -> str:
+    """Two joints about y; only the upper arm differs."""
+    links = [("upper", mass, 0.15), ("fore", 1.5, 0.1)]
+    bodies = [f'<link name="{n}">{INERTIAL.format(mass=m, centre=c)}</link>' for n, m, c in links]
+    joint = (
+        '<joint name="{0}" type="revolute"><parent link="{1}"/><child link="{2}"/>'
+        '<origin xyz="{3} 0 0"/><axis xyz="0 1 0"/>'
+        '<limit lower="-2" upper="2" velocity="3" effort="80"/>' + friction + "</joint>"
+    )
+    joints = [
+        joint.format("shoulder", "base", "upper", 0), joint.format("elbow", "upper", "fore", 0.3),
+    ]  # fmt: skip
+    return f'<robot name="duo"><link name="base"/>{"".join(bodies + joints)}</robot>'
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The file says 3 kg where the machine has 2; the friction of the machine is 0.4 and 0.6."""
+    monkeypatch.chdir(tmp_path)
+    Path("arm.urdf").write_text(urdf())
+    Path("true.urdf").write_text(urdf(2.0, FRICTION))
+    seed = int(np.random.default_rng().integers(1 << 20))
+    words = ["simulate", "true.urdf", "--duration", "8", "--seed", f"{seed}", "--out", "run.csv"]
+    assert main(words) == 0
+    return tmp_path
+
+
+def next_line(text: str) -> list[str]:
+    """The command that is suggested, as words."""
+    (line,) = re.findall(r"^next: modeler (.*)$", text, re.MULTILINE)
+    return shlex.split(line)
+
+
+def test_the_values_of_the_file_are_compared_before_any_fit(folder, capsys) -> None:
+    capsys.readouterr()
+    assert main(["compare", "arm.urdf", "run.csv", "--json", "before.json"]) == 0
+    told = capsys.readouterr().out
+    zero = "taken as 0: rotor_inertia, viscous, coulomb, offset of joint 1, 2"
+    assert zero in told
+    before = json.loads(Path("before.json").read_text())
+    assert any("taken as 0" in line for line in before["doubts"])
+    # By hand: the torque that the file's numbers give, of the torque that was measured.
+    assert 0.05 < before["joints"]["1"]["relative_error"] < 1.0
+    assert main(next_line(told)) == 0
+    assert Path("arm.model.json").is_file()
+    capsys.readouterr()
+    words = ["compare", "arm.urdf", "arm.model.json", "run.csv", "--json", "both.json"]
+    assert main(words) == 0
+    both = json.loads(Path("both.json").read_text())
+    assert both["relative_error"] == pytest.approx(before["relative_error"], rel=0.05)
+    assert "arm.model.json predicts joints 1 and 2 best" in capsys.readouterr().out
+
+
+def test_a_file_that_states_the_truth_has_no_error_but_noise(folder, capsys) -> None:
+    """Friction too; rotors and offsets of a simulated machine are drawn, so they are set."""
+    assert main(["convert", "true.urdf", "--out", "true.toml"]) == 0
+    text = Path("true.toml").read_text()
+    zeros = "".join(f"{name}{j} = 0.0\n" for name in ("Ia", "Off") for j in "12")
+    Path("whole.toml").write_text(text.replace("Fv1 =", f"{zeros}Fv1 =", 1))
+    assert main(["simulate", "whole.toml", "--duration", "8", "--out", "whole.csv"]) == 0
+    found = compare(open_robot("whole.toml"), "whole.csv")
+    assert found.relative_error < 0.005
+    capsys.readouterr()
+    assert main(["compare", "whole.toml", "whole.csv"]) == 0
+    assert "taken as 0" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("two-link.toml run.csv", "two-link.toml: there is no such file"),
+        ("emps run.csv", "emps: its file states no parameter values; expected [parameters]"),
+        ("arm.urdf run.csv --essential", "--essential: arm.urdf is a robot; expected a model"),
+        ("arm.urdf run.csv --run-embedded-c", "--run-embedded-c: arm.urdf is a robot; expected"),
+        ("none.json run.csv", "none.json: cannot be read"),
+    ],
+)
+def test_what_cannot_be_compared(folder, capsys, words: str, told: str) -> None:
+    assert main(["compare", *words.split()]) == 1
+    assert told in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("method", ["consistent", "ridge"])
+def test_every_method_takes_a_converted_robot(folder, capsys, method: str) -> None:
+    words = ["fit", "arm.urdf", "run.csv", "--method", method, "--out", "m.json"]
+    assert main(words) == 0
+    told = capsys.readouterr().out
+    assert f"method {method} does not use inertial = 0.3 of [parameters.uncertainty]" in told
+    assert main(["compare", "m.json", "run.csv", "--json", "m.compare.json"]) == 0
+    assert json.loads(Path("m.compare.json").read_text())["relative_error"] < 0.01
+
+
+def test_python_takes_a_robot_as_well(folder) -> None:
+    robot = open_robot("arm.urdf")
+    run = simulate(open_robot("true.urdf"), duration=6.0, seed=3)
+    model = identify(robot, "run.csv")
+    before = compare(robot, run).relative_error
+    found = contest({"before": robot, "after": model}, [run])
+    assert found.names == ("before", "after")
+    assert before > 10.0 * compare(model, run).relative_error
+    with pytest.raises(DataError, match=r"expected a model .* or a robot"):
+        compare("arm.urdf", "run.csv")
+
+
+def test_robots_of_other_programs_have_an_offset(folder) -> None:
+    have = {use.effect: use.joints for use in read_robot("arm.urdf").effects}
+    assert have["offset"] == have["coulomb"] == ("1", "2")
+    mjcf = (
+        '<mujoco model="one"><worldbody><body><joint name="hinge" axis="0 1 0"/>'
+        '<geom type="sphere" size="0.1" pos="0.2 0 0"/></body></worldbody>'
+        '<actuator><motor joint="hinge"/></actuator></mujoco>'
+    )
+    Path("one.xml").write_text(mjcf)
+    assert "offset" in {use.effect for use in read_robot("one.xml").effects}
