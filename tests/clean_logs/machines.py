@@ -1,8 +1,8 @@
 """Random arms without a fault, and the ways in which their logs are recorded.
 
-A machine has two of the ways of `WAYS`: friction that sticks, slow motion with coarse logged speeds,
-gaps, channels that are refreshed slower than the rows, an uneven clock, one joint at a time. All of
-them are harmless; `Truth` says what is right.
+A machine has two of the ways of `WAYS`: friction that sticks, slow motion with coarse logged
+speeds, gaps, channels that are refreshed slower than the rows, an uneven clock, one joint at a
+time. All of them are harmless; `Truth` says what is right.
 """
 
 from dataclasses import dataclass, field
@@ -179,9 +179,7 @@ def _logged_speeds(q: np.ndarray, rows: np.ndarray, step: float) -> dict[str, np
     return {f"qd{j + 1}": speed[rows, j] for j in range(q.shape[1])}
 
 
-def _hold(
-    columns: dict[str, np.ndarray], truth: Truth, rng: np.random.Generator, n: int
-) -> None:
+def _hold(columns: dict[str, np.ndarray], truth: Truth, rng: np.random.Generator, n: int) -> None:
     """Refresh one channel, or two, every 20 ms only, as a slow bus does."""
     names = [f"{kind}{j + 1}" for kind in ("q", "tau") for j in range(n)]
     for name in rng.choice(names, int(rng.integers(1, 3)), replace=False):
