@@ -16,10 +16,11 @@ COMMANDS = (
 # What is said of a fault. None of these machines has one.
 FAULTS = (
     r"clipped", r"\bleap", r"another zero", r"\bzero (?:of|seems|is off)", r"\brings?\b", r"frozen",
-    r"(?:at|reaches) its limit", r"\bsign\b.*(?:wrong|opposite|turned)", r"\bunit\b",
-    r"swapped|exchanged", r"is off by a factor", r"clock (?:seems|is wrong)",
-    r"\blate by|comes late|\bdelayed by", r"is it connected", r"damaged", r"joined", r"not the derivative", r"rows (?:were )?lost",
-    r"never moves?", r"Traceback", r"RuntimeWarning", r"computed from|planned or", r"spike|outlier",
+    r"(?:at|reaches) its limit", r"\bsign\b.*(?:wrong|opposite|turned)", r"\bunit\b", r"joined",
+    r"swapped|exchanged", r"is off by a factor", r"clock (?:seems|is wrong)", r"spike|outlier",
+    r"\blate by|comes late|\bdelayed by", r"is it connected", r"damaged", r"not the derivative",
+    r"rows (?:were )?lost", r"never moves?", r"Traceback", r"RuntimeWarning",
+    r"computed from|planned or",
 )  # fmt: skip
 HARMLESS = re.compile(r"^(?:channel|parameter)\b|no doubts|doubtful$|where the sign of the speed")
 
