@@ -64,7 +64,21 @@ def loop_times(name: str) -> dict[str, float]:
         "compile_s": built - written,
         "home_us": 1e6 * best(lambda: compiled.base_regressor(q, qd, qdd)) / SAMPLES,
         "last_us": 1e6 * best(lambda: compiled.observation(q, qd, qdd, W)) / SAMPLES,
+        "bound_ms": 1e3 * longest_failure(compiled) if derivation.model.closure else 0.0,
     } | _tiled(compiled, [q, qd, qdd], W)
+
+
+def longest_failure(compiled: CompiledModel) -> float:
+    """Longest call, s, that closes nothing with the evaluations that are allowed, 5000."""
+    closure, longest = compiled.spec.closure, 0.0
+    assert closure is not None
+    home = np.array([closure.home[k] for k in closure.given])
+    n = len(home)
+    for way in (*np.eye(n), *-np.eye(n), np.ones(n), (-1.0) ** np.arange(n)):
+        for far in (1.0, 10.0, 100.0, 1e3):  # rad or m
+            q = home[None] + far * way
+            longest = max(longest, best(lambda q=q: compiled.closing_status(q), 3))
+    return longest
 
 
 def _tiled(compiled: CompiledModel, motion: list[np.ndarray], W: np.ndarray) -> dict[str, float]:
@@ -93,6 +107,7 @@ def _measure(quick: bool) -> Mapping[str, float]:
         if "tile_us" in times:
             found[f"loops_tile_us.{name}"] = times["tile_us"]
             found[f"loops_scalar_over_tile.{name}"] = times["tile_ratio"]
+            found[f"loops_bound_ms.{name}"] = times["bound_ms"]
     return found
 
 
@@ -108,6 +123,9 @@ def _keys() -> tuple[Key, ...]:
         if name not in OPEN:
             keys += [
                 Key(f"loops_tile_us.{name}", "us", f"{what} samples before, 8 at once."),
+                Key(
+                    f"loops_bound_ms.{name}", "ms", "Longest call that fails, of 5000 evaluations."
+                ),
                 ratio(
                     f"loops_scalar_over_tile.{name}",
                     "One after another over 8 at once.",

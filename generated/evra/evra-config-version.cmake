@@ -1,6 +1,6 @@
 # find_package(evra) takes any, find_package(evra 2) any of this C interface,
-# find_package(evra 2.62587.42518.17873) only what has the signature f47ba61645d1a253.
-set(PACKAGE_VERSION 2.62587.42518.17873)
+# find_package(evra 2.57749.10855.47447) only what has the signature e1952a67b957d79a.
+set(PACKAGE_VERSION 2.57749.10855.47447)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

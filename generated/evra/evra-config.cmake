@@ -1,6 +1,6 @@
 # find_package(evra) gives the targets evra::evra and evra::batch: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. evra_SIGNATURE is that of the whole folder.
-set(evra_SIGNATURE f47ba61645d1a253)
+set(evra_SIGNATURE e1952a67b957d79a)
 
 if(evra_FIND_COMPONENTS)
   set(_modeler_kinds ${evra_FIND_COMPONENTS})
@@ -13,7 +13,7 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/evra-${_modeler_kind}-f47ba61645d1a253.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/evra-${_modeler_kind}-e1952a67b957d79a.cmake")
   if(TARGET evra::evra OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
@@ -27,7 +27,7 @@ foreach(_modeler_kind IN LISTS _modeler_kinds)
         set(_modeler_name libevra_model)
       endif()
       if(_modeler_kind STREQUAL "shared")
-        string(APPEND _modeler_name .so.f47ba61645d1a253)
+        string(APPEND _modeler_name .so.e1952a67b957d79a)
       else()
         string(APPEND _modeler_name .a)
       endif()
@@ -47,5 +47,5 @@ endforeach()
 if(NOT TARGET evra::evra)
   set(evra_FOUND FALSE)
   set(evra_NOT_FOUND_MESSAGE
-    "no library of signature f47ba61645d1a253 here that is ${_modeler_kinds}; install it again")
+    "no library of signature e1952a67b957d79a here that is ${_modeler_kinds}; install it again")
 endif()

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What evra_signature() of the library that belongs to this header returns. */
-#define EVRA_SIGNATURE "f47ba61645d1a253"
-#define EVRA_SIGNATURE_1 0xf47ba616u
-#define EVRA_SIGNATURE_2 0x45d1a253u
+#define EVRA_SIGNATURE "e1952a67b957d79a"
+#define EVRA_SIGNATURE_1 0xe1952a67u
+#define EVRA_SIGNATURE_2 0xb957d79au
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in evra_generator.h. */
@@ -36,7 +36,9 @@ extern "C" {
 #define EVRA_STANDARD_PARAMETERS 210
 #define EVRA_BASE_PARAMETERS 90
 #define EVRA_FREE_VARIABLES 26
-#define EVRA_EVALUATIONS 5000
+#ifndef EVRA_MAX_CLOSURE_EVALUATIONS
+#define EVRA_MAX_CLOSURE_EVALUATIONS 5000 /* in one call; -D sets another, in all files alike */
+#endif
 
 /* chi: standard parameters, columns of evra_regressor
  *
@@ -413,8 +415,8 @@ enum {
  *
  * Functions that close the loops return a status: 0 done; 1 the loops cannot be closed on the
  * straight way from the home posture to these values; 2 singular posture; 3 an input is not finite,
- * or an output would not be; 4 these values are so far that EVRA_EVALUATIONS of
- * the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
+ * or an output would not be; 4 these values are so far that EVRA_MAX_CLOSURE_EVALUATIONS
+ * evaluations of the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
  * mode is that of the home posture.
  */
 
@@ -642,6 +644,11 @@ struct evra_state {
 #endif
 int evra_state(const double *q, const double *qd, const double *previous,
     struct evra_state *state);
+
+/* The same with at most `evaluations` of the closure equations, and never more than
+ * EVRA_MAX_CLOSURE_EVALUATIONS: status 4 if these do not do. */
+int evra_state_with_bound(const double *q, const double *qd, const double *previous,
+    int evaluations, struct evra_state *state);
 #if defined(__cplusplus) && defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif

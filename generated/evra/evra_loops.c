@@ -8,8 +8,7 @@
 #include "modeler_closure.h"
 #include "evra_tree.h"
 
-#if EVRA_EVALUATIONS != MODELER_EVALUATIONS \
-    || MODELER_CLOSURE_PLACES(26, 18) != 62 \
+#if MODELER_CLOSURE_PLACES(26, 18) != 62 \
     || MODELER_CLOSURE_NUMBERS(26, 18, 180, 107) != 1622
 #error the runtime has other limits
 #endif
@@ -108,6 +107,7 @@ static modeler_work work_of(struct evra_posture *p)
     work.kept = &p->kept;
     work.places = p->places;
     work.numbers = p->numbers;
+    work.evaluations = EVRA_MAX_CLOSURE_EVALUATIONS;
     return work;
 }
 
@@ -156,7 +156,7 @@ static void base_rows(struct evra_posture *p, double *rows, const double *qd,
 
 const char *evra_signature(void)
 {
-    return "f47ba61645d1a253";
+    return "e1952a67b957d79a";
 }
 
 int evra_tree_next(const double *q, const double *qd, const double *qdd, int next,
@@ -183,15 +183,25 @@ int evra_tree_next(const double *q, const double *qd, const double *qdd, int nex
 int evra_state(const double *q, const double *qd, const double *previous,
     struct evra_state *state)
 {
+    return evra_state_with_bound(q, qd, previous, EVRA_MAX_CLOSURE_EVALUATIONS, state);
+}
+
+int evra_state_with_bound(const double *q, const double *qd, const double *previous,
+    int evaluations, struct evra_state *state)
+{
     struct evra_posture *const p = &state->at;
-    const modeler_work work = work_of(p);
+    modeler_work work = work_of(p);
+    const int reached = previous == p->u && (p->kept.valid != 0 || p->kept.reached != 0);
     int status = MODELER_NOT_FINITE;
 
+    if (evaluations < work.evaluations) {
+        work.evaluations = evaluations;
+    }
     if (modeler_finite(qd, 8) != 0) {
-        if (previous == p->u && !p->kept.valid) {
+        if (previous == p->u && !reached) {
             previous = NULL;
         }
-        if (previous == p->u) {
+        if (reached && p->kept.valid != 0) {
             status = modeler_close_soon(&evra_loops, q, p->u, &work);
         } else {
             status = modeler_close(&evra_loops, q,
@@ -201,6 +211,7 @@ int evra_state(const double *q, const double *qd, const double *previous,
     if (status == MODELER_CLOSED) {
         evra_moved(&evra_loops, qd, p);
     }
+    p->kept.reached = reached || status == MODELER_CLOSED;
     state->closed = status == MODELER_CLOSED;
     state->status = status;
     state->rated = 0;

@@ -146,23 +146,13 @@ static const int column[] = {
 
 #define ENTRIES 707
 
-/* What closes loops one after another. */
-typedef struct {
-    const modeler_closure *loops;
-    int (*posed)(const modeler_closure *, const double *, const double *, struct evra_posture *);
-    int (*next)(const double *, const double *, const double *, int, struct evra_posture *,
-                double *, double *);
-    int (*eliminated)(const modeler_closure *, const modeler_work *, const double **, const double **,
-                      const double **);
-} single;
-
 #define MODELER_BODY "evra_tile.c"
 #include "modeler_versions.h"
 
 #ifdef MODELER_APART /* who loads this library has them in another one */
 #define SINGLES NULL
 #else
-static const single singles = {&evra_loops, evra_posed, evra_tree_next, modeler_eliminated};
+static const struct evra_single singles = {&evra_loops, evra_posed, evra_tree_next, modeler_eliminated};
 #define SINGLES &singles
 #endif
 
@@ -178,7 +168,7 @@ const modeler_tiled *evra_tiled(void)
 
 const char *evra_tile_signature(void)
 {
-    return "f47ba61645d1a253";
+    return "e1952a67b957d79a";
 }
 
 #else /* for one instruction set */
@@ -3294,7 +3284,7 @@ typedef struct {
 } closing_state;
 
 /* Samples one after another, from the posture of the last one. */
-static void one_by_one(const single *one, const double *q, const double *qd, const double *qdd,
+static void one_by_one(const struct evra_single *one, const double *q, const double *qd, const double *qdd,
                        size_t samples, closing_state *state, double *values, int *status)
 {
     const modeler_closure *const loops = one->loops;
@@ -3321,7 +3311,7 @@ static void one_by_one(const single *one, const double *q, const double *qd, con
     state->posed = next;
     state->anchored = 0;
     if (next != 0) {
-        const modeler_work work = {&state->p.kept, state->p.places, state->p.numbers};
+        const modeler_work work = {&state->p.kept, state->p.places, state->p.numbers, 0};
 
         state->anchored = one->eliminated(loops, &work, &f, &lu, &G);
     }
@@ -3405,7 +3395,7 @@ static void MODELER_VERSION(closing)(const modeler_tiled *robot, const double *q
                                      const double *qdd, size_t samples, void *memory,
                                      double *values, int *status)
 {
-    const single *const one = (const single *)robot->singles;
+    const struct evra_single *const one = (const struct evra_single *)robot->singles;
     closing_state *const state = (closing_state *)memory;
 
     for (size_t i = 0; i < samples; i += MODELER_WIDTH) {

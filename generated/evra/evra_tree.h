@@ -61,6 +61,16 @@ void evra_tree_rows(const double q[26], const double t[30], const double G[144],
 int evra_tree_next(const double *q, const double *qd, const double *qdd, int next,
     struct evra_posture *p, double *rows, double *phi);
 
+/* What closes the loops of one sample after another, for evra_tile.c. */
+struct evra_single {
+    const modeler_closure *loops;
+    int (*posed)(const modeler_closure *, const double *, const double *, struct evra_posture *);
+    int (*next)(const double *, const double *, const double *, int, struct evra_posture *,
+                double *, double *);
+    int (*eliminated)(const modeler_closure *, const modeler_work *, const double **, const double **,
+                      const double **);
+};
+
 #ifdef __cplusplus
 }
 #endif

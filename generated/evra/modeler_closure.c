@@ -334,7 +334,7 @@ static int walk(const modeler_closure *loops, modeler_workspace *w, const modele
 int modeler_close(const modeler_closure *loops, const modeler_real *q, const modeler_real *start,
                   modeler_real *u, const modeler_work *work)
 {
-    static const modeler_kept nothing = {0, 0, 0, 0, {0, 0}};
+    static const modeler_kept nothing = {0, 0, 0, 0, 0, {0, 0}};
     modeler_workspace w;
 
     *work->kept = nothing;
@@ -353,6 +353,9 @@ int modeler_close(const modeler_closure *loops, const modeler_real *q, const mod
         w.trial[k] = start[k];
     }
     if (!corrected(loops, &w, INEXACT)) {
+        if (w.left <= 0) {
+            return MODELER_UNFINISHED;
+        }
         return modeler_factors(loops, &w, w.at) ? MODELER_OPEN : MODELER_SINGULAR;
     }
     return walk(loops, &w, q, u);

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "ee1dde961c6e4a43"
-#define FIVE_BAR_SIGNATURE_1 0xee1dde96u
-#define FIVE_BAR_SIGNATURE_2 0x1c6e4a43u
+#define FIVE_BAR_SIGNATURE "35e6c415cae802d5"
+#define FIVE_BAR_SIGNATURE_1 0x35e6c415u
+#define FIVE_BAR_SIGNATURE_2 0xcae802d5u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in five_bar_generator.h. */
@@ -36,7 +36,9 @@ extern "C" {
 #define FIVE_BAR_STANDARD_PARAMETERS 40
 #define FIVE_BAR_BASE_PARAMETERS 11
 #define FIVE_BAR_FREE_VARIABLES 4
-#define FIVE_BAR_EVALUATIONS 5000
+#ifndef FIVE_BAR_MAX_CLOSURE_EVALUATIONS
+#define FIVE_BAR_MAX_CLOSURE_EVALUATIONS 5000 /* in one call; -D sets another, in all files alike */
+#endif
 
 /* chi: standard parameters, columns of five_bar_regressor
  *
@@ -116,8 +118,8 @@ enum {
  *
  * Functions that close the loops return a status: 0 done; 1 the loops cannot be closed on the
  * straight way from the home posture to these values; 2 singular posture; 3 an input is not finite,
- * or an output would not be; 4 these values are so far that FIVE_BAR_EVALUATIONS of
- * the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
+ * or an output would not be; 4 these values are so far that FIVE_BAR_MAX_CLOSURE_EVALUATIONS
+ * evaluations of the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
  * mode is that of the home posture.
  */
 
@@ -292,6 +294,11 @@ struct five_bar_state {
 #endif
 int five_bar_state(const double *q, const double *qd, const double *previous,
     struct five_bar_state *state);
+
+/* The same with at most `evaluations` of the closure equations, and never more than
+ * FIVE_BAR_MAX_CLOSURE_EVALUATIONS: status 4 if these do not do. */
+int five_bar_state_with_bound(const double *q, const double *qd, const double *previous,
+    int evaluations, struct five_bar_state *state);
 #if defined(__cplusplus) && defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif

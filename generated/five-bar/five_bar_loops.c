@@ -8,8 +8,7 @@
 #include "modeler_closure.h"
 #include "five_bar_tree.h"
 
-#if FIVE_BAR_EVALUATIONS != MODELER_EVALUATIONS \
-    || MODELER_CLOSURE_PLACES(4, 2) != 8 \
+#if MODELER_CLOSURE_PLACES(4, 2) != 8 \
     || MODELER_CLOSURE_NUMBERS(4, 2, 19, 4) != 92
 #error the runtime has other limits
 #endif
@@ -58,6 +57,7 @@ static modeler_work work_of(struct five_bar_posture *p)
     work.kept = &p->kept;
     work.places = p->places;
     work.numbers = p->numbers;
+    work.evaluations = FIVE_BAR_MAX_CLOSURE_EVALUATIONS;
     return work;
 }
 
@@ -106,7 +106,7 @@ static void base_rows(struct five_bar_posture *p, double *rows, const double *qd
 
 const char *five_bar_signature(void)
 {
-    return "ee1dde961c6e4a43";
+    return "35e6c415cae802d5";
 }
 
 int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int next,
@@ -133,15 +133,25 @@ int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int
 int five_bar_state(const double *q, const double *qd, const double *previous,
     struct five_bar_state *state)
 {
+    return five_bar_state_with_bound(q, qd, previous, FIVE_BAR_MAX_CLOSURE_EVALUATIONS, state);
+}
+
+int five_bar_state_with_bound(const double *q, const double *qd, const double *previous,
+    int evaluations, struct five_bar_state *state)
+{
     struct five_bar_posture *const p = &state->at;
-    const modeler_work work = work_of(p);
+    modeler_work work = work_of(p);
+    const int reached = previous == p->u && (p->kept.valid != 0 || p->kept.reached != 0);
     int status = MODELER_NOT_FINITE;
 
+    if (evaluations < work.evaluations) {
+        work.evaluations = evaluations;
+    }
     if (modeler_finite(qd, 2) != 0) {
-        if (previous == p->u && !p->kept.valid) {
+        if (previous == p->u && !reached) {
             previous = NULL;
         }
-        if (previous == p->u) {
+        if (reached && p->kept.valid != 0) {
             status = modeler_close_soon(&five_bar_loops, q, p->u, &work);
         } else {
             status = modeler_close(&five_bar_loops, q,
@@ -151,6 +161,7 @@ int five_bar_state(const double *q, const double *qd, const double *previous,
     if (status == MODELER_CLOSED) {
         five_bar_moved(&five_bar_loops, qd, p);
     }
+    p->kept.reached = reached || status == MODELER_CLOSED;
     state->closed = status == MODELER_CLOSED;
     state->status = status;
     state->rated = 0;

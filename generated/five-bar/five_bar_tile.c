@@ -60,23 +60,13 @@ static const int column[] = {
 
 #define ENTRIES 16
 
-/* What closes loops one after another. */
-typedef struct {
-    const modeler_closure *loops;
-    int (*posed)(const modeler_closure *, const double *, const double *, struct five_bar_posture *);
-    int (*next)(const double *, const double *, const double *, int, struct five_bar_posture *,
-                double *, double *);
-    int (*eliminated)(const modeler_closure *, const modeler_work *, const double **, const double **,
-                      const double **);
-} single;
-
 #define MODELER_BODY "five_bar_tile.c"
 #include "modeler_versions.h"
 
 #ifdef MODELER_APART /* who loads this library has them in another one */
 #define SINGLES NULL
 #else
-static const single singles = {&five_bar_loops, five_bar_posed, five_bar_tree_next, modeler_eliminated};
+static const struct five_bar_single singles = {&five_bar_loops, five_bar_posed, five_bar_tree_next, modeler_eliminated};
 #define SINGLES &singles
 #endif
 
@@ -92,7 +82,7 @@ const modeler_tiled *five_bar_tiled(void)
 
 const char *five_bar_tile_signature(void)
 {
-    return "ee1dde961c6e4a43";
+    return "35e6c415cae802d5";
 }
 
 #else /* for one instruction set */
@@ -286,7 +276,7 @@ typedef struct {
 } closing_state;
 
 /* Samples one after another, from the posture of the last one. */
-static void one_by_one(const single *one, const double *q, const double *qd, const double *qdd,
+static void one_by_one(const struct five_bar_single *one, const double *q, const double *qd, const double *qdd,
                        size_t samples, closing_state *state, double *values, int *status)
 {
     const modeler_closure *const loops = one->loops;
@@ -313,7 +303,7 @@ static void one_by_one(const single *one, const double *q, const double *qd, con
     state->posed = next;
     state->anchored = 0;
     if (next != 0) {
-        const modeler_work work = {&state->p.kept, state->p.places, state->p.numbers};
+        const modeler_work work = {&state->p.kept, state->p.places, state->p.numbers, 0};
 
         state->anchored = one->eliminated(loops, &work, &f, &lu, &G);
     }
@@ -379,7 +369,7 @@ static void MODELER_VERSION(closing)(const modeler_tiled *robot, const double *q
                                      const double *qdd, size_t samples, void *memory,
                                      double *values, int *status)
 {
-    const single *const one = (const single *)robot->singles;
+    const struct five_bar_single *const one = (const struct five_bar_single *)robot->singles;
     closing_state *const state = (closing_state *)memory;
 
     for (size_t i = 0; i < samples; i += MODELER_WIDTH) {

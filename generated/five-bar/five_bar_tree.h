@@ -54,6 +54,16 @@ void five_bar_tree_rows(const double q[4], const double t[8], const double G[4],
 int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int next,
     struct five_bar_posture *p, double *rows, double *phi);
 
+/* What closes the loops of one sample after another, for five_bar_tile.c. */
+struct five_bar_single {
+    const modeler_closure *loops;
+    int (*posed)(const modeler_closure *, const double *, const double *, struct five_bar_posture *);
+    int (*next)(const double *, const double *, const double *, int, struct five_bar_posture *,
+                double *, double *);
+    int (*eliminated)(const modeler_closure *, const modeler_work *, const double **, const double **,
+                      const double **);
+};
+
 #ifdef __cplusplus
 }
 #endif

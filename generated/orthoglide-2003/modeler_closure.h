@@ -23,9 +23,6 @@
 extern "C" {
 #endif
 
-/* Evaluations of the closure equations in one call of modeler_close or modeler_close_next. */
-#define MODELER_EVALUATIONS 5000
-
 /* The loops of a robot; its functions are straight-line code without the zeros of df/du.
  *
  * `values` are all equations f, the `solved` independent ones first; cosines; the nonzeros of
@@ -69,6 +66,7 @@ typedef struct {
     modeler_kept *kept;
     int *places;           /* MODELER_CLOSURE_PLACES of them */
     modeler_real *numbers; /* MODELER_CLOSURE_NUMBERS of them */
+    int evaluations;       /* of the closure equations in one call, at most */
 } modeler_work;
 
 #define MODELER_CLOSURE_PLACES(unknowns, solved) (2 * (solved) + (unknowns))
@@ -77,7 +75,8 @@ typedef struct {
      (solved) * ((unknowns) - (solved) + 5) + 5 * (unknowns))
 
 /* Closed posture u with the given variables at q, from the closed posture `start`.
- * u may be `start`. Returns a status; u is unchanged unless it is MODELER_CLOSED. */
+ * u may be `start`. Returns a status, MODELER_UNFINISHED where work->evaluations do not do; u is
+ * unchanged unless it is MODELER_CLOSED. */
 int modeler_close(const modeler_closure *loops, const modeler_real *q, const modeler_real *start,
                   modeler_real *u, const modeler_work *work);
 

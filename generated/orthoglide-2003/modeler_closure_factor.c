@@ -38,7 +38,7 @@ modeler_workspace modeler_parts(const modeler_closure *loops, const modeler_work
     w.trial = take(&numbers, n);
     w.start = take(&numbers, n);
     w.at = w.kept->at;
-    w.left = MODELER_EVALUATIONS;
+    w.left = work->evaluations;
     w.brief = 0;
     return w;
 }

@@ -1,6 +1,6 @@
 # find_package(orthoglide_2003) takes any, find_package(orthoglide_2003 2) any of this C interface,
-# find_package(orthoglide_2003 2.8041.57133.18430) only what has the signature 1f69df2d47fe4219.
-set(PACKAGE_VERSION 2.8041.57133.18430)
+# find_package(orthoglide_2003 2.35661.35230.58386) only what has the signature 8b4d899ee4120f16.
+set(PACKAGE_VERSION 2.35661.35230.58386)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

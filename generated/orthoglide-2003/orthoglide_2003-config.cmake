@@ -1,6 +1,6 @@
 # find_package(orthoglide_2003) gives the targets orthoglide_2003::orthoglide_2003 and orthoglide_2003::batch: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. orthoglide_2003_SIGNATURE is that of the whole folder.
-set(orthoglide_2003_SIGNATURE 1f69df2d47fe4219)
+set(orthoglide_2003_SIGNATURE 8b4d899ee4120f16)
 
 if(orthoglide_2003_FIND_COMPONENTS)
   set(_modeler_kinds ${orthoglide_2003_FIND_COMPONENTS})
@@ -13,7 +13,7 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_2003-${_modeler_kind}-1f69df2d47fe4219.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_2003-${_modeler_kind}-8b4d899ee4120f16.cmake")
   if(TARGET orthoglide_2003::orthoglide_2003 OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
@@ -27,7 +27,7 @@ foreach(_modeler_kind IN LISTS _modeler_kinds)
         set(_modeler_name liborthoglide_2003_model)
       endif()
       if(_modeler_kind STREQUAL "shared")
-        string(APPEND _modeler_name .so.1f69df2d47fe4219)
+        string(APPEND _modeler_name .so.8b4d899ee4120f16)
       else()
         string(APPEND _modeler_name .a)
       endif()
@@ -47,5 +47,5 @@ endforeach()
 if(NOT TARGET orthoglide_2003::orthoglide_2003)
   set(orthoglide_2003_FOUND FALSE)
   set(orthoglide_2003_NOT_FOUND_MESSAGE
-    "no library of signature 1f69df2d47fe4219 here that is ${_modeler_kinds}; install it again")
+    "no library of signature 8b4d899ee4120f16 here that is ${_modeler_kinds}; install it again")
 endif()

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2003_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2003_SIGNATURE "1f69df2d47fe4219"
-#define ORTHOGLIDE_2003_SIGNATURE_1 0x1f69df2du
-#define ORTHOGLIDE_2003_SIGNATURE_2 0x47fe4219u
+#define ORTHOGLIDE_2003_SIGNATURE "8b4d899ee4120f16"
+#define ORTHOGLIDE_2003_SIGNATURE_1 0x8b4d899eu
+#define ORTHOGLIDE_2003_SIGNATURE_2 0xe4120f16u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in orthoglide_2003_generator.h. */
@@ -36,7 +36,9 @@ extern "C" {
 #define ORTHOGLIDE_2003_STANDARD_PARAMETERS 163
 #define ORTHOGLIDE_2003_BASE_PARAMETERS 43
 #define ORTHOGLIDE_2003_FREE_VARIABLES 12
-#define ORTHOGLIDE_2003_EVALUATIONS 5000
+#ifndef ORTHOGLIDE_2003_MAX_CLOSURE_EVALUATIONS
+#define ORTHOGLIDE_2003_MAX_CLOSURE_EVALUATIONS 5000 /* in one call; -D sets another, in all files alike */
+#endif
 
 /* chi: standard parameters, columns of orthoglide_2003_regressor
  *
@@ -331,8 +333,8 @@ enum {
  *
  * Functions that close the loops return a status: 0 done; 1 the loops cannot be closed on the
  * straight way from the home posture to these values; 2 singular posture; 3 an input is not finite,
- * or an output would not be; 4 these values are so far that ORTHOGLIDE_2003_EVALUATIONS of
- * the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
+ * or an output would not be; 4 these values are so far that ORTHOGLIDE_2003_MAX_CLOSURE_EVALUATIONS
+ * evaluations of the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
  * mode is that of the home posture.
  */
 
@@ -574,6 +576,11 @@ struct orthoglide_2003_state {
 #endif
 int orthoglide_2003_state(const double *q, const double *qd, const double *previous,
     struct orthoglide_2003_state *state);
+
+/* The same with at most `evaluations` of the closure equations, and never more than
+ * ORTHOGLIDE_2003_MAX_CLOSURE_EVALUATIONS: status 4 if these do not do. */
+int orthoglide_2003_state_with_bound(const double *q, const double *qd, const double *previous,
+    int evaluations, struct orthoglide_2003_state *state);
 #if defined(__cplusplus) && defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif

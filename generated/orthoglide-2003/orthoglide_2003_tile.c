@@ -74,23 +74,13 @@ static const int column[] = {
 
 #define ENTRIES 105
 
-/* What closes loops one after another. */
-typedef struct {
-    const modeler_closure *loops;
-    int (*posed)(const modeler_closure *, const double *, const double *, struct orthoglide_2003_posture *);
-    int (*next)(const double *, const double *, const double *, int, struct orthoglide_2003_posture *,
-                double *, double *);
-    int (*eliminated)(const modeler_closure *, const modeler_work *, const double **, const double **,
-                      const double **);
-} single;
-
 #define MODELER_BODY "orthoglide_2003_tile.c"
 #include "modeler_versions.h"
 
 #ifdef MODELER_APART /* who loads this library has them in another one */
 #define SINGLES NULL
 #else
-static const single singles = {&orthoglide_2003_loops, orthoglide_2003_posed, orthoglide_2003_tree_next, modeler_eliminated};
+static const struct orthoglide_2003_single singles = {&orthoglide_2003_loops, orthoglide_2003_posed, orthoglide_2003_tree_next, modeler_eliminated};
 #define SINGLES &singles
 #endif
 
@@ -106,7 +96,7 @@ const modeler_tiled *orthoglide_2003_tiled(void)
 
 const char *orthoglide_2003_tile_signature(void)
 {
-    return "1f69df2d47fe4219";
+    return "8b4d899ee4120f16";
 }
 
 #else /* for one instruction set */
@@ -749,7 +739,7 @@ typedef struct {
 } closing_state;
 
 /* Samples one after another, from the posture of the last one. */
-static void one_by_one(const single *one, const double *q, const double *qd, const double *qdd,
+static void one_by_one(const struct orthoglide_2003_single *one, const double *q, const double *qd, const double *qdd,
                        size_t samples, closing_state *state, double *values, int *status)
 {
     const modeler_closure *const loops = one->loops;
@@ -776,7 +766,7 @@ static void one_by_one(const single *one, const double *q, const double *qd, con
     state->posed = next;
     state->anchored = 0;
     if (next != 0) {
-        const modeler_work work = {&state->p.kept, state->p.places, state->p.numbers};
+        const modeler_work work = {&state->p.kept, state->p.places, state->p.numbers, 0};
 
         state->anchored = one->eliminated(loops, &work, &f, &lu, &G);
     }
@@ -845,7 +835,7 @@ static void MODELER_VERSION(closing)(const modeler_tiled *robot, const double *q
                                      const double *qdd, size_t samples, void *memory,
                                      double *values, int *status)
 {
-    const single *const one = (const single *)robot->singles;
+    const struct orthoglide_2003_single *const one = (const struct orthoglide_2003_single *)robot->singles;
     closing_state *const state = (closing_state *)memory;
 
     for (size_t i = 0; i < samples; i += MODELER_WIDTH) {

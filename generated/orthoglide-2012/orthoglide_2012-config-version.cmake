@@ -1,6 +1,6 @@
 # find_package(orthoglide_2012) takes any, find_package(orthoglide_2012 2) any of this C interface,
-# find_package(orthoglide_2012 2.61688.57657.38579) only what has the signature f0f8e13996b3554d.
-set(PACKAGE_VERSION 2.61688.57657.38579)
+# find_package(orthoglide_2012 2.12967.39338.53061) only what has the signature 32a799aacf456c49.
+set(PACKAGE_VERSION 2.12967.39338.53061)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

@@ -1,6 +1,6 @@
 # find_package(orthoglide_2012) gives the targets orthoglide_2012::orthoglide_2012 and orthoglide_2012::batch: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. orthoglide_2012_SIGNATURE is that of the whole folder.
-set(orthoglide_2012_SIGNATURE f0f8e13996b3554d)
+set(orthoglide_2012_SIGNATURE 32a799aacf456c49)
 
 if(orthoglide_2012_FIND_COMPONENTS)
   set(_modeler_kinds ${orthoglide_2012_FIND_COMPONENTS})
@@ -13,7 +13,7 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_2012-${_modeler_kind}-f0f8e13996b3554d.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/orthoglide_2012-${_modeler_kind}-32a799aacf456c49.cmake")
   if(TARGET orthoglide_2012::orthoglide_2012 OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
@@ -27,7 +27,7 @@ foreach(_modeler_kind IN LISTS _modeler_kinds)
         set(_modeler_name liborthoglide_2012_model)
       endif()
       if(_modeler_kind STREQUAL "shared")
-        string(APPEND _modeler_name .so.f0f8e13996b3554d)
+        string(APPEND _modeler_name .so.32a799aacf456c49)
       else()
         string(APPEND _modeler_name .a)
       endif()
@@ -47,5 +47,5 @@ endforeach()
 if(NOT TARGET orthoglide_2012::orthoglide_2012)
   set(orthoglide_2012_FOUND FALSE)
   set(orthoglide_2012_NOT_FOUND_MESSAGE
-    "no library of signature f0f8e13996b3554d here that is ${_modeler_kinds}; install it again")
+    "no library of signature 32a799aacf456c49 here that is ${_modeler_kinds}; install it again")
 endif()

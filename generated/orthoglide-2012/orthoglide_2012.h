@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What orthoglide_2012_signature() of the library that belongs to this header returns. */
-#define ORTHOGLIDE_2012_SIGNATURE "f0f8e13996b3554d"
-#define ORTHOGLIDE_2012_SIGNATURE_1 0xf0f8e139u
-#define ORTHOGLIDE_2012_SIGNATURE_2 0x96b3554du
+#define ORTHOGLIDE_2012_SIGNATURE "32a799aacf456c49"
+#define ORTHOGLIDE_2012_SIGNATURE_1 0x32a799aau
+#define ORTHOGLIDE_2012_SIGNATURE_2 0xcf456c49u
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in orthoglide_2012_generator.h. */
@@ -36,7 +36,9 @@ extern "C" {
 #define ORTHOGLIDE_2012_STANDARD_PARAMETERS 196
 #define ORTHOGLIDE_2012_BASE_PARAMETERS 53
 #define ORTHOGLIDE_2012_FREE_VARIABLES 12
-#define ORTHOGLIDE_2012_EVALUATIONS 5000
+#ifndef ORTHOGLIDE_2012_MAX_CLOSURE_EVALUATIONS
+#define ORTHOGLIDE_2012_MAX_CLOSURE_EVALUATIONS 5000 /* in one call; -D sets another, in all files alike */
+#endif
 
 /* chi: standard parameters, columns of orthoglide_2012_regressor
  *
@@ -392,8 +394,8 @@ enum {
  *
  * Functions that close the loops return a status: 0 done; 1 the loops cannot be closed on the
  * straight way from the home posture to these values; 2 singular posture; 3 an input is not finite,
- * or an output would not be; 4 these values are so far that ORTHOGLIDE_2012_EVALUATIONS of
- * the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
+ * or an output would not be; 4 these values are so far that ORTHOGLIDE_2012_MAX_CLOSURE_EVALUATIONS
+ * evaluations of the closure equations do not do: no call makes more. Outputs are NaN unless it is 0. The assembly
  * mode is that of the home posture.
  */
 
@@ -635,6 +637,11 @@ struct orthoglide_2012_state {
 #endif
 int orthoglide_2012_state(const double *q, const double *qd, const double *previous,
     struct orthoglide_2012_state *state);
+
+/* The same with at most `evaluations` of the closure equations, and never more than
+ * ORTHOGLIDE_2012_MAX_CLOSURE_EVALUATIONS: status 4 if these do not do. */
+int orthoglide_2012_state_with_bound(const double *q, const double *qd, const double *previous,
+    int evaluations, struct orthoglide_2012_state *state);
 #if defined(__cplusplus) && defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif

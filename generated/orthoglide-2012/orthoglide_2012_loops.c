@@ -8,8 +8,7 @@
 #include "modeler_closure.h"
 #include "orthoglide_2012_tree.h"
 
-#if ORTHOGLIDE_2012_EVALUATIONS != MODELER_EVALUATIONS \
-    || MODELER_CLOSURE_PLACES(12, 9) != 30 \
+#if MODELER_CLOSURE_PLACES(12, 9) != 30 \
     || MODELER_CLOSURE_NUMBERS(12, 9, 48, 25) != 458
 #error the runtime has other limits
 #endif
@@ -80,6 +79,7 @@ static modeler_work work_of(struct orthoglide_2012_posture *p)
     work.kept = &p->kept;
     work.places = p->places;
     work.numbers = p->numbers;
+    work.evaluations = ORTHOGLIDE_2012_MAX_CLOSURE_EVALUATIONS;
     return work;
 }
 
@@ -128,7 +128,7 @@ static void base_rows(struct orthoglide_2012_posture *p, double *rows, const dou
 
 const char *orthoglide_2012_signature(void)
 {
-    return "f0f8e13996b3554d";
+    return "32a799aacf456c49";
 }
 
 int orthoglide_2012_tree_next(const double *q, const double *qd, const double *qdd, int next,
@@ -155,15 +155,25 @@ int orthoglide_2012_tree_next(const double *q, const double *qd, const double *q
 int orthoglide_2012_state(const double *q, const double *qd, const double *previous,
     struct orthoglide_2012_state *state)
 {
+    return orthoglide_2012_state_with_bound(q, qd, previous, ORTHOGLIDE_2012_MAX_CLOSURE_EVALUATIONS, state);
+}
+
+int orthoglide_2012_state_with_bound(const double *q, const double *qd, const double *previous,
+    int evaluations, struct orthoglide_2012_state *state)
+{
     struct orthoglide_2012_posture *const p = &state->at;
-    const modeler_work work = work_of(p);
+    modeler_work work = work_of(p);
+    const int reached = previous == p->u && (p->kept.valid != 0 || p->kept.reached != 0);
     int status = MODELER_NOT_FINITE;
 
+    if (evaluations < work.evaluations) {
+        work.evaluations = evaluations;
+    }
     if (modeler_finite(qd, 3) != 0) {
-        if (previous == p->u && !p->kept.valid) {
+        if (previous == p->u && !reached) {
             previous = NULL;
         }
-        if (previous == p->u) {
+        if (reached && p->kept.valid != 0) {
             status = modeler_close_soon(&orthoglide_2012_loops, q, p->u, &work);
         } else {
             status = modeler_close(&orthoglide_2012_loops, q,
@@ -173,6 +183,7 @@ int orthoglide_2012_state(const double *q, const double *qd, const double *previ
     if (status == MODELER_CLOSED) {
         orthoglide_2012_moved(&orthoglide_2012_loops, qd, p);
     }
+    p->kept.reached = reached || status == MODELER_CLOSED;
     state->closed = status == MODELER_CLOSED;
     state->status = status;
     state->rated = 0;

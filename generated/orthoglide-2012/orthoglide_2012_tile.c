@@ -61,23 +61,13 @@ static const int column[] = {
 
 #define ENTRIES 139
 
-/* What closes loops one after another. */
-typedef struct {
-    const modeler_closure *loops;
-    int (*posed)(const modeler_closure *, const double *, const double *, struct orthoglide_2012_posture *);
-    int (*next)(const double *, const double *, const double *, int, struct orthoglide_2012_posture *,
-                double *, double *);
-    int (*eliminated)(const modeler_closure *, const modeler_work *, const double **, const double **,
-                      const double **);
-} single;
-
 #define MODELER_BODY "orthoglide_2012_tile.c"
 #include "modeler_versions.h"
 
 #ifdef MODELER_APART /* who loads this library has them in another one */
 #define SINGLES NULL
 #else
-static const single singles = {&orthoglide_2012_loops, orthoglide_2012_posed, orthoglide_2012_tree_next, modeler_eliminated};
+static const struct orthoglide_2012_single singles = {&orthoglide_2012_loops, orthoglide_2012_posed, orthoglide_2012_tree_next, modeler_eliminated};
 #define SINGLES &singles
 #endif
 
@@ -93,7 +83,7 @@ const modeler_tiled *orthoglide_2012_tiled(void)
 
 const char *orthoglide_2012_tile_signature(void)
 {
-    return "f0f8e13996b3554d";
+    return "32a799aacf456c49";
 }
 
 #else /* for one instruction set */
@@ -773,7 +763,7 @@ typedef struct {
 } closing_state;
 
 /* Samples one after another, from the posture of the last one. */
-static void one_by_one(const single *one, const double *q, const double *qd, const double *qdd,
+static void one_by_one(const struct orthoglide_2012_single *one, const double *q, const double *qd, const double *qdd,
                        size_t samples, closing_state *state, double *values, int *status)
 {
     const modeler_closure *const loops = one->loops;
@@ -800,7 +790,7 @@ static void one_by_one(const single *one, const double *q, const double *qd, con
     state->posed = next;
     state->anchored = 0;
     if (next != 0) {
-        const modeler_work work = {&state->p.kept, state->p.places, state->p.numbers};
+        const modeler_work work = {&state->p.kept, state->p.places, state->p.numbers, 0};
 
         state->anchored = one->eliminated(loops, &work, &f, &lu, &G);
     }
@@ -869,7 +859,7 @@ static void MODELER_VERSION(closing)(const modeler_tiled *robot, const double *q
                                      const double *qdd, size_t samples, void *memory,
                                      double *values, int *status)
 {
-    const single *const one = (const single *)robot->singles;
+    const struct orthoglide_2012_single *const one = (const struct orthoglide_2012_single *)robot->singles;
     closing_state *const state = (closing_state *)memory;
 
     for (size_t i = 0; i < samples; i += MODELER_WIDTH) {

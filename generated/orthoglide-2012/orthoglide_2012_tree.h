@@ -66,6 +66,16 @@ void orthoglide_2012_tree_rows(const double q[12], const double t[12], const dou
 int orthoglide_2012_tree_next(const double *q, const double *qd, const double *qdd, int next,
     struct orthoglide_2012_posture *p, double *rows, double *phi);
 
+/* What closes the loops of one sample after another, for orthoglide_2012_tile.c. */
+struct orthoglide_2012_single {
+    const modeler_closure *loops;
+    int (*posed)(const modeler_closure *, const double *, const double *, struct orthoglide_2012_posture *);
+    int (*next)(const double *, const double *, const double *, int, struct orthoglide_2012_posture *,
+                double *, double *);
+    int (*eliminated)(const modeler_closure *, const modeler_work *, const double **, const double **,
+                      const double **);
+};
+
 #ifdef __cplusplus
 }
 #endif

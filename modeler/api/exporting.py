@@ -1,18 +1,23 @@
 """A robot or a model as a file for another program: URDF, MJCF, SDF, CasADi, FMU."""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from modeler.api.code_exports import OF_EQUATIONS, code_exported
-from modeler.api.workflow import observe, recompile
+from modeler.api.workflow import compile_model, observe, recompile
+from modeler.codegen import derive, generate
 from modeler.core.errors import DataError
 from modeler.core.files import write_unless_other
 from modeler.derivation import with_home
 from modeler.estimation import IdentifiedModel
-from modeler.exports import Exported, Torques, exported, format_of
+from modeler.exports import Equations, Exported, Torques, exported, format_of
 from modeler.robot import Robot
+
+_STATES, _SEED = 200, 1
+_REACH = 0.05  # rad, m: of random motion around home
 
 
 def export(
@@ -47,7 +52,8 @@ def export(
         if isinstance(thing, Robot) and thing.loops:
             thing = with_home(thing).in_text(thing)
         torques = _torques(thing) if isinstance(thing, IdentifiedModel) else None
-        found = exported(thing, kind, None if like is None else Path(like), torques)
+        equations = partial(_equations, thing) if isinstance(thing, Robot) else None
+        found = exported(thing, kind, None if like is None else Path(like), torques, equations)
     if out is not None:
         for name, data in found.files.items():
             write_unless_other(Path(out) / name, data, force)
@@ -60,6 +66,22 @@ def _of_equations(thing: Robot | IdentifiedModel, kind: str, like: str | Path | 
     if like is not None:
         raise DataError(f"--like {like}: is for robot files, and --to says {kind}; leave out one")
     return code_exported(thing, kind)
+
+
+def _equations(robot: Robot) -> Equations:
+    """Its parameters, and torques at random motion around home, which are asked for rarely."""
+    emitted = generate(derive(robot))
+
+    def torques(beta: np.ndarray) -> np.ndarray:
+        compiled, rng = compile_model(emitted), np.random.default_rng(_SEED)
+        home = [robot.home.get(joint.name, 0.0) for joint in robot.coordinates]
+        q, qd, qdd = rng.uniform(-1.0, 1.0, (3, _STATES, len(home)))
+        q = home + _REACH * q
+        if emitted.spec.closure is not None:
+            q = q[compiled.closing_status(q) == 0]
+        return np.asarray(compiled.inverse_dynamics(q, qd[: len(q)], qdd[: len(q)], beta))
+
+    return Equations(emitted.spec, torques)
 
 
 def _torques(model: IdentifiedModel) -> Torques | None:

@@ -97,7 +97,8 @@ def casadi_functions(
 ) -> tuple[list[casadi.Function], tuple[str, ...]]:
     """The functions of a robot, and what is not among them; loops are closed by Newton from home.
 
-    `forward_dynamics` and `smooth_forward_dynamics` give qdd of M qdd = tau - c - g - f.
+    `forward_dynamics` and `smooth_forward_dynamics` give qdd of M qdd = tau - c - g - f, by Newton
+    where f reads qdd.
     """
     beta = layout.beta_symbols(model, base)
     given = layout.arguments_of(model.robot.free, model, base)
@@ -119,11 +120,9 @@ def casadi_functions(
     composed = [f.role for f in listed if f.composed and f.role != "forward_dynamics"]
     if composed:
         missing = (f"not there: {', '.join(composed)}, which return a status in C",)
-    if efforts(model, beta).turns:
-        missing += ("not there: forward_dynamics, for friction reads accelerations here",)
-    else:
-        for head in ("", SMOOTH)[: 1 + bool(turning)]:
-            found[f"{head}forward_dynamics"] = _forward(head, found)
+    solve = _forward_by_newton if efforts(model, beta).turns else _forward
+    for head in ("", SMOOTH)[: 1 + bool(turning)]:
+        found[f"{head}forward_dynamics"] = solve(head, found)
     return list(found.values()), missing
 
 
@@ -254,6 +253,23 @@ def _forward(head: str, found: Mapping[str, casadi.Function]) -> casadi.Function
     names = ["q", "qd", "tau", *(n for n in given if n not in ("q", "qd", "qdd"))]
     inputs = [{**given, "tau": tau}[n] for n in names]
     return casadi.Function(f"{head}forward_dynamics", inputs, [solved], names, ["qdd"])
+
+
+def _forward_by_newton(head: str, found: Mapping[str, casadi.Function]) -> casadi.Function:
+    """Qdd of tau where friction reads accelerations, or expressions that cancel do."""
+    torques = found[f"{head}inverse_dynamics"]
+    given = _symbols(torques)
+    qdd = given.pop("qdd")
+    given = {"q": given.pop("q"), "qd": given.pop("qd"), "tau": casadi.SX.sym("tau", qdd.numel()),
+             **given}  # fmt: skip
+    tau = torques.call([{**given, "qdd": qdd}[name] for name in torques.name_in()])[0]
+    problem = {"x": qdd, "p": casadi.vertcat(*given.values()), "g": tau - given["tau"]}
+    solver = casadi.rootfinder(f"{head}accelerations", "newton", problem, {"abstol": 1e-11})
+    inputs = {name: casadi.MX.sym(name, x.numel()) for name, x in given.items()}
+    start = casadi.DM.zeros(qdd.numel())
+    solved = solver(start, casadi.vertcat(*inputs.values()))
+    names = list(inputs)
+    return casadi.Function(f"{head}forward_dynamics", [*inputs.values()], [solved], names, ["qdd"])
 
 
 def _with_values(function: casadi.Function, values: Sequence[float]) -> casadi.Function:

@@ -51,8 +51,11 @@ class _Calls:
     frames: Mapping[str, int]
     edges: Mapping[str, frozenset[str]]
 
-    def deepest(self, name: str) -> tuple[int, frozenset[str]]:
-        """Bytes of stack of a call at most, and the functions outside that it may reach."""
+    def deepest(self, name: str) -> tuple[int | None, frozenset[str]]:
+        """Bytes of stack of a call at most, and the functions outside that it may reach.
+
+        None where the graph has no body of that name.
+        """
 
         @cache
         def of(each: str) -> tuple[int, frozenset[str]]:
@@ -62,7 +65,7 @@ class _Calls:
             deepest = max((stack for stack, _ in found), default=0)
             return self.frames[each] + deepest, frozenset().union(*(out for _, out in found))
 
-        return of(name)
+        return of(name) if name in self.frames else (None, frozenset())
 
 
 def with_cost(emitted: Emitted, machine: Machine) -> Emitted:
@@ -141,6 +144,11 @@ def _call_graph(folder: Path, objdump: str, objects: Sequence[str]) -> _Calls:
         frames |= {node: int(size) for node, size, _ in _NODE.findall(text)}
         for caller, callee in _EDGE.findall(text):
             edges.setdefault(caller, set()).add(callee)
+    for node in [*frames]:  # versions for several processors: `file.c:name.fma`
+        name, _, version = node.rpartition(":")[2].partition(".")
+        if version and version != "resolver" and (name not in frames or not frames[name]):
+            frames[name] = 0
+            edges.setdefault(name, set()).add(node)
     relocations = _RELOCATION.findall(_run(folder, objdump, "-r", *objects))
     taken = {symbol for kind, symbol in relocations if not kind.endswith(_CALLS)}
     tables = {symbol for kind, symbol in relocations if kind.endswith(("_64", "_ABS32", "_ABS64"))}

@@ -200,9 +200,10 @@ def _independent(model: SymbolicModel, proved: Certificate, numeric: NumericRank
 def _numeric(
     model: SymbolicModel, sample: Sample, numeric: NumericRank, seed: int, why: str
 ) -> BaseParameters:
-    from modeler.derivation.enclosed import ball_rank
+    from modeler.derivation.enclosed import ball_rank, enclosed_factors
 
-    parameters, unidentifiable, bound = numeric_grouping(model, sample, numeric)
+    exact = partial(enclosed_factors, model, sample, seed)
+    parameters, unidentifiable, bound = numeric_grouping(model, sample, numeric, exact)
     proved = ball_rank(model, [p.column for p in parameters], sample, seed)
     statement = _NUMERIC.format(why=why, bound=bound) + _independent(model, proved, numeric)
     found = parameters, unidentifiable

@@ -234,7 +234,7 @@ def ball_rank(
     for bits in _BITS:
         with flint().ctx.workprec(bits):
             try:
-                matrix = choice.matrix()
+                matrix = choice.matrix(choice.kept)
             except NotEnclosed as error:
                 why = str(error)
                 continue
@@ -242,6 +242,36 @@ def ball_rank(
                 return BallRank(len(kept), bits, seed, choice.exact_states(), choice.places())
             why = f"the balls of a minor of {len(kept)} rows hold a singular matrix"
     return SampledRank(len(kept), seed, f"{why} ({_BITS[-1]} bits)")
+
+
+def enclosed_factors(
+    model: SymbolicModel, sample: Sample, seed: int, kept: Sequence[int], dropped: Sequence[int]
+) -> list[list[Ball]] | None:
+    """(kept, dropped) factors of the columns that depend on the kept ones, as balls.
+
+    Args:
+        model: of the robot, at its given lengths and angles.
+        sample: whose closed postures are used.
+        seed: of the states.
+        kept: numbers of independent columns.
+        dropped: numbers of columns that are sums of these.
+
+    Returns:
+        None where a posture is not proven to exist, or the states do not span the columns.
+    """
+    choice = _Choice(model, kept, sample, seed)
+    if len(choice.rows) < len(kept) or not dropped:
+        return None
+    with flint().ctx.workprec(_BITS[-1]):
+        try:
+            rows = flint().arb_mat(choice.matrix([*kept, *dropped])).tolist()
+            scaled, right = ([row[part] for row in rows] for part in
+                             (slice(None, len(kept)), slice(len(kept), None)))  # fmt: skip
+            factors = flint().arb_mat(scaled).solve(flint().arb_mat(right)).tolist()
+        except (NotEnclosed, ZeroDivisionError):
+            return None
+        scale = [exact_ball(float(x)) for x in choice.scale]
+        return [[x * by for x in row] for row, by in zip(factors, scale, strict=True)]
 
 
 class _Choice:
@@ -302,8 +332,8 @@ class _Choice:
             for i in self.used
         )
 
-    def matrix(self) -> list[list[Any]]:
-        """The chosen rows in balls, columns scaled.
+    def matrix(self, columns: Sequence[int]) -> list[list[Any]]:
+        """The chosen rows of these columns in balls; those of the base columns are scaled.
 
         Raises:
             NotEnclosed: a posture is not proven to exist.
@@ -311,7 +341,7 @@ class _Choice:
         model = self.model
         symbols = symbol_balls(model.robot)
         enclosures = Enclosures(model, symbols)
-        place = {column: i for i, column in enumerate(self.kept)}
+        place = {column: i for i, column in enumerate(columns)}
         entries = {at: x for at, x in model.regressor.items() if at[1] in place}
         regressor = ball_function(model.graph, list(entries.values()), symbols)
         found = {}
@@ -324,7 +354,8 @@ class _Choice:
                 for (joint, column), value in zip(entries, values, strict=True):
                     row[place[column]] += state.coupling[joint][k] * value
                 found[i * self.width + k] = row
-        scale = [exact_ball(float(x)) for x in self.scale]
+        known = dict(zip(self.kept, self.scale.tolist(), strict=True))
+        scale = [exact_ball(known.get(column, 1.0)) for column in columns]
         return [[x * y for x, y in zip(found[row], scale, strict=True)] for row in self.rows]
 
 

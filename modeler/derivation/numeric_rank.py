@@ -1,9 +1,10 @@
 """The same question in floating point: rank of the torque regressor at random states."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
+from typing import Any
 
 import numpy as np
 import sympy
@@ -183,13 +184,16 @@ def numeric_rank(sample: Sample, columns: Sequence[int]) -> NumericRank:
 # are then numbers with an error bound, never symbols that might be wrong.
 
 
-_DIGITS = 10
+Enclosed = Callable[[Sequence[int], Sequence[int]], list[list[Any]] | None]
+"""From kept and dropped columns to the (kept, dropped) factors as balls; None without proof."""
+
+_DIGITS = 17  # of a double
 _NOTHING = 1e-9
-"""A factor below this is 0, a number this near to a whole one is that."""
+"""In floating point, a factor below this is 0, a number this near to a whole one is that."""
 
 
 def numeric_grouping(
-    model: SymbolicModel, sample: Sample, numeric: NumericRank
+    model: SymbolicModel, sample: Sample, numeric: NumericRank, enclosed: Enclosed
 ) -> tuple[tuple[BaseParameter, ...], tuple[str, ...], float]:
     """First-come independent columns of the torque regressor at random states, nominal geometry.
 
@@ -201,6 +205,7 @@ def numeric_grouping(
         model: of the robot.
         sample: its regressor.
         numeric: the rank of that.
+        enclosed: the factors with all digits.
 
     Returns:
         Base parameters, parameters without effect, and the error bound of the coefficients.
@@ -215,6 +220,13 @@ def numeric_grouping(
     absent = {i for i, length in enumerate(lengths) if length <= ZERO * lengths.max(initial=0.0)}
     order = [i for i in priority_order(model.names, model.robot.kept_first) if i not in absent]
     kept, relations, bound = _first_come(W, lengths, order, tolerance)
+    balls = enclosed(kept, list(relations))
+    if balls is not None:
+        relations = {
+            column: {b: _whole(row[k]) for b, row in zip(kept, balls, strict=True)
+                     if not row[k].contains(0)}
+            for k, column in enumerate(relations)
+        }  # fmt: skip
     terms = {b: [Term(sympy.Integer(1), model.names[b])] for b in sorted(kept)}
     for column in sorted(relations):
         for b, factor in relations[column].items():
@@ -258,7 +270,15 @@ def _number(value: float) -> sympy.Expr:
     if abs(value - round(value)) < _NOTHING and round(value):
         return sympy.Integer(round(value))
     # Its decimals are its value: what is printed is what is computed with.
-    return sympy.Float(float(f"{value:.{_DIGITS}g}"))
+    return sympy.Float(repr(value), _DIGITS)
+
+
+def _whole(factor: Any) -> sympy.Expr:
+    """A factor in a ball: the whole number that it holds, else its double."""
+    near = round(float(factor.mid()))
+    if factor.contains(near):
+        return sympy.Integer(near)
+    return sympy.Float(repr(float(factor.mid())), _DIGITS)
 
 
 # Base torque against standard torque at random states.

@@ -349,7 +349,8 @@ def expression_formula(expression: sympy.Expr, halves: bool = False) -> Formula:
             "fraction", parts=(expression_formula(top, halves), expression_formula(bottom, halves))
         )
     if expression.is_Number:
-        text = f"{'-' if expression.is_negative else ''}{digits}" if digits else str(expression)
+        sign = "-" if expression.is_negative else ""
+        text = f"{sign}{digits}" if digits else _Text(halves).doprint(expression)
         return row(operator("-"), number(text[1:])) if text.startswith("-") else number(text)
     if expression.is_Mul:
         sign, size = split_sign(expression)

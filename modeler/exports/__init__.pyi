@@ -1,3 +1,4 @@
+from .bodies import Equations as Equations
 from .capsules import capsules_on_links as capsules_on_links
 from .held import NotHeld as NotHeld, Torques as Torques
 from .result import Exported as Exported, Value as Value

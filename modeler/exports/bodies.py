@@ -8,6 +8,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.core.manifest import ModuleSpec
 from modeler.estimation import (
     PREFIXES,
     IdentifiedModel,
@@ -18,7 +19,15 @@ from modeler.estimation import (
     pseudo_inertia_of,
 )
 from modeler.exports.capsules import weights
-from modeler.exports.completion import Beforehand, Completed, buildable, conditioned, impossible
+from modeler.exports.completion import (
+    INSIDE,
+    Beforehand,
+    Completed,
+    buildable,
+    conditioned,
+    impossible,
+    least,
+)
 from modeler.robot import Pose, Robot, robot_from_text
 
 SHARE = 0.3
@@ -28,6 +37,12 @@ _UNKNOWN = 1.0  # the same of a capsule
 _WIDE = 100.0  # how sure a value is of which nothing is known, over what the torques allow
 _LOOSE = (1e-2, 0.1, 1.0)  # of what is known beforehand: by how much values of no body may move
 _ROUNDING = 1e-15  # of the size of a number
+LEAST = 1e-14
+"""kg m2: MuJoCo takes no smaller moment of inertia (its mjEPS of full inertias)."""
+
+_NO_BODY = 1e-12  # an eigenvalue of a pseudo-inertia that rounding does not explain
+_THIN = 1e-10  # of the inertia of a capsule of its mass: what a rod or a point gets
+_ROUND = np.array([1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0])  # the inertia of a ball
 _DENSITIES = (1e-3, 1e3)  # what a fit may say of a capsule's
 
 HELD = {
@@ -209,6 +224,19 @@ def deviations(
 # From a robot or a model to its physics.
 
 
+@dataclass(frozen=True)
+class Equations:
+    """What a robot's C computes.
+
+    Attributes:
+        spec: its parameters.
+        torques: of base parameters, at random motion.
+    """
+
+    spec: ModuleSpec
+    torques: Callable[[np.ndarray], np.ndarray]
+
+
 @dataclass(frozen=True, eq=False)
 class Original:
     """What a file that is to be written anew says of the links.
@@ -229,8 +257,17 @@ def robot_of(thing: Robot | IdentifiedModel) -> Robot:
     return robot_from_text(thing.robot_text, f"model of {thing.spec.robot}, robot_text")
 
 
-def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
+def physics_of(
+    thing: Robot | IdentifiedModel,
+    original: Original,
+    equations: Callable[[], Equations] | None = None,
+) -> Physics:
     """The numbers of a robot, or of a model.
+
+    Args:
+        thing: it.
+        original: a file that is to be written anew.
+        equations: of a robot that leaves parameters of bodies open; None: any body is as good.
 
     Raises:
         DataError: a robot without values; nothing near the values could be built.
@@ -238,6 +275,10 @@ def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
     robot = robot_of(thing)
     if isinstance(thing, Robot):
         fit, (machine, beta) = None, _of_values(thing, bool(original.whole))
+        given = values_of(robot)
+        tens = [[given.get(machine.names[i]) for i in own] for own in machine.links.values()]
+        if equations is not None and not original.whole and not all(map(_is_body, tens)):
+            return _with_its_torques(robot, equations())
         C = np.zeros((len(beta), len(beta)))
     else:
         machine, beta, C = machine_of(thing.spec), thing.fit.beta, thing.fit.covariance
@@ -263,6 +304,74 @@ def physics_of(thing: Robot | IdentifiedModel, original: Original) -> Physics:
     else:
         notes = []
     return Physics(robot, machine, found, stated, values, fit, released, tuple(notes))
+
+
+def _rows_below(robot: Robot, row: str) -> Iterator[str]:
+    """The rows that carry a row."""
+    rows = {joint.name for joint in robot.joints}
+    while (row := robot.joint(row).antecedent) in rows:
+        yield row
+
+
+def _is_body(ten: list[float | None]) -> bool:
+    """Whether all parameters of a body are stated, and it can be built."""
+    known = np.array([x for x in ten if x is not None])
+    return len(known) == 10 and least(known, _round(known)) >= INSIDE
+
+
+def _with_its_torques(robot: Robot, equations: Equations) -> Physics:
+    """Bodies with the torques of the robot's C, in which what is not stated is 0.
+
+    Torques depend on K chi alone: the rest of chi is chosen so that the bodies can be built, stated
+    values last of all. Rods and points, which are limits of bodies, stay what they are.
+    """
+    machine, values, nothing = machine_of(equations.spec), values_of(robot), Original()
+    known = np.array([values.get(name, 0.0) for name in machine.names])
+    beta = machine.K @ known
+    none = np.zeros((len(beta), len(beta)))
+    before, stated, _ = beforehand(machine, robot, nothing, beta, none)
+    size = {link: _round(before.mean[own]) for link, own in machine.links.items()}
+    thin, others, moves, notes = list[str](), dict(machine.links), np.zeros(len(known)), list[str]()
+    carrying = {row for link, own in machine.links.items() if known[own[9]] > 0.0
+                for row in _rows_below(robot, link)}  # fmt: skip
+    for link, own in machine.links.items():
+        if link in carrying and not known[own].any():
+            del others[link]  # without a body, as in the C
+            continue
+        smallest = least(known[own], size[link]) if known[own[9]] > 0.0 else -1.0
+        if smallest < -_NO_BODY:
+            moves[own] = 1.0
+            continue
+        del others[link]
+        if smallest < INSIDE:
+            thin.append(link)
+            known[own] += max(_THIN * before.mean[own[:6]].max(), 2.0 * LEAST) * _ROUND
+    if thin:
+        notes.append(
+            f"link {', '.join(thin)}: a rod or a point as it is stated; {_THIN:g} of its size was "
+            "added to its inertia, for programs refuse bodies without"
+        )
+    beta = machine.K @ known
+    unstated = moves * [name not in values for name in machine.names]
+    told = f"link {', '.join(others)}: what is not stated was chosen; torques are those of the C"
+    rest = dataclasses.replace(machine, links=others)
+    for loose, more in ((unstated, ""), (moves, ", and stated values were moved for it")):
+        mean, S = np.where(loose > 0.0, before.mean, known), before.S * np.outer(loose, loose)
+        found = conditioned(machine.K, Beforehand(mean, S), beta, none)
+        whole = buildable(rest, found, beta, none, size, {})
+        if whole is not None:
+            notes += [told + more] if others else []
+            return Physics(robot, machine, whole, stated, values, notes=tuple(notes))
+    plain = physics_of(robot, nothing)
+    there = [plain.place.get(name) for name in machine.names]
+    chi = np.array([0.0 if i is None else plain.now.chi[i] for i in there])
+    right, other = (np.linalg.norm(equations.torques(b)) for b in (beta, machine.K @ chi - beta))
+    note = (
+        f"torques differ by {100.0 * other / right:.2g} % at random motion from those of the "
+        f"C, where what is not stated is 0, for no such bodies can be built; state all of link "
+        f"{', '.join(others)}"
+    )
+    return dataclasses.replace(plain, notes=(*plain.notes, note))
 
 
 def _of_values(robot: Robot, with_bodies: bool) -> tuple[Machine, np.ndarray]:
@@ -334,8 +443,8 @@ def beforehand(
             mean[own] = drawn[link] * (mass / drawn[link][9])
             S[np.ix_(own, own)] = body_covariance(mean[own], _UNKNOWN)[1]
         notes.append(
-            f"link {', '.join(unknown)}: no body is stated in the robot file; what no torque feels "
-            f"of it is that of a capsule{told}"
+            f"link {', '.join(unknown)}: no body is stated in the robot file; what {_open(C)} of "
+            f"it is that of a capsule{told}"
         )
     of_links = {i for own in machine.links.values() for i in own}
     most = np.abs(beta) + np.abs(machine.K @ mean) + np.sqrt(np.maximum(np.diag(C), 0.0))
@@ -371,8 +480,13 @@ def _density(
     felt = float(np.sum((weight * a) ** 2))
     density = float(np.sum(weight**2 * a * beta) / felt) if felt else 0.0
     if _DENSITIES[0] < density < _DENSITIES[1]:
-        return density, ", as dense as the torques allow: a mass that no torque feels is arbitrary"
+        return density, ", as dense as the torques allow: a mass they do not determine is arbitrary"
     return 1.0, " as dense as water: its mass is arbitrary"
+
+
+def _open(C: np.ndarray) -> str:
+    """Of a fit, and of a robot, whose values have no covariance."""
+    return "the torques do not determine" if C.any() else "is not stated"
 
 
 def _settled(
@@ -415,7 +529,7 @@ def _settled(
             f"{', '.join(first)}: no body of these base parameters could be built; they moved by "
             f"{whole.moved:.2g} sigmas to the nearest that could"
             if whole.moved > 0.01 else
-            f"{', '.join(first)}: what no torque feels was moved so that it could be built"
+            f"{', '.join(first)}: what {_open(stated)} was moved so that it could be built"
         )  # fmt: skip
     if not original.hung:
         return whole, frozenset(), notes

@@ -12,17 +12,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.exports.bodies import Physics, rest_of, written
+from modeler.exports.bodies import LEAST, Physics, rest_of, written
 from modeler.exports.capsules import Capsule, capsules
 from modeler.exports.linkage import BASE, closed, gravity_of, row_pose, sense, variables
 from modeler.exports.original import TENSOR
 from modeler.exports.result import numbers
 from modeler.robot import Joint, JointKind, Pose, Robot, linear_form, roll_pitch_yaw, turned
 
-LEAST = 1e-14
-"""kg m2: MuJoCo takes no smaller moment of inertia (its mjEPS of full inertias)."""
+_TINY = {"mjcf": 1e-13, "urdf": 1e-9, "sdf": 1e-9}
+"""Of all mass: a link that has none, which MuJoCo and SDF refuse; ODE divides by it."""
 
-_TINY = 1e-9  # of all mass: a link that has none, which MuJoCo and SDF refuse
 _EFFORT = 1e3  # N m, N: of a file that must state one
 _FAR = 1e3  # m, of a prismatic joint without limits, where it must have some
 
@@ -118,17 +117,17 @@ def _parts(
         values |= {joint.variable: 0.0 for joint in robot.moving}
     symbols, drawn = robot.symbol_values(), capsules(robot, at)
     heavy = sum(float(t[9]) for j in robot.moving if (t := physics.ten(j.name)) is not None)
-    found, moment = [], LEAST
+    found, moment, tiny = [], LEAST, _TINY[to]
     for row in robot.joints:
         if row.name in robot.motors:
             continue
         ten = physics.ten(row.name)
-        body = None if ten is None else written(ten)
+        body = None if ten is None or not ten[9] else written(ten)
         if body is None and row.moves:
             light.append(names.links[row.name])
             moment = heavy * drawn[row.name][0].radius ** 2
-            moment = float(np.clip(2.0 * LEAST, _TINY * moment, 1e3 * _TINY * moment))
-            body = np.array([_TINY * heavy, 0, 0, 0, moment, 0, 0, moment, 0, moment])
+            moment = float(np.clip(2.0 * LEAST, tiny * moment, 1e3 * tiny * moment))
+            body = np.array([tiny * heavy, 0, 0, 0, moment, 0, 0, moment, 0, moment])
         relation = robot.relations.get(row.name)
         form = None if relation is None else linear_form(relation, symbols)
         leaders = {} if form is None else dict(form.coefficients)
@@ -155,7 +154,7 @@ def _parts(
         who = "SDF refuses" if moment < LEAST else "MuJoCo and SDF refuse"
         still = "; it is too small for MuJoCo" if moment < LEAST else ""
         notes.append(
-            f"{', '.join(light)}: no body, and {_TINY:g} of the mass of all is written, for {who} "
+            f"{', '.join(light)}: no body, and {tiny:g} of the mass of all is written, for {who} "
             f"a moving link without mass{still}"
         )
     return found

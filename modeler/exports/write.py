@@ -1,14 +1,22 @@
 """A robot or a model as a file for another program."""
 
 import dataclasses
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
-from modeler.exports.bodies import Original, Physics, physics_of, robot_of, symmetric, written
+from modeler.exports.bodies import (
+    Equations,
+    Original,
+    Physics,
+    physics_of,
+    robot_of,
+    symmetric,
+    written,
+)
 from modeler.exports.fresh import LEAST, Names, fresh
 from modeler.exports.held import Torques, not_held
 from modeler.exports.like import rewritten
@@ -48,6 +56,7 @@ def exported(
     to: str = "",
     like: Path | None = None,
     torques: Torques | None = None,
+    equations: Callable[[], Equations] | None = None,
 ) -> Exported:
     """The file, and what it holds.
 
@@ -56,6 +65,7 @@ def exported(
         to: "urdf", "mjcf", "sdf"; "" for that of the original.
         like: the original whose numbers are replaced; None for a file of its own.
         torques: of the logs of the fit, see `held`.
+        equations: of a robot, which are asked for where parameters of bodies are open.
 
     Raises:
         DataError: no values, another robot, or what the format cannot state.
@@ -63,7 +73,7 @@ def exported(
     """
     robot = robot_of(thing)
     if like is None:
-        physics, notes = physics_of(thing, Original()), list[str]()
+        physics, notes = physics_of(thing, Original(), equations), list[str]()
         data, values = fresh(physics, to, notes), list(_values(physics, to))
     else:
         source = source_of(like)
@@ -91,7 +101,7 @@ def _values(physics: Physics, to: str) -> Iterator[Value]:
     names = Names.of(physics.robot)
     for joint in physics.robot.moving:
         ten = physics.ten(joint.name)
-        if ten is not None:
+        if ten is not None and ten[9]:
             given = physics.stated_before(joint.name)
             was = None if given is None else written(given)
             sigma = sigmas(physics, joint.name)

@@ -381,6 +381,34 @@ def test_what_one_function_costs_alone():
     assert friction["stack"] < torque["stack"] and torque["outside"]
 
 
+@pytest.mark.parametrize("name", ["two-link", "five-bar"])
+def test_the_stack_of_a_function_in_several_versions_is_that_of_the_largest(name, tmp_path):
+    """As gcc states it of each; functions that call none of ours are told that and no more."""
+    compiler("gcc"), compiler("objdump")
+    module = emitted(name)
+    found, prefix = costs(module), module.spec.prefix
+    write_emitted(module, tmp_path)
+    sources = [n for n in module.spec.controller_sources if n.startswith(prefix) and n[-1] == "c"]
+    flags = ["-std=c99", "-O3", "-fno-tree-slp-vectorize", "-fno-math-errno",
+             "-fno-trapping-math", "-ffp-contract=fast"]  # fmt: skip
+    run("gcc", *flags, "-fno-asynchronous-unwind-tables", "-fstack-usage", "-c", *sources,
+        where=tmp_path)  # fmt: skip
+    frames: dict[str, int] = {}
+    for path in tmp_path.glob("*.su"):
+        for place, size, _ in (line.split("\t") for line in path.read_text().splitlines()):
+            function, _, version = place.rpartition(":")[2].partition(".")
+            if version != "resolver":
+                frames[function] = max(frames.get(function, 0), int(size))
+    assert len(found) > 8
+    for function, row in found.items():
+        assert row["stack"] >= frames[function] > 0, function
+    if name == "two-link":
+        assert found["two_link_regressor"]["stack"] == frames["two_link_regressor"]
+    else:
+        inner = frames["five_bar_tree_regressor"] + frames["five_bar_regressor"]
+        assert found["five_bar_regressor"]["stack"] >= inner
+
+
 def test_a_machine_whose_compiler_is_missing_is_refused_in_one_line(monkeypatch, tmp_path):
     monkeypatch.setenv("PATH", str(tmp_path))
     with pytest.raises(BuildError, match="--measure: arm-none-eabi-gcc is not installed; install"):

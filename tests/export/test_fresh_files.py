@@ -168,48 +168,6 @@ def test_built_in_robots_weigh_in_both_what_they_state(name) -> None:
     assert close(theirs, ours)
 
 
-@pytest.mark.parametrize("name", ["five-bar", "stewart", "delta", "3rrr"])
-def test_loops_in_mujoco_need_the_torques_of_our_loop_model(name) -> None:
-    """tau = G^T tau_tree with the velocities that MuJoCo's own constraints allow."""
-    robot = load(name)
-    found = export(robot, to="mjcf")
-    model = mujoco.MjModel.from_xml_string(found.data.decode())
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    assert np.abs(data.efc_pos).max() < 1e-9
-    J = np.zeros((data.nefc, model.nv))
-    for k in range(model.nv):
-        column, unit = np.zeros(data.nefc), np.eye(model.nv)[k]
-        mujoco.mj_mulJacVec(model, data, column, unit)
-        J[:, k] = column
-    kept = [model.joint(f"joint_{j.name}").dofadr[0] for j in robot.coordinates]
-    _, s, Vt = np.linalg.svd(J)
-    free = Vt[np.sum(s > 1e-9 * s[0]) :].T
-    G = free @ np.linalg.inv(free[kept])
-    compiled = compile_model(generate(derive(robot)))
-    q = np.array([[model.joint(f"joint_{j.name}").qpos0[0] for j in robot.coordinates]])
-    M = np.zeros((model.nv, model.nv))
-    mujoco.mj_fullM(model, data, M)
-    values = physics_values(robot)
-    beta = np.array(
-        [sum(t.value * values[t.parameter] for t in b.terms) for b in compiled.spec.base]
-    )
-    assert close(G.T @ M @ G, compiled.inertia_matrix(q, beta)[0], 1e-6)
-    data.qvel[:] = 0.0
-    mujoco.mj_forward(model, data)
-    assert np.abs(G.T @ data.qfrc_bias - compiled.gravity(q, beta)[0]).max() < 1e-6 * max(
-        1.0, np.abs(data.qfrc_bias).max()
-    )
-
-
-def physics_values(robot: Robot) -> dict[str, float]:
-    """The standard parameters that were written: stated ones, and what was chosen beside them."""
-    from modeler.exports.bodies import Original, physics_of
-
-    physics = physics_of(robot, Original())
-    return {name: float(physics.now.chi[i]) for name, i in physics.place.items()}
-
-
 def test_every_file_has_bodies_that_could_be_built(tree) -> None:
     model = mujoco.MjModel.from_xml_string(export(tree, to="mjcf").data.decode())
     for moments in np.sort(model.body_inertia[model.body_mass > 0.0]):

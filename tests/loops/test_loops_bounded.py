@@ -29,9 +29,10 @@ def counted(emitted: Emitted, folder: Path, rows: np.ndarray) -> tuple[np.ndarra
     prefix = emitted.spec.prefix
     units = [folder / n for n in emitted.spec.sources if n.endswith(".c")]
     names = {"TABLE": "loops", "HOME": "home", "POSTURE": "posture", "POSED": "posed"}
-    command = [compiler("gcc"), "-std=c99", "-O0", f'-DTREE="{prefix}_tree.h"', "-I", folder]
+    bound = f"{prefix.upper()}_MAX_CLOSURE_EVALUATIONS"
+    command = [compiler("gcc"), "-std=c99", "-O0", f'-DTREE="{prefix}_tree.h"', f"-DMOST={bound}"]
     command += [f"-D{macro}={prefix}_{name}" for macro, name in names.items()]
-    command += [HERE / "counted.c", *units, "-lm", "-o", folder / "counted"]
+    command += ["-I", folder, HERE / "counted.c", *units, "-lm", "-o", folder / "counted"]
     subprocess.run(command, check=True)
     text = "\n".join(" ".join(repr(float(x)) for x in row) for row in rows)
     ran = subprocess.run(
@@ -59,8 +60,11 @@ def check_bound(emitted: Emitted, folder: Path) -> None:
     assert np.all(found[moved < 1e-6, 0] == DONE)
     assert np.all(found[moved > 1e5, 0] != DONE)
     text = emitted.files[f"{emitted.spec.prefix}.h"]
-    assert int(re.search(r"_EVALUATIONS (\d+)", text)[1]) == allowed
-    assert f"{emitted.spec.prefix.upper()}_EVALUATIONS` times" in emitted.files["README.md"]
+    assert int(re.search(r"_MAX_CLOSURE_EVALUATIONS (\d+)", text)[1]) == allowed
+    assert (
+        f"{emitted.spec.prefix.upper()}_MAX_CLOSURE_EVALUATIONS` times"
+        in emitted.files["README.md"]
+    )
 
 
 @pytest.mark.parametrize("name", ROBOTS)

@@ -181,6 +181,58 @@ def test_the_rate_of_the_coupling_is_its_derivative(name, robots):
     np.testing.assert_allclose(slow, rate, atol=1e-9 * np.abs(rate).max())
 
 
+def bounded(robot: Robot, q: np.ndarray, qd: np.ndarray, most: int, first: bool = False) -> int:
+    """Status of `<prefix>_state_with_bound`."""
+    q, qd = np.ascontiguousarray(q), np.ascontiguousarray(qd)
+    previous = None if first else ctypes.c_void_p(robot.library.last_posture(robot.memory))
+    call = getattr(robot.library, f"{robot.spec.prefix}_state_with_bound")
+    pointers = [ctypes.c_void_p(x.ctypes.data) for x in (q, qd)]
+    return int(call(*pointers, previous, most, robot.memory))
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_a_bound_holds_at_run_time_is_told_and_the_next_cycle_goes_on(name, robots):
+    """From the last closed posture, far from home, though the bound would not do from home."""
+    robot = robots(name)
+    spec = robot.spec
+    counter = ctypes.c_int.in_dll(robot.library, "evaluations")
+    q, qd, _ = motion(spec, np.arange(0, 0.3, 1e-3), 5)
+    assert bounded(robot, q[0], qd[0], 5000, first=True) == 0
+    far = q[0] + 40.0 * np.sign(q[-1] - q[0])
+    for k in range(1, len(q)):
+        if k % 60 == 0:  # a cycle with a wrong measurement
+            for most in (0, 1, 2, 7):
+                counter.value = 0
+                assert bounded(robot, far, qd[k], most) == 4
+                assert counter.value <= most
+        counter.value = 0
+        assert bounded(robot, q[k], qd[k], 7) == 0, k
+        assert counter.value <= 7
+    counter.value = 0
+    assert bounded(robot, q[-1], qd[-1], 2, first=True) == 4 and counter.value <= 2
+    assert bounded(robot, q[-1], qd[-1], 10**9, first=True) == 0
+
+
+def test_the_bound_of_the_whole_library_is_a_macro(tmp_path):
+    emitted = module("five-bar").emitted
+    write_emitted(emitted, tmp_path)
+    (tmp_path / "counting.c").write_text(COUNTING.format(prefix="five_bar"))
+    command = [compiler("gcc"), *STRICT, "-O0", "-DFIVE_BAR_MAX_CLOSURE_EVALUATIONS=9"]
+    command += [f"-Wl,--wrap=five_bar_tree_{part}" for part in ("closure", "residual")]
+    units = [path.name for path in tmp_path.glob("*.c")]
+    subprocess.run(
+        [*command, "-shared", "-fPIC", "-o", "robot.so", *units, "-lm"], cwd=tmp_path, check=True
+    )
+    library = ctypes.CDLL(str(tmp_path / "robot.so"))
+    counter, u = ctypes.c_int.in_dll(library, "evaluations"), np.zeros(4)
+    home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.given])
+    for far, status in ((1e-3, {0}), (0.6, {4}), (1e9, {4})):
+        counter.value = 0
+        q = home + far * np.array([1.0, -1.0])
+        found = library.five_bar_close(*(ctypes.c_void_p(x.ctypes.data) for x in (q, u)))
+        assert found in status and counter.value <= 9
+
+
 def test_what_cannot_be_closed_is_told_and_the_last_posture_is_kept(robots):
     robot = robots("five-bar")
     n, beta = len(robot.spec.joints), np.ones(len(robot.spec.base))

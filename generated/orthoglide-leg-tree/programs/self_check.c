@@ -159,6 +159,12 @@ static int belongs(const char *part, const char *signature, const char *header)
 
 static void empty(void)
 {
+    volatile double stack[4096]; /* what functions do not write must show there too */
+
+    for (int i = 0; i < 4096; i++) {
+        stack[i] = NAN;
+    }
+    worst = fmax(worst, stack[4095]);
     for (size_t i = 0; i < sizeof(out) / sizeof(*out); i++) {
         out[i] = NAN;
     }
@@ -223,31 +229,81 @@ static void multiply_nonzeros(const double *values, const double *parameters)
     }
 }
 
-/* Many samples, the states one after another, against the same one by one. */
+/* Many samples side by side against the same one after another, wherever the results begin; memory
+ * around them must stay as it is. */
+enum { MANY = 37, GUARD = 24, SIGNALS = 0, LONG = ORTHOGLIDE_LEG_TREE_NONZEROS, SPARE = 64 };
+static double Q[MANY * N], QD[MANY * N], QDD[MANY * N], one[MANY * N * C], results[3 * GUARD + (MANY * N + 3) * C];
+static double S[MANY * SIGNALS + 1], entries[MANY * LONG];
+
+/* W by rows, W by columns, nonzeros, of so many samples, from a place on. */
+static void compare_tile(int kind, int samples, int phase, unsigned char *work)
+{
+    const modeler_tiled *const robot = orthoglide_leg_tree_tiled();
+    const size_t room = modeler_tile_work(robot), rows = kind == 1 ? (size_t)(samples * N + 3) : 0;
+    const int length = kind == 2 ? LONG : N * C;
+    double *const W = results + GUARD + phase;
+    int touched = 0;
+
+    memset(work, 0xff, room);
+    memset(work + room, 0x5a, SPARE);
+    for (size_t i = 0; i < sizeof(results) / sizeof(*results); i++) {
+        results[i] = -7;
+    }
+    if (kind == 0) {
+        modeler_tile_observation(robot, (size_t)samples, Q, QD, QDD, S, W, work);
+    } else if (kind == 1) {
+        modeler_tile_columns(robot, (size_t)samples, Q, QD, QDD, S, W, rows, work);
+    } else {
+        modeler_tile_nonzeros(robot, (size_t)samples, Q, QD, QDD, S, W, work);
+    }
+    for (int i = 0; i < samples; i++) {
+        const double *const right = kind == 2 ? entries + i * LONG : one + i * N * C;
+        double largest = LEAST;
+
+        for (int k = 0; k < length; k++) {
+            largest = fmax(largest, fabs(right[k]));
+        }
+        for (int k = 0; k < length; k++) {
+            double *const given = W + (kind == 1 ? (size_t)(k % C) * rows + (size_t)(i * N + k / C) : (size_t)(i * length + k));
+
+            touched |= !(fabs(*given - right[k]) <= ROUNDINGS * largest);
+            *given = -7;
+        }
+    }
+    for (size_t i = 0; i < sizeof(results) / sizeof(*results); i++) {
+        touched |= !(results[i] + 7 == 0);
+    }
+    for (int i = 0; i < SPARE; i++) {
+        touched |= work[room + (size_t)i] != 0x5a;
+    }
+    if (touched != 0 && !failed) {
+        printf("tiles: %d samples, kind %d, place %d: not what single samples give\n", samples, kind, phase);
+    }
+    failed |= touched;
+}
+
 static void compare_tiles(void)
 {
-    enum { MANY = 19, SIGNALS = 0, LENGTH = ORTHOGLIDE_LEG_TREE_NONZEROS };
-    static double Q[MANY * N], QD[MANY * N], QDD[MANY * N], S[MANY * SIGNALS + 1];
-    static double W[MANY * N * C], dense[MANY * N * C], entries[MANY * LENGTH], one[MANY * LENGTH];
+    static const int counts[] = {1, 7, 8, 9, MANY};
+    unsigned char *const work = (unsigned char *)malloc(modeler_tile_work(orthoglide_leg_tree_tiled()) + SPARE);
     const modeler_input inputs[] = { {Q, N}, {QD, N}, {QDD, N}, {S, SIGNALS} };
-    const modeler_tiled *const robot = orthoglide_leg_tree_tiled();
-    void *const work = malloc(modeler_tile_work(robot));
 
-    for (int i = 0; i < MANY * N; i++) {
-        Q[i] = q[i % (STATES * N)] + 0.1 * (double)(i / N);
-        QD[i] = qd[i % (STATES * N)];
-        QDD[i] = qdd[i % (STATES * N)] - 0.1 * (double)(i / N);
-    }
     if (work == NULL) {
         failed = 1;
         return;
     }
-    modeler_tile_nonzeros(robot, MANY, Q, QD, QDD, S, entries, work);
-    modeler_tile_observation(robot, MANY, Q, QD, QDD, S, W, work);
-    modeler_batch_3(orthoglide_leg_tree_base_regressor_nonzeros, MANY, inputs, one, LENGTH);
-    modeler_batch_3(orthoglide_leg_tree_base_regressor, MANY, inputs, dense, N * C);
-    compare("tiles of nonzeros", entries, one, MANY, LENGTH, ROUNDINGS);
-    compare("tiles", W, dense, MANY, N * C, ROUNDINGS);
+    for (int way = 0; way < 1; way++) {
+        for (int i = 0; i < MANY * N; i++) {
+            Q[i] = q[i % (STATES * N)] + 0.1 * (double)(i / N);
+            QD[i] = qd[i % (STATES * N)];
+            QDD[i] = qdd[i % (STATES * N)] - 0.1 * (double)(i / N);
+        }
+        modeler_batch_3(orthoglide_leg_tree_base_regressor_nonzeros, MANY, inputs, entries, LONG);
+        modeler_batch_3(orthoglide_leg_tree_base_regressor, MANY, inputs, one, N * C);
+        for (int k = 0; k < 3 * 5 * 8; k++) {
+            compare_tile(k / 40, counts[k / 8 % 5], k % 8, work);
+        }
+    }
     free(work);
 }
 
@@ -260,6 +316,18 @@ static void compare_sines(void)
 
         modeler_sincos(angle, given, given + 1);
         compare("modeler_sincos", given, expected, 1, 2, 1e-15);
+    }
+    for (int i = -60000; i <= 60000 && !failed; i += 997) { /* where a sine is small, its digits count */
+        const double angle = 1.5707963267948966 * i, expected[] = {sin(angle), cos(angle)};
+        double given[2];
+
+        modeler_sincos(angle, given, given + 1);
+        for (int k = 0; k < 2; k++) {
+            failed |= !(fabs(given[k] - expected[k]) <= 1e-9 * fabs(expected[k]));
+        }
+        if (failed != 0) {
+            printf("modeler_sincos: %.17g\n", angle);
+        }
     }
 }
 
