@@ -84,7 +84,7 @@ ONLY_IN = {
     "flint": ("derivation/field.py", "derivation/precise.py"),
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),
-    "rosbags": ("logs/bags.py",),
+    "rosbags": ("logs/bags.py", "logs/mcap.py"),
     "python_calamine": ("logs/sheets.py",),
     "distributed": ("core/jobs.py",),
     "sklearn": ("api/regressor.py",),

@@ -112,6 +112,7 @@ def _guessed(
     joints = compiled.spec.joints
     there = {channel.name for channel in seen.channels}
     taken = {o for o, e in names.entries(joints).items() if there & {*e.columns}}
+    taken |= {"time"} if names.rate else set()
 
     def under(text: str) -> LogMap:
         guess = _read(text)

@@ -34,3 +34,4 @@ from .rates import (
     common_factor as common_factor,
     repeats_line as repeats_line,
 )
+from .stamps import coarse_clock as coarse_clock

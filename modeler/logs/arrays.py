@@ -1,6 +1,7 @@
 """Arrays by name, as MAT, HDF5 and numpy files hold them, as columns; numpy files."""
 
 import dataclasses
+import itertools
 import math
 import os
 import re
@@ -16,13 +17,19 @@ from typing import Any
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.core.files import check_unpacked
+from modeler.core.files import UNPACKED, check_unpacked
 from modeler.logs.columns import Column, Columns, NotNumbers, Wanted, missing_package, reading
+from modeler.logs.guess import role_of
+from modeler.logs.stamps import with_joined_stamps
 
 LEAST_ROWS = 10
 """A log of fewer rows carries no motion: fifth of a second at the slowest usual rate."""
 
 _SHOWN = 8  # names in a note
+_EPISODE = re.compile(r"(|.*?[./])([A-Za-z_]*)(\d+)[./](.+)", re.DOTALL)
+_EPISODES = re.compile(
+    r"(?i)(?:demo|demonstration|episode|ep|traj|trajectory|rollout|run|trial|sequence|seq)_?$"
+)
 _RATES = ("fs", "fps", "rate", "sample_rate", "samplerate", "sampling_rate", "f_s")
 _STEPS = ("ts", "dt", "sample_time", "sampletime", "delta_t", "t_s")
 
@@ -84,6 +91,7 @@ def columns_of(
         DataError: no such group, or nothing that could be a log.
     """
     arrays = _in_group(path, arrays, wanted)
+    arrays, episodes = _chained(arrays)
     rows = _rows(arrays)
     if rows is None:
         raise DataError(
@@ -109,7 +117,10 @@ def columns_of(
     single = (
         (a.name, a.data[()]) for a in arrays if math.prod(a.shape) == 1 and _tells_rate(a.name)
     )
-    return Columns(tuple(found), rows, units, (*notes, *told), rate=_stated_rate(single))
+    columns, stamped, how = with_joined_stamps(found)
+    units |= stamped
+    how = (*episodes, *how)
+    return Columns(columns, rows, units, (*notes, *told), rate=_stated_rate(single), told=how)
 
 
 def _tells_rate(name: str) -> bool:
@@ -144,6 +155,62 @@ def _in_group(path: Path, arrays: Sequence[Held], wanted: Wanted) -> list[Held]:
             f"{_listed(groups) or 'none'}"
         )
     return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Chained:
+    """Arrays along their first axis, one after the other; times go on from one to the next."""
+
+    parts: Sequence[Held]
+    shape: tuple[int, ...]
+    dtype: np.dtype
+
+    def __getitem__(self, key: tuple[()]) -> np.ndarray:
+        whole = [np.asarray(part.data[()]).astype(self.dtype) for part in self.parts]
+        values = [own.T if part.flipped else own for own, part in zip(whole, self.parts,
+                                                                     strict=True)]  # fmt: skip
+        if role_of(self.parts[0].name) == "time":
+            for before, own in itertools.pairwise(own for own in values if own.size > 1):
+                if own.flat[0] <= before.flat[-1]:
+                    step = np.median(np.diff(before.reshape(-1)))
+                    own += (before.flat[-1] + step - own.flat[0]).astype(own.dtype)
+        return np.concatenate(values)
+
+
+def _chained(arrays: Sequence[Held]) -> tuple[list[Held], list[str]]:
+    """The arrays, those of episodes one after the other, with `segment`; what is told of it.
+
+    `data/demo_0/q` and `data/demo_1/q` are `data/q`. Groups that only count are episodes if their
+    rows differ: those of joints have the same.
+    """
+    groups: dict[str, dict[int, dict[str, Held]]] = {}
+    for array in arrays:
+        if array.shape and (match := _EPISODE.fullmatch(array.name)):
+            own = groups.setdefault(match[1] + match[2], {}).setdefault(int(match[3]), {})
+            own[match[1] + match[4]] = array
+    for group, numbered in groups.items():
+        episodes = dict(sorted(numbered.items()))
+        rows = [Counter(a.shape[0] for a in own.values()).most_common(1)[0][0]
+                for own in episodes.values()]  # fmt: skip
+        if len(rows) < 2 or not (_EPISODES.search(group) or len({*rows}) > 1):
+            continue
+        inside = {id(array) for own in episodes.values() for array in own.values()}
+        made, left = [array for array in arrays if id(array) not in inside], list[str]()
+        for name, first in episodes[min(episodes)].items():
+            parts = [own[name] for own in episodes.values() if name in own]
+            shape = first.shape[1:]
+            if [part.shape for part in parts] == [(count, *shape) for count in rows]:
+                whole = _Chained(parts, (sum(rows), *shape), first.data.dtype)
+                made.append(Held(name, whole, first.unit))
+            else:
+                left.append(name)
+        made.append(Held("segment", np.repeat([float(n) for n in episodes], rows)))
+        return made, [
+            f"{len(rows)} episodes, {group}{min(episodes)} to {max(episodes)}, one after the other "
+            "as segments; --map topic=GROUP takes one",
+            *[f"{_listed(left)} left out: not alike in all episodes"] * bool(left),
+        ]
+    return [*arrays], []
 
 
 def _rows(arrays: Sequence[Held]) -> int | None:
@@ -229,6 +296,8 @@ _UNITS = ("units", "unit", "Units", "Unit")  # attributes in use
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _DEEPEST = 20  # structs in structs
 _PIECE = 2**24  # bytes that are unpacked at a time, to be counted
+_DEFLATE = 1032  # bytes at most that zlib unpacks from one (RFC 1951: 258 from 2 bits)
+_FILTERS = 64  # bytes that other filters add to a chunk, as checksums do
 
 
 @dataclass(frozen=True, eq=False)
@@ -293,6 +362,7 @@ def _datasets(path: Path, what: str) -> list[_Stored]:
             unit = next((_text(item.attrs[u]) for u in _UNITS if u in item.attrs), "")
             kind = _text(item.attrs.get("MATLAB_class", ""))
             found.append(_Stored(path, name, item.shape, item.dtype, kind, unit))
+            _check_chunks(path, item)
 
     with h5py.File(path, "r") as file:
         visit("", file)
@@ -300,6 +370,25 @@ def _datasets(path: Path, what: str) -> list[_Stored]:
     sizes = [math.prod(one.shape) * one.dtype.itemsize for one in found]
     check_unpacked(path, max(sizes, default=0))  # they are read one by one
     return found
+
+
+def _check_chunks(path: Path, item: Any) -> None:
+    """Refuse chunks that have no room, or are packed by zlib from more than they state."""
+    if item.chunks is None:
+        return
+    size = math.prod(item.chunks) * item.dtype.itemsize
+    check_unpacked(path, size)
+    for at in range(item.id.get_num_chunks()) if item.compression == "gzip" else ():
+        chunk = item.id.get_chunk_info(at)
+        if chunk.filter_mask or chunk.size * _DEFLATE <= UNPACKED:
+            continue
+        packed = item.id.read_direct_chunk(chunk.chunk_offset)[1]
+        length, unpacking = 0, zlib.decompressobj()
+        while not unpacking.eof and packed:
+            length += len(unpacking.decompress(packed, _PIECE))
+            packed = unpacking.unconsumed_tail
+            if length > size + _FILTERS:
+                raise ValueError("a chunk unpacks to more than it states")
 
 
 def _elsewhere(path: Path, name: str, place: str) -> DataError:

@@ -7,12 +7,13 @@ interpolated.
 
 import os
 import struct
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow as pa
 
 from modeler.core.errors import DataError
 from modeler.core.files import check_unpacked
@@ -25,15 +26,21 @@ from modeler.logs.columns import (
     missing_package,
     reading,
 )
+from modeler.logs.mcap import mcap_messages, mcap_records, unpacked
 
 LONGEST = 64
 """Entries of an array that become columns; longer ones are images and the like."""
 
-JOINT_STATE = "sensor_msgs/msg/JointState"
-"""Type of the topics that are taken as the clock where none is asked for."""
+STATES = (
+    "sensor_msgs/JointState", "control_msgs/DynamicJointState",
+    "control_msgs/JointTrajectoryControllerState",
+)  # fmt: skip
+"""Types of the topics that are taken as the clock where none is asked for, the first before all."""
 
 _NAMES = ("name", "joint_names")  # lists of text that say which entry of an array is whose
 _LEAST = 10
+_PIECE = 2**24  # bytes that are unpacked at a time, to be counted
+_HEADER = 4096  # bytes of the longest header of a record
 
 
 @dataclass(eq=False)
@@ -44,17 +51,26 @@ class Recorded:
         topic: with its slash.
         kind: type of its messages.
         labels: of the values of a message.
-        stamps: of the messages, ns.
+        headers: stamps of the messages, ns; 0 without one.
+        received: when they came, ns.
         rows: values of each message, in the order of the labels.
-        stamped: True if the stamps are those of the headers.
     """
 
     topic: str
     kind: str
     labels: tuple[str, ...]
-    stamps: list[int] = field(default_factory=list)
+    headers: list[int] = field(default_factory=list)
+    received: list[int] = field(default_factory=list)
     rows: list[list[float]] = field(default_factory=list)
-    stamped: bool = True
+
+    @property
+    def stamped(self) -> bool:
+        """True if the headers tell the time: all of them do, and it passes."""
+        return min(self.headers) > 0 and (len(self.headers) < 2 or len({*self.headers}) > 1)
+
+    def stamps(self, by_header: bool) -> np.ndarray:
+        """(n,) ns, by the headers or as they were received."""
+        return np.array(self.headers if by_header else self.received, dtype=np.int64)
 
 
 class Recording:
@@ -62,13 +78,31 @@ class Recording:
 
     def __init__(self) -> None:
         self._parts: dict[tuple[str, tuple[str, ...]], Recorded] = {}
-        self.unreadable: list[str] = []
+        self.unreadable: set[str] = set()
+
+    @property
+    def is_empty(self) -> bool:
+        """True if no message had numbers."""
+        return not self._parts
 
     def add(self, topic: str, kind: str, received: int, message: Any) -> bool:
         """One message; False if it has no numbers to keep."""
+        fields, stamp = _fields(message), _stamp(message)
+        if isinstance(points := fields.get("points"), list) and _names(fields):
+            for point in points:  # of a planned trajectory, each at its own time
+                since = _nanoseconds(_fields(point).get("time_from_start"))
+                at = stamp + since if stamp else 0
+                self._add(topic, kind, received + since, at, point, "points", _names(fields))
+            return True
+        return self._add(topic, kind, received, stamp, message, "", _names(fields))
+
+    def _add(
+        self, topic: str, kind: str, received: int, stamp: int, message: Any, head: str,
+        names: Sequence[str],
+    ) -> bool:  # fmt: skip
         labels: list[str] = []
         values: list[float] = []
-        _flatten(message, "", _names(message), labels, values)
+        _flatten(message, head, names, labels, values)
         if not labels:
             return False
         key = (topic, tuple(sorted(labels)))
@@ -78,9 +112,8 @@ class Recording:
         if part.labels != tuple(labels):  # the same joints in another order
             value_of = dict(zip(labels, values, strict=True))
             values = [value_of[label] for label in part.labels]
-        stamp = _stamp(message)
-        part.stamped &= stamp > 0
-        part.stamps.append(stamp or received)
+        part.headers.append(stamp)
+        part.received.append(received)
         part.rows.append(values)
         return True
 
@@ -90,18 +123,23 @@ class Recording:
         Raises:
             DataError: none can be the clock, or several can.
         """
-        parts = sorted(self._parts.values(), key=lambda part: -len(part.stamps))
+        parts = sorted(self._parts.values(), key=lambda part: -len(part.rows))
         clock = _clock(path, parts, wanted)
-        start, stamps = clock.stamps[0], np.array(clock.stamps, dtype=np.int64)
-        found: dict[str, Column] = {"time": ColumnValues((stamps - start) / 1e9)}
+        stamps = clock.stamps(clock.stamped)
+        order = np.argsort(clock.received, kind="stable")
+        start = int(stamps[order[0]])
+        found: dict[str, Column] = {"time": ColumnValues((stamps[order] - start) / 1e9)}
         notes = [
             f"rows are the messages of {clock.topic}, time from the first, by "
             + ("their headers" if clock.stamped else "when they were received")
         ]
         for part in (clock, *(part for part in parts if part is not clock)):
             table = np.array(part.rows, dtype=float)
-            if part is not clock:
-                table, oldest = _held(part, table, stamps)
+            if part is clock:
+                table = table[order]
+            else:
+                alike = part.stamped and clock.stamped  # else by the clock of the recorder
+                table, oldest = _held(part, table, clock.stamps(alike)[order], alike)
                 notes.append(
                     f"{part.topic} joined to that clock: the last message before each row, at "
                     f"most {oldest * 1e-9:.3g} s old"
@@ -110,14 +148,16 @@ class Recording:
                 name = f"{part.topic.strip('/')}.{label}"
                 found.setdefault(name, ColumnValues(table[:, k]))
         if self.unreadable:
-            notes.append(f"{', '.join(self.unreadable)} left out: messages of unknown types")
-        streams = [Stream(p.topic, p.kind, len(p.stamps), p is clock) for p in parts]
+            notes.append(
+                f"{', '.join(sorted(self.unreadable))} left out: messages of unknown types"
+            )
+        streams = [Stream(p.topic, p.kind, len(p.rows), p is clock) for p in parts]
         return Columns(tuple(found.items()), len(stamps), {}, tuple(notes), tuple(streams))
 
 
 def _clock(path: object, parts: Sequence[Recorded], wanted: Wanted) -> Recorded:
     """The topic that is asked for, else the only JointState, else the only one."""
-    parts = [part for part in parts if len(part.stamps) >= _LEAST] or list(parts)
+    parts = [part for part in parts if len(part.rows) >= _LEAST] or list(parts)
     topics = [part.topic for part in parts]
     listed = ", ".join(dict.fromkeys(topics)) or "none with numbers"
     if wanted.topic:
@@ -127,7 +167,9 @@ def _clock(path: object, parts: Sequence[Recorded], wanted: Wanted) -> Recorded:
                 f"{path}: topic {wanted.topic}: no messages of it; the topics are {listed}"
             )
         return named[0]
-    states = [part for part in parts if part.kind == JOINT_STATE] or list(parts)
+    kinds = {kind: k for k, kind in enumerate(STATES)}
+    rank = {id(part): kinds.get(part.kind.replace("/msg/", "/"), len(STATES)) for part in parts}
+    states = [part for part in parts if rank[id(part)] == min(rank.values())]
     if not states:
         raise DataError(f"{path}: no topic with numbers; expected sensor_msgs/JointState messages")
     if len({part.topic for part in states}) > 1 and not wanted.any:
@@ -138,10 +180,13 @@ def _clock(path: object, parts: Sequence[Recorded], wanted: Wanted) -> Recorded:
     return states[0]
 
 
-def _held(part: Recorded, table: np.ndarray, clock: np.ndarray) -> tuple[np.ndarray, float]:
+def _held(
+    part: Recorded, table: np.ndarray, clock: np.ndarray, by_header: bool
+) -> tuple[np.ndarray, float]:
     """The last message of a topic at each stamp of the clock, NaN before the first; its age, ns."""
-    order = np.argsort(np.array(part.stamps, dtype=np.int64), kind="stable")
-    stamps = np.array(part.stamps, dtype=np.int64)[order]
+    stamps = part.stamps(by_header)
+    order = np.argsort(stamps, kind="stable")
+    stamps = stamps[order]
     last = np.searchsorted(stamps, clock, side="right") - 1
     joined = table[order][np.maximum(last, 0)]
     joined[last < 0] = np.nan
@@ -150,15 +195,32 @@ def _held(part: Recorded, table: np.ndarray, clock: np.ndarray) -> tuple[np.ndar
     return joined, float(age.max()) if known.any() else 0.0
 
 
+def _fields(value: Any) -> Mapping[str, Any]:
+    """Of a message of ROS, or of an object of JSON; none of anything else."""
+    if isinstance(value, Mapping):
+        return value
+    names = getattr(value, "__dataclass_fields__", ())
+    return {n: getattr(value, n) for n in names if not (n.startswith("__") or n.isupper())}
+
+
 def _stamp(message: Any) -> int:
-    """Of the header, ns; 0 without one."""
-    stamp = getattr(getattr(message, "header", None), "stamp", None)
-    return 0 if stamp is None else int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+    """Of the header, or of the message itself, ns; 0 without one."""
+    fields = _fields(message)
+    own = _fields(fields.get("header", message))
+    return _nanoseconds(own.get("stamp", own.get("timestamp")))
 
 
-def _names(message: Any) -> tuple[str, ...]:
+def _nanoseconds(time: Any) -> int:
+    """Of a time of ROS; 0 without one."""
+    fields = _fields(time)
+    of = [next((fields[n] for n in own if n in fields), 0)
+          for own in (("sec", "secs"), ("nanosec", "nsec", "nsecs"))]  # fmt: skip
+    return int(of[0]) * 1_000_000_000 + int(of[1])
+
+
+def _names(fields: Mapping[str, Any]) -> tuple[str, ...]:
     for field_name in _NAMES:
-        names = getattr(message, field_name, None)
+        names = fields.get(field_name)
         if isinstance(names, list | tuple) and names and all(isinstance(n, str) for n in names):
             return tuple(names)
     return ()
@@ -167,7 +229,10 @@ def _names(message: Any) -> tuple[str, ...]:
 def _flatten(
     value: Any, label: str, names: Sequence[str], labels: list[str], values: list[float]
 ) -> None:
-    """Every number in a message: fields after a point, entries of arrays in brackets."""
+    """Every number in a message: fields after a point, entries of arrays in brackets.
+
+    Entries that are messages and have a name have it behind their fields: `values.position[elbow]`.
+    """
     if isinstance(value, bool | int | float | np.number | np.bool_):
         labels.append(label)
         values.append(float(value))
@@ -179,13 +244,22 @@ def _flatten(
             return
         own = names if len(names) == len(value) else [str(k + 1) for k in range(len(value))]
         for name, entry in zip(own, value, strict=True):
-            _flatten(entry, f"{label}[{name}]", names, labels, values)
+            fields = _fields(entry)
+            said = fields.get("name", name if own is names else None)
+            if not fields or not isinstance(said, str):
+                entry = float("nan") if entry is None else entry
+                _flatten(entry, f"{label}[{name}]", names, labels, values)
+                continue
+            first = len(labels)
+            _flatten(entry, label, _names(fields), labels, values)
+            labels[first:] = [f"{one}[{said}]" for one in labels[first:]]
         return
-    fields: dict[str, Callable[[], Any]] = getattr(value, "__dataclass_fields__", {})
-    for name in fields:
-        if not (name.startswith("__") or name.isupper() or (name == "header" and not label)):
-            _flatten(getattr(value, name), f"{label}.{name}" if label else name, names, labels,
-                     values)  # fmt: skip
+    fields = _fields(value)
+    if "interface_names" in fields and "values" in fields:  # of control_msgs
+        fields = dict(zip(fields["interface_names"], fields["values"], strict=True))
+    for name, content in fields.items():
+        if not (name == "header" and not label):
+            _flatten(content, f"{label}.{name}" if label else name, names, labels, values)
 
 
 # ROS bags as columns: MCAP files, folders and .db3 files of ROS 2, .bag files of ROS 1.
@@ -201,46 +275,63 @@ def read_bag(path: Path, wanted: Wanted) -> Columns:
         from rosbags.typesys import Stores, get_typestore
     except ModuleNotFoundError:
         raise missing_package(path, f"a {what}", "rosbags") from None
-    for file in path.rglob("*") if path.is_dir() else (path,):
-        check_unpacked(path, _declared(file))
-    recording = Recording()
-    with (
-        reading(path, what, f"record it again, or repair it (`{repair}`)"),
-        AnyReader([path], default_typestore=get_typestore(Stores.LATEST)) as bag,
-    ):
-        known = [c for c in bag.connections if c.msgtype in bag.typestore.fielddefs]
-        recording.unreadable = sorted({c.topic for c in bag.connections if c not in known})
-        empty: set[int] = set()
-        for connection, received, raw in bag.messages(connections=known) if known else ():
-            if connection.id in empty:
-                continue
-            message = bag.deserialize(raw, connection.msgtype)
-            if not recording.add(connection.topic, connection.msgtype, received, message):
-                empty.add(connection.id)
+    recording, encodings = Recording(), set[str]()
+    with reading(path, what, f"record it again, or repair it (`{repair}`)"):
+        if path.is_file() and kind == ".mcap":
+            for topic, name, received, message in mcap_messages(path):
+                if message is None:
+                    recording.unreadable.add(topic)
+                    encodings.add(name)
+                else:
+                    recording.add(topic, name, received, message)
+            if recording.unreadable and recording.is_empty:
+                raise DataError(
+                    f"{path}: its messages are {' or '.join(sorted(encodings))}; expected ROS 1, "
+                    "ROS 2 (cdr) or json; write the joint states as CSV, or record them as one"
+                )
+            return recording.columns(path, wanted)
+        for file in path.rglob("*") if path.is_dir() else (path,):
+            _check_packed(path, file)
+        with AnyReader([path], default_typestore=get_typestore(Stores.LATEST)) as bag:
+            known = [c for c in bag.connections if c.msgtype in bag.typestore.fielddefs]
+            recording.unreadable |= {c.topic for c in bag.connections if c not in known}
+            empty: set[int] = set()
+            for connection, received, raw in bag.messages(connections=known) if known else ():
+                if connection.id in empty:
+                    continue
+                message = bag.deserialize(raw, connection.msgtype)
+                if not recording.add(connection.topic, connection.msgtype, received, message):
+                    empty.add(connection.id)
     return recording.columns(path, wanted)
 
 
-def _declared(path: Path) -> int:
-    """Bytes of all chunks of an MCAP file or of a ROS 1 bag once unpacked, by their own headers.
+def _check_packed(path: Path, file: Path) -> None:
+    """Refuse a file of a bag that unpacks to more than a log does, or to more than it states.
 
-    MCAP: records of a type (6: chunk), a length of 64 bits, then two times and the size unpacked.
     ROS 1 (bag format 2.0): records of a header of named fields (`op`, 5: chunk; `size`) and data,
     each after its length of 32 bits.
     """
-    size, mcap = 0, path.suffix.lower() == ".mcap"
-    if not mcap and path.suffix.lower() != ".bag":
-        return 0
-    with path.open("rb") as file:
-        file.seek(8 if mcap else 13)
-        while len(head := file.read(9 if mcap else 4)) == (9 if mcap else 4):
-            if mcap:
-                kind, length = struct.unpack("<BQ", head)
-                body = file.read(min(length, 24))
-                size += struct.unpack("<Q", body[16:])[0] if kind == 6 and len(body) == 24 else 0
-            else:
-                body = file.read(min(struct.unpack("<I", head)[0], 4096)) + file.read(4)
-                at = body.find(b"size=") + 5
-                size += int.from_bytes(body[at : at + 4], "little") if b"op=\x05" in body else 0
-                length = len(body) + int.from_bytes(body[-4:], "little")
-            file.seek(min(length - len(body), 2**40), os.SEEK_CUR)
-    return size
+    ending, size = file.suffix.lower(), 0
+    if ending == ".mcap":
+        for _ in mcap_records(file):
+            pass
+    elif ending == ".zstd":
+        with pa.input_stream(str(file), compression="zstd") as packed:
+            while piece := packed.read(_PIECE):
+                size += len(piece)
+                check_unpacked(path, size)
+    elif ending == ".bag":
+        with file.open("rb") as raw:
+            raw.seek(13)
+            while len(head := raw.read(4)) == 4:
+                header = raw.read(min(struct.unpack("<I", head)[0], _HEADER))
+                length = int.from_bytes(raw.read(4), "little")
+                if b"op=\x05" not in header:
+                    raw.seek(length, os.SEEK_CUR)
+                    continue
+                at = header.find(b"size=") + 5
+                size += (stated := int.from_bytes(header[at : at + 4], "little"))
+                check_unpacked(path, size)
+                packing = next((p for p in ("lz4", "bz2") if f"compression={p}".encode() in header),
+                               "")  # fmt: skip
+                unpacked(raw.read(length), packing, stated)

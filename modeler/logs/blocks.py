@@ -20,8 +20,16 @@ from modeler.core.errors import DataError
 from modeler.core.files import check_unpacked
 from modeler.logs.clock_times import counted, is_beyond, is_moment, origins_of, stated_units
 from modeler.logs.columns import Columns, ColumnValues, NotNumbers, Wanted, unreadable
-from modeler.logs.datasets import Dataset, dataset_of, flattened, needed_columns, one_clock
+from modeler.logs.datasets import (
+    Dataset,
+    dataset_of,
+    flattened,
+    needed_columns,
+    one_clock,
+    with_joint_names,
+)
 from modeler.logs.dialect import TEXTS, bare, dialect_of
+from modeler.logs.stamps import stamp_pairs, with_joined_stamps
 
 pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
@@ -103,7 +111,7 @@ def read_parquet(path: Path, wanted: Wanted) -> Columns:
     """The columns of a Parquet file."""
     del wanted
     with arrow_errors(path, "PARQUET"):
-        table = open_parquet(path).read()  # read_table refuses equal names
+        table = with_texts(path, open_parquet(path).read())  # read_table refuses equal names
         return _parquet_columns(table, dataset_of(path), origins_of(table))
 
 
@@ -114,19 +122,20 @@ def read_dataset(folder: Path, wanted: Wanted) -> Columns:
     if not places:
         raise DataError(f"{folder}: no Parquet files in data/; copy the dataset again")
     with arrow_errors(folder, "PARQUET"):
-        table = pa.concat_tables([open_parquet(p).read() for p in places])
+        table = pa.concat_tables([with_texts(p, open_parquet(p).read()) for p in places])
         return _parquet_columns(table, dataset_of(folder), origins_of(table))
 
 
 def _parquet_columns(
-    table: pa.Table, dataset: Dataset | None, origins: Mapping[str, int], before: int = 0
-) -> Columns:
+    table: pa.Table, dataset: Dataset | None, origins: Mapping[str, int], before: int = 0,
+    names: Sequence[str] = (),
+) -> Columns:  # fmt: skip
     """With entries of lists as columns, and the clock of a dataset."""
     table, told = one_clock(table, dataset, origins.get("index", 0))
     counted_from = {n: first for n, first in origins.items() if n != "index" or is_beyond(first)}
     found = arrow_columns(flattened(table, dataset), before, counted_from)
     rate = None if dataset is None else dataset.fps
-    return dataclasses.replace(found, told=told, rate=rate)
+    return only(dataclasses.replace(found, told=(*told, *found.told), rate=rate), names)
 
 
 def open_parquet(path: Path, **how: Any) -> pa.parquet.ParquetFile:
@@ -136,10 +145,29 @@ def open_parquet(path: Path, **how: Any) -> pa.parquet.ParquetFile:
         DataError: it unpacks to more than a log does.
     """
     file = pa.parquet.ParquetFile(path, **how)
-    meta = file.metadata
-    groups = [meta.row_group(place).total_byte_size for place in range(meta.num_row_groups)]
-    check_unpacked(path, max(8 * meta.num_rows * meta.num_columns, sum(groups)))
-    return file
+    meta, size = file.metadata, 8 * file.metadata.num_rows * file.metadata.num_columns
+    groups = [meta.row_group(place) for place in range(meta.num_row_groups)]
+    values = sum(g.column(k).num_values for g in groups for k in range(g.num_columns))
+    check_unpacked(path, max(size, 8 * values, sum(g.total_byte_size for g in groups)))
+    texts = [f.name for f in file.schema_arrow if pa.types.is_string(f.type)]
+    return pa.parquet.ParquetFile(path, read_dictionary=texts, **how) if texts else file
+
+
+def with_texts(path: Path, table: pa.Table) -> pa.Table:
+    """The table with texts as such, which are read as numbers of a list of them: one may be long.
+
+    Raises:
+        DataError: they unpack to more than a log does.
+    """
+    for at, field in enumerate(table.schema):
+        if not pa.types.is_dictionary(field.type) or not pa.types.is_string(field.type.value_type):
+            continue
+        column = table.column(at)
+        for chunk in column.chunks:
+            longest = pc.max(pc.binary_length(chunk.dictionary)).as_py() or 0
+            check_unpacked(path, longest * len(chunk))
+        table = table.set_column(at, field.name, pc.cast(column, pa.string()))
+    return table
 
 
 @contextmanager
@@ -173,7 +201,8 @@ class _Text:
             ArrowInvalid: a row has more or fewer entries.
         """
         dialect, head = self.dialect, self.dialect.head
-        names = [name for name in self.names if not wanted or name in wanted]
+        made = {*wanted} - {*self.names}  # of several columns
+        names = [name for name in self.names if not wanted or made or name in wanted]
         parse = pa.csv.ParseOptions(delimiter=dialect.delimiter)
         convert = pa.csv.ConvertOptions(
             decimal_point=dialect.decimal, include_columns=names,
@@ -187,8 +216,9 @@ class _Text:
         texts = {name for name, kind in kinds.items() if pa.types.is_string(kind)}
         wholes = {name: first for name, first in dialect.wholes.items() if name not in texts}
         found = arrow_columns(table, before, {**dialect.clocks, **wholes})
-        units = {**found.units, **head.units}
-        return dataclasses.replace(found, units=units, told=dialect.told, rate=head.rate)
+        units, told = {**found.units, **head.units}, (*dialect.told, *found.told)
+        found = dataclasses.replace(found, units=units, told=told, rate=head.rate)
+        return only(found, wanted)
 
     def _parsed(
         self, text: bytes, before: int, parse: pa.csv.ParseOptions, convert: pa.csv.ConvertOptions
@@ -220,11 +250,20 @@ def arrow_columns(
         before: rows of the file that stand before them.
         origins: what columns of times are counted from.
     """
+    table, by_names = with_joint_names(table)
     named = [
         (bare(name), _Arrow(table.column(i), before, origins.get(name)))
         for i, name in enumerate(table.column_names)
     ]
-    return Columns(tuple(named), table.num_rows, stated_units(table, origins))
+    columns, units, told = with_joined_stamps(named)
+    units = {**stated_units(table, origins), **units}
+    return Columns(columns, table.num_rows, units, told=(*by_names, *told))
+
+
+def only(found: Columns, names: Sequence[str]) -> Columns:
+    """The columns of these names, where only some are wanted."""
+    some = tuple(own for own in found.columns if own[0] in names)
+    return dataclasses.replace(found, columns=some) if names else found
 
 
 def state_of(path: Path) -> State:
@@ -260,7 +299,7 @@ class CsvBlocks:
         self._path, self._state = path, state_of(path)
         with arrow_errors(path, "CSV"):
             self._text = _Text(path)
-            self._start = self._text.dialect.start
+            self._start, self.lists = self._text.dialect.start, self._text.dialect.lists
             with self._open() as file:
                 lines = [line for _, line in zip(range(_LINES), file, strict=False) if line.strip()]
                 self._size = file.seek(0, os.SEEK_END)
@@ -338,17 +377,18 @@ class ParquetBlocks:
             self._dataset, schema = dataset_of(path), self._open().schema_arrow
             self._stored = schema.names
             timed = [f.name for f in schema if is_moment(f.type) or pa.types.is_integer(f.type)]
+            timed += [seconds for seconds, *_ in stamp_pairs(schema.names).values()]
         self._starts = np.concatenate([[0], np.cumsum(rows, dtype=int)])  # of the row groups
         self.rows = int(self._starts[-1])
         self._origins: Mapping[str, int] = {}
         if timed and self.rows:
-            self._origins = origins_of(next(self._read(0, 1, timed)))
+            self._origins = origins_of(next(self._read(0, 1, [*dict.fromkeys(timed)])))
 
     def blocks(self, size: int, names: Sequence[str] = ()) -> Iterator[Columns]:
         """All rows in their order, `size` at a time."""
         read = 0
         for table in self._read(0, size, names):
-            yield _parquet_columns(table, self._dataset, self._origins, read)
+            yield _parquet_columns(table, self._dataset, self._origins, read, names)
             read += table.num_rows
         check_unchanged(self._path, self._state)
 
@@ -364,7 +404,7 @@ class ParquetBlocks:
             rows += taken.num_rows
             if rows >= size:
                 break
-        return _parquet_columns(pa.concat_tables(parts), self._dataset, self._origins, start)
+        return _parquet_columns(pa.concat_tables(parts), self._dataset, self._origins, start, names)
 
     def _open(self) -> pa.parquet.ParquetFile:
         return open_parquet(self._path, buffer_size=_BYTES, pre_buffer=False)
@@ -376,7 +416,7 @@ class ParquetBlocks:
             file = self._open()
             some = needed_columns(list(names), self._stored) or None
             for batch in file.iter_batches(size, row_groups=places, columns=some):
-                yield pa.Table.from_batches([batch])
+                yield with_texts(self._path, pa.Table.from_batches([batch]))
                 read += batch.num_rows
         except (pa.ArrowException, OSError) as error:
             check_unchanged(self._path, self._state)
@@ -401,7 +441,10 @@ def blocks_of(path: Path) -> Blocks | None:
         return None
     if path.suffix.lower() == ".parquet":
         return ParquetBlocks(path)
-    return CsvBlocks(path) if path.suffix.lower() in TEXTS else None
+    if path.suffix.lower() not in TEXTS:
+        return None
+    blocks = CsvBlocks(path)
+    return None if blocks.lists else blocks  # whose cells may go over several lines
 
 
 def windows_of(blocks: Blocks, count: int, size: int) -> Columns:

@@ -9,6 +9,7 @@ import numpy as np
 import pyarrow as pa
 
 from modeler.logs.columns import NotNumbers
+from modeler.logs.stamps import stamp_pairs
 
 pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
@@ -101,11 +102,13 @@ def origins_of(table: pa.Table) -> dict[str, int]:
     These are timestamps, durations, times of day, and whole numbers that no float holds.
     """
     found = {}
+    counted = {"index", *(seconds for seconds, *_ in stamp_pairs(table.column_names).values())}
     for name, column in zip(table.column_names, table.columns, strict=True):
-        whole = _whole(column.slice(0, 1))
+        is_second = name in counted and pa.types.is_floating(column.type)
+        whole = pc.floor(column.slice(0, 1)) if is_second else _whole(column.slice(0, 1))
         first = whole[0].as_py() if whole is not None and len(whole) else None
-        if first is not None and (is_moment(column.type) or is_beyond(first) or name == "index"):
-            found[name] = first
+        if first is not None and (is_moment(column.type) or is_beyond(first) or name in counted):
+            found[name] = int(first)
     return found
 
 

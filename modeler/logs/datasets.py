@@ -1,8 +1,9 @@
-"""Parquet files of a LeRobot dataset: columns of lists, joints' names and rate in `meta/info.json`.
+"""Columns of lists, of the names of joints, of a LeRobot dataset with its `meta/info.json`.
 
 Hugging Face, LeRobotDataset v2.1 and v3.0.
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,12 +15,14 @@ import pyarrow as pa
 from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.core.json import JsonError, parse_json
+from modeler.logs.guess import template_of
 
 pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 
 INFO = "meta/info.json"
 _FOLDERS = 4  # data/chunk-000/ and what may stand between
 _WIDEST = 256  # entries of a list that are columns
+_NAMES = re.compile(r"(.*?)(?:joint_?)?names?(?:\{\}|\[\{\}\])", re.IGNORECASE | re.DOTALL)
 _CLOCK = ("timestamp", "index", "episode_index")
 
 
@@ -72,7 +75,12 @@ def _texts(names: Any) -> list[str]:
 
 
 def flattened(table: pa.Table, dataset: Dataset | None) -> pa.Table:
-    """Every entry of a column of lists as a column, `observation.state[shoulder_pan]`."""
+    """Every entry of a column of lists as a column, `observation.state[shoulder_pan]`.
+
+    Fields of structs are columns too, `state.q`.
+    """
+    while any(pa.types.is_struct(kind) for kind in table.schema.types):
+        table = table.flatten()
     names, columns = list[str](), list[pa.ChunkedArray]()
     for name, column in zip(table.column_names, table.columns, strict=True):
         count = _entries(column)
@@ -84,10 +92,11 @@ def flattened(table: pa.Table, dataset: Dataset | None) -> pa.Table:
 
 
 def _entries(column: pa.ChunkedArray) -> int:
-    """How many numbers each row has; 0 if they are no numbers, or not equally many."""
+    """How many numbers or names each row has; 0 of others, or if they are not equally many."""
     kind, t = column.type, pa.types
     lists = t.is_list(kind) or t.is_large_list(kind) or t.is_fixed_size_list(kind)
-    if not lists or not (t.is_integer(kind.value_type) or t.is_floating(kind.value_type)):
+    held = (t.is_integer, t.is_floating, t.is_string)
+    if not lists or not any(is_one(kind.value_type) for is_one in held):
         return 0
     ends = pc.min_max(pc.list_value_length(column)).as_py()
     return ends["max"] or 0 if ends["min"] == ends["max"] and (ends["max"] or 0) <= _WIDEST else 0
@@ -120,7 +129,47 @@ def one_clock(
 
 
 def needed_columns(names: list[str], stored: list[str]) -> list[str]:
-    """The columns of the file that hold these."""
+    """The columns of the file that hold these; none where it takes others to know."""
     whole = [n if n in stored else n.rpartition("[")[0] for n in names]
+    if not whole or {*whole} - {*stored}:
+        return []
     clock = [n for n in _CLOCK if n in stored] if {*names} & {"timestamp", "segment"} else []
-    return [n for n in dict.fromkeys([*whole, *clock]) if n in stored]
+    joints = [n for n in stored if n.lower().endswith(("name", "names"))]  # that cells may name
+    return [n for n in dict.fromkeys([*whole, *clock, *joints]) if n in stored]
+
+
+def with_joint_names(table: pa.Table) -> tuple[pa.Table, tuple[str, ...]]:
+    """Columns by the names that columns of text state, in whatever order each row has them.
+
+    `name[1]` that holds "elbow" makes `position[1]` to `position[elbow]`.
+
+    Returns:
+        The table, and what is told of it.
+    """
+    families: dict[str, dict[str, str]] = {}  # template -> label -> column
+    for name in table.column_names:
+        template, label = template_of(name)
+        families.setdefault(template, {})[label] = name
+    told = list[str]()
+    for template, named in families.items():
+        if not table.num_rows or (match := _NAMES.fullmatch(template)) is None:
+            continue
+        others = [t for t, own in families.items()
+                  if t != template and t.startswith(match[1]) and [*own] == [*named]]  # fmt: skip
+        texts = [table.column(name) for name in named.values()]
+        if not others or not all(pa.types.is_string(text.type) for text in texts):
+            continue
+        joints = [text[0].as_py() for text in texts]
+        if None in joints or len({*joints}) < len(joints):
+            continue
+        for other in others:
+            values = [table.column(name) for name in families[other].values()]
+            for name, joint in zip(families[other].values(), joints, strict=True):
+                own = [pc.if_else(pc.equal(text, joint), value, None)
+                       for text, value in zip(texts, values, strict=True)]  # fmt: skip
+                head = other.partition("{}")[0].removesuffix("[")
+                at = table.column_names.index(name)
+                table = table.set_column(at, f"{head}[{joint}]", pc.coalesce(*own))
+        table = table.drop_columns([*named.values()])
+        told.append(f"joints by the names in {template.replace('{}', '*')}")
+    return table, tuple(told)

@@ -2,6 +2,7 @@
 
 import codecs
 import csv
+import dataclasses
 import io
 import re
 from collections import Counter
@@ -11,8 +12,9 @@ from pathlib import Path
 from typing import BinaryIO
 
 from modeler.core.errors import DataError
-from modeler.logs.clock_times import first_moment, is_clock
+from modeler.logs.clock_times import first_moment, is_beyond, is_clock
 from modeler.logs.mapping import find_unit
+from modeler.logs.stamps import first_seconds
 
 TEXTS = (".csv", ".txt", ".dat", ".tsv", ".log", ".asc", ".lvm")
 """How the names of text files end."""
@@ -21,9 +23,11 @@ _SAMPLE = 2**16  # bytes by which a file is judged
 _LINE = 2**24  # bytes of the longest line that is looked at
 _JUDGED = 50  # rows by which the columns are told
 _BLANKS = " "
+_ENTRY = "\x1f"  # between entries of a list, while columns are counted
 _DELIMITERS = {
     ",": "commas", ";": ";", "\t": "tabs", "|": "|", _BLANKS: "blanks",
 }  # fmt: skip
+_EPOCH = (10**9, 4 * 10**9)  # s since 1970, 2001 to 2096
 _WHOLE = re.compile(r"(?:\d{17,18}|[1-8]\d{18})$")  # that no float holds
 _EMPTY = {"", "null", "none", "na", "n/a", "#n/a", "nan", "-nan", "+nan"}
 _NUMBERS = {
@@ -33,6 +37,11 @@ _NUMBERS = {
 """What is a number, by its decimal; "": by either."""
 _PROSE = re.compile(r"[^,;\t|]*\w:(?:\s|$)")  # as in "Operator: me"
 _COMMENT = re.compile(r"^\s*(?:#|%|//)+\s*")
+_LIST = re.compile(
+    rb"""(?<![^\s,;|"])"?(?:(?:array|tensor)\()?\[\s*((?:[-+.\d]|nan|inf|['"])[^\[\]]*)\]\)?"?"""
+    rb"""|"\(\s*([-+.\d][^()"]*)\)\""""
+)
+"""A list as Python, numpy or JSON print it, with its quotes; a tuple in quotes."""
 _RATE = re.compile(
     r"(?i)(?:sampl\w*|rate|freq\w*|abtast\w*|\bfs\b).*?(\d+(?:[.,]\d+)?)[\s;]*(k?)hz\b"
 )
@@ -74,6 +83,7 @@ class Dialect:
         encoding: of the text.
         clocks: columns of times as texts, with their first row, from which they are counted, ns.
         wholes: the same of whole numbers that no float holds.
+        lists: True if cells hold lists, whose entries are columns.
     """
 
     head: Head
@@ -83,14 +93,16 @@ class Dialect:
     encoding: str = "utf-8"
     clocks: Mapping[str, int] = field(default_factory=dict)
     wholes: Mapping[str, int] = field(default_factory=dict)
+    lists: bool = False
 
     @property
     def told(self) -> tuple[str, ...]:
         """What is unlike commas, points, and names in the first line: one sentence, or nothing."""
-        counted = [*self.clocks, *self.wholes]
+        counted = [*self.clocks, *(n for n, first in self.wholes.items() if is_beyond(first))]
         told = [
             *([f"{_DELIMITERS[self.delimiter]} between columns"] * (self.delimiter != ",")),
             *(["decimal commas"] * (self.decimal == ",")), *self.head.told,
+            *(["a column for each entry of lists"] * self.lists),
             *([f"in {self.encoding}"] * (not self.encoding.startswith("utf-8"))),
             *([f"{', '.join(counted)} counted from the first row"] * bool(counted)),
         ]  # fmt: skip
@@ -104,6 +116,8 @@ class Dialect:
 
     def table(self, text: bytes) -> bytes:
         """Whole lines with one mark between their columns."""
+        if self.lists:
+            text = with_lists_as(text, self.delimiter.encode())
         if self.delimiter != _BLANKS:
             return text
         text = b" " + text.replace(b"\t", b" ").replace(b"\r", b"")
@@ -137,7 +151,8 @@ def dialect_of(path: Path) -> Dialect:
             f"{path}: line {line} holds bytes that no text has; expected a text with columns of "
             "numbers; it is damaged, or another kind of file: give it the ending of its format"
         )
-    lines, starts = _lines(raw, whole)
+    lists = _LIST.search(raw) is not None
+    lines, starts = _lines(with_lists_as(raw, _ENTRY.encode()) if lists else raw, whole)
     joined = b"\n".join(lines)
     try:
         text = joined.decode().removeprefix("\ufeff").split("\n")
@@ -148,15 +163,30 @@ def dialect_of(path: Path) -> Dialect:
             f"{path}: the first line does not end within {_LINE >> 20} MiB, or is empty; expected "
             "the names of the columns; write the file again"
         )
-    delimiter, decimal = _marks(text, path)
-    rows = [split(line, delimiter) for line in text]
-    head = head_of(text, rows, delimiter, decimal, str(path))
+    plain = [re.sub(f"{_ENTRY}[^{_ENTRY},;|\t]*", "", line) for line in text] if lists else text
+    delimiter, decimal = _marks(plain, path)
+    rows = [split(line, delimiter) for line in plain]
+    head = head_of(plain, rows, delimiter, decimal, str(path))
+    if lists and head.first < len(text):
+        rows = [split(line, delimiter) for line in text]
+        counts = [entry.count(_ENTRY) + 1 for entry in rows[head.first]]
+        head = dataclasses.replace(head, names=_entry_names(head.names, counts))
+        rows = [[e for entry in row for e in entry.split(_ENTRY)] for row in rows]
     row = rows[head.first] if head.first < len(rows) else []
     firsts = list(zip(head.names, row, strict=False))
     clocks = {name: first_moment(entry) for name, entry in firsts if is_clock(entry)}
     wholes = {name: int(entry) for name, entry in firsts if _WHOLE.match(entry)}
+    wholes |= first_seconds(head.names, dict(firsts))
     start = starts[head.first] if head.first < len(starts) else starts[-1] + len(lines[-1])
-    return Dialect(head, start, delimiter, decimal, encoding, clocks, wholes)
+    return Dialect(head, start, delimiter, decimal, encoding, clocks, wholes, lists)
+
+
+def _entry_names(names: Sequence[str], counts: Sequence[int]) -> tuple[str, ...]:
+    """`q` of three entries: `q[1]`, `q[2]`, `q[3]`."""
+    pairs = zip(names, counts, strict=True)
+    return tuple(
+        f"{name}[{k + 1}]" if count > 1 else name for name, count in pairs for k in range(count)
+    )
 
 
 def _lines(raw: bytes, whole: bool) -> tuple[list[bytes], list[int]]:
@@ -262,9 +292,12 @@ def head_of(
         for i in [i for i in range(first) if any(rows[i])][-1:]:
             _refuse_other_count(rows[i], lines[i], width, delimiter, decimal, where)
         told = [f"{_counted(first)} before the rows"] * (first > 0)
-        told.append(f"no names: columns are called c1 to c{width}" if width > 1 else "no name: c1")
         numbered = first == 0 and len(rows) > 1 and [*rows[0]] == [str(k) for k in range(width)]
         names = tuple(f"c{k + 1}" for k in range(width))
+        if (echoed := _names_of_echo(rows[first] if first < len(rows) else [], names)) != names:
+            told.append("names as of messages with a header, for want of any")
+            return Head(echoed, first, rate=rate, told=tuple(told))
+        told.append(f"no names: columns are called c1 to c{width}" if width > 1 else "no name: c1")
         return Head(names, first + numbered, rate=rate, told=tuple(told))
     names = _distinct(above[at] or [], above[at - 1] if at else None)
     stated = {}
@@ -275,6 +308,23 @@ def head_of(
     between = first - at - 1 - (units is not None and units > at)
     told += [f"{_counted(between)} between names and rows"] * (between > 0)
     return Head(names, first, stated, rate, tuple(told))
+
+
+def _names_of_echo(row: Sequence[str], names: tuple[str, ...]) -> tuple[str, ...]:
+    """What the columns of `ros2 topic echo --csv` are of a message that begins with a header.
+
+    Of a sensor_msgs/JointState with names, positions, velocities and efforts also those.
+    """
+    stamp = [int(e) if re.fullmatch(r"\d{1,10}", e) else -1 for e in row[:2]]
+    if len(stamp) < 2 or not (_EPOCH[0] < stamp[0] < _EPOCH[1] and 0 <= stamp[1] < 10**9):
+        return names
+    head = ("header.stamp.sec", "header.stamp.nanosec", "header.frame_id")
+    texts = [k for k, e in enumerate(row[3:]) if not e or _is_value(e, ".")]
+    count = texts[0] if texts else 0
+    if not count or len(row) != 3 + 4 * count:
+        return (*head[:2], *names[2:])
+    fields = ("name", "position", "velocity", "effort")
+    return (*head, *(f"{field}[{k + 1}]" for field in fields for k in range(count)))
 
 
 def _distinct(names: Sequence[str], over: Sequence[str] | None) -> tuple[str, ...]:
@@ -360,3 +410,17 @@ def _rate(lines: Sequence[str]) -> float | None:
             if step > 0.0:
                 return 1.0 / step
     return None
+
+
+def with_lists_as(text: bytes, between: bytes) -> bytes:
+    r"""The text with the entries of each list in place of it, something between them.
+
+    >>> with_lists_as(b'0.1,"[1.0, 2.0]",[3. 4.\n 5.]', b",")
+    b'0.1,1.0,2.0,3.,4.,5.'
+    """
+
+    def entries(found: re.Match[bytes]) -> bytes:
+        inside = re.split(rb"[\s,;]+", (found[1] or found[2]).strip(b" \r\n\t,"))
+        return between.join(entry.strip(b"'\"") for entry in inside)
+
+    return _LIST.sub(entries, text)

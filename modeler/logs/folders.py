@@ -1,5 +1,6 @@
 """One motion in several files: one for each quantity, or one for each joint."""
 
+import dataclasses
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -8,9 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from modeler.core.errors import DataError
+from modeler.logs.arrays import LEAST_ROWS
 from modeler.logs.columns import Column, Columns, NotNumbers, Wanted
 from modeler.logs.guess import role_of, template_of
 
+_GAP = 3.0  # steps of a file across which it is not interpolated
 _SAME = 0.5  # of a step, that clocks of the same rows are apart at most
 
 Reader = Callable[[Path, Wanted], Columns]
@@ -33,6 +36,8 @@ class _Part:
 def read_files(places: Mapping[Path, str], where: Path, reader: Reader) -> Columns:
     """The columns of several files as those of one log; rows belong together by their place.
 
+    Where counts or clocks differ and every file has its clock, they are joined by time.
+
     A column is called `q[1]`, whether it is column 1 of q.csv or column q of joint1.csv; `q1`, our
     name of it, if [log] says that the file holds q.
 
@@ -42,20 +47,22 @@ def read_files(places: Mapping[Path, str], where: Path, reader: Reader) -> Colum
         reader: of one file.
 
     Raises:
-        DataError: other counts of rows, other clocks, several logs, or a file that cannot be read.
+        DataError: other counts of rows without clocks, no common time, several logs, or a file that
+            cannot be read.
     """
     parts = [_part(place, key, reader) for place, key in places.items()]
+    parts, joined = _joined_by_time(parts, where)
     first = parts[0]
     for part in parts:
         if part.found.rows != first.found.rows:
             raise DataError(
                 f"{where}: {part.path.name} has {part.found.rows} rows and {first.path.name} "
-                f"{first.found.rows}; expected the same rows in each file of one motion; give "
-                "files of several motions one by one, or resample one to the clock of the other"
+                f"{first.found.rows}; expected the same rows, or a time column in each file of one "
+                "motion; give files of several motions one by one"
             )
     twice = {name for name, n in Counter(n for p in parts for n in p.names).items() if n > 1}
     columns, units = list[tuple[str, Column]](), dict[str, str]()
-    clock, told = _clock(parts, where)
+    clock, told = _clock(parts)
     for part in parts:
         own = dict(part.found.columns)
         names = _renamed(part, twice, where)
@@ -69,6 +76,7 @@ def read_files(places: Mapping[Path, str], where: Path, reader: Reader) -> Colum
     said = f"one motion in {len(parts)} files: {listed}{told}"
     notes, told_of = (_sentences(parts, name) for name in ("notes", "told"))
     rows = first.found.rows
+    told_of = (*joined, *told_of)
     return Columns(tuple(columns), rows, units, notes, rate=rate, told=(said, *told_of))
 
 
@@ -77,6 +85,70 @@ def _part(path: Path, key: str, reader: Reader) -> _Part:
     timed = [n for n, column in found.columns if column.numeric and role_of(n) == "time"]
     alone = len(found.columns) == 1
     return _Part(path, found, timed[0] if timed and not alone else None, key)
+
+
+@dataclass(frozen=True, eq=False)
+class _Interpolated:
+    """A column at the times of another file; missing across gaps of its own."""
+
+    column: Column
+    time: np.ndarray
+    wanted: np.ndarray
+    widest: float  # step that is no gap, s
+
+    @property
+    def numeric(self) -> bool:
+        return self.column.numeric
+
+    def numbers(self) -> np.ndarray:
+        after = np.clip(np.searchsorted(self.time, self.wanted), 1, len(self.time) - 1)
+        apart = self.time[after] - self.time[after - 1]
+        values = np.interp(self.wanted, self.time, self.column.numbers())
+        return np.where(apart > self.widest, np.nan, values)
+
+
+def _joined_by_time(parts: Sequence[_Part], where: Path) -> tuple[list[_Part], list[str]]:
+    """The files on the clock of the slowest, over the time that all have; how, in words.
+
+    The others are interpolated, whose rows are closer. Files of equal rows and times stay.
+
+    Raises:
+        DataError: their times have less in common than a log has rows.
+    """
+    if any(part.clock is None for part in parts):
+        return [*parts], []
+    counted = [_times(part) for part in parts]
+    times = [time + begins - counted[0][1] for time, begins in counted]
+    if any(len(t) < LEAST_ROWS or not (np.diff(t) > 0.0).all() for t in times):
+        return [*parts], []
+    steps = [float(np.median(np.diff(t))) for t in times]
+    slow = int(np.argmax(steps))
+    if len({*map(len, times)}) == 1 and np.ptp(times, axis=0).max() <= _SAME * steps[slow]:
+        return [*parts], []
+    begin, end = max(t[0] for t in times), min(t[-1] for t in times)
+    rows = times[slow][(times[slow] >= begin) & (times[slow] <= end)]
+    if len(rows) < LEAST_ROWS:
+        spans = (f"{p.path.name} {t[0]:.7g} to {t[-1]:.7g}"
+                 for p, t in zip(parts, times, strict=True))  # fmt: skip
+        raise DataError(
+            f"{where}: the times of its files have less than {LEAST_ROWS} rows in common: "
+            f"{', '.join(spans)}; expected one clock in the same unit; shift or convert one"
+        )
+    made = list[_Part]()
+    for part, time, step in zip(parts, times, steps, strict=True):
+        is_slow = part is parts[slow]
+        columns = tuple(
+            (name, _Interpolated(column, time, rows, _GAP * step))
+            for name, column in part.found.columns
+            if column.numeric and (is_slow or name != part.clock)
+        )
+        found = dataclasses.replace(part.found, columns=columns, rows=len(rows))
+        made.append(dataclasses.replace(part, found=found, clock=part.clock if is_slow else None))
+    rates = (f"{p.path.name} {1.0 / s:.4g}" for p, s in zip(parts, steps, strict=True))
+    return made, [
+        f"joined by time, {end - begin:.4g} long, on the rows of {parts[slow].path.name}; rows per "
+        f"unit of time: {', '.join(rates)}; the others are interpolated"
+    ]
 
 
 def _renamed(part: _Part, twice: set[str], where: Path) -> dict[str, str]:
@@ -101,30 +173,16 @@ def _renamed(part: _Part, twice: set[str], where: Path) -> dict[str, str]:
     return found
 
 
-def _clock(parts: Sequence[_Part], where: Path) -> tuple[_Part | None, str]:
-    """The file whose clock all rows have, and how far others are from it, in words.
-
-    Raises:
-        DataError: further than half a step.
-    """
+def _clock(parts: Sequence[_Part]) -> tuple[_Part | None, str]:
+    """The file whose clock all rows have, and how far others are from it, in words."""
     timed = [(part, *_times(part)) for part in parts if part.clock is not None]
     if not timed:
         return None, ""
     first, time, start = timed[0]
+    off = [float(np.nanmax(np.abs(own + b - start - time), initial=0.0)) for _, own, b in timed]
     step = float(np.median(np.abs(np.diff(time)))) if len(time) > 1 else 0.0
-    widest = 0.0
-    for part, own, begins in timed[1:]:
-        off = np.abs(own + (begins - start) - time)
-        widest = max(widest, float(np.nanmax(off, initial=0.0)))
-        if widest > _SAME * step:
-            row = int(np.nanargmax(off)) + 1
-            raise DataError(
-                f"{where}: the clocks of {part.path.name} and {first.path.name} are {widest:.4g} "
-                f"apart in row {row}, of steps of {step:.4g}; expected the same times in each "
-                "file; resample one to the clock of the other"
-            )
-    return first, f", whose clocks are up to {widest:.2g} apart: that of {first.path.name}" * (
-        widest > 1e-6 * step
+    return first, f", whose clocks are up to {max(off):.2g} apart: that of {first.path.name}" * (
+        max(off) > 1e-6 * step
     )
 
 

@@ -24,11 +24,24 @@ _WORDS: Mapping[str, str] = {
     "qd": "qd dq qdot geschwindigkeit drehzahl vel velocity velocities speed speeds omega",
     "q": "q winkel pos position positions angle angles theta enc encoder x state",
 }
+_KIND_OF = {word: own for own, words in _WORDS.items() for word in words.split()}
 _KINDS: Mapping[Powers, str] = {
     TIME: "time", ANGLE: "q", LENGTH: "q", (0, 0, -1, 1, 0, 0): "qd", (1, 0, -1, 0, 0, 0): "qd",
     TORQUE: "tau", FORCE: "tau", CURRENT: "current",
 }  # fmt: skip
-_ASKED = "qc cmd command commanded desired des target ref reference set setpoint action"
+_ASKED = (
+    "qc cmd cmds command commands commanded cmptd computed desired des target targets ref "
+    "reference set setpoint setpoints goal action planned plan points nominal demand soll"
+)
+_MEASURED = "actual act measured meas feedback fbk ist"
+_FALSE = "error errors err"  # of a controller: neither measured nor commanded
+_QUANTITY = "q qd dq qdd ddq pos position vel velocity acc tau torque current joint axis"
+_FUSED = re.compile(
+    "(?:({0})({1})|({1})({0}))".format(
+        _QUANTITY.replace(" ", "|"), "cmd|command|des|desired|target|ref|set|goal"
+    )
+)
+"""What is commanded, in one word: `qdes`, `refpos`."""
 _BESIDE = re.compile(r"\[([^\[\]]*)\{\}([^\[\]]*)\]")  # what stands beside a joint: `[{}.load]`
 _LABEL = re.compile(r"\[([^\[\]]+)\]$|(\d+)(?!.*\d)|(?<=[ _.])([A-Z])$")
 _UNIT = re.compile(r"\s+[\[(]([^\[\]()]+)[\])]$")
@@ -96,7 +109,7 @@ def guesses(
         groups.setdefault(_family(template) if label else template, []).append(
             (template, label, name)
         )
-    found: dict[str, Guess] = {}
+    found, ranks = dict[str, Guess](), dict[str, tuple[int, int]]()
     by_duty = bool(joints) and any(joint.drive for joint in joints)
     for group in groups.values():
         template, *_ = Counter(each for each, _, _ in group).most_common(1)[0]
@@ -104,12 +117,15 @@ def guesses(
         others = {label: name for each, label, name in group if each != template}
         unit = find_unit(stated.get(own_columns[0]) or _named(own_columns[0]) or "?")
         own = _role(template) or ("" if unit is None else _KINDS.get(unit.powers, ""))
+        words = _words_in(template)
+        if own != "qc" and own != "time" and (_is_commanded(words) or {*_FALSE.split()} & {*words}):
+            own = "qc" if own == "q" and _is_commanded(words) else ""
         if by_duty and own == "tau" and re.search(r"load(?![a-z])", template.lower()):
             own = "duty"  # what such drives call their load is a share of the voltage
         if own == "time" and not all(_rises(columns[name]) for name in own_columns):
             own = "tau" if template.lower().split()[:1] == ["t"] else ""
-        better = own in found and len(labels) > len(found[own].labels)
-        if own and (own not in found or better):
+        if own and (own not in found or _rank(own, template, labels) > ranks[own]):
+            ranks[own] = _rank(own, template, labels)
             found[own] = Guess(own, template, tuple(labels), ("",) * len(labels), others=others)
     if "time" not in found:
         taken = {name for one in found.values() for name in one.columns}
@@ -222,15 +238,49 @@ def _role(template: str) -> str:
     """
     if template == "{}":
         return "q"
+    words = _words_in(template)
+    if {*_FALSE.split()} & {*words}:
+        return ""
+    commanded = _is_commanded(words)
+    for word in reversed(words):
+        if own := _KIND_OF.get(word, ""):
+            return ("qc" if own == "q" else "") if commanded and own != "time" else own
+    return "qc" if words and words[-1] in ("qc", "action") else ""
+
+
+def _words_in(template: str) -> list[str]:
+    """The words of a name, in lower case; of what stands in brackets, those beside a joint."""
     beside = _BESIDE.search(template)
     text = f"{template.split('[')[0]} {' '.join(beside.groups()) if beside else ''}"
     words = [word.lower() for word in _SPLIT.split(text) if word]
-    asked = any(word in _ASKED.split() for word in words)
+    fused = [_FUSED.fullmatch(word) for word in words]
+    pairs = zip(words, fused, strict=True)
+    return [
+        part for word, two in pairs for part in (filter(None, two.groups()) if two else (word,))
+    ]
+
+
+def _is_commanded(words: Sequence[str]) -> bool:
+    """True of what a controller wants, not of what was measured: the last such word decides."""
+    if words[1:] and words[-1] == "d":  # as libfranka calls what is desired: q_d, tau_J_d
+        return True
     for word in reversed(words):
-        for own, names in _WORDS.items():
-            if word in names.split():
-                return ("qc" if own == "q" else "") if asked and own != "time" else own
-    return "qc" if words and words[-1] in ("qc", "action") else ""
+        if word in _MEASURED.split():
+            return False
+        if word in _ASKED.split():
+            return True
+    return False
+
+
+def _rank(own: str, template: str, labels: Sequence[str]) -> tuple[int, int]:
+    """How well columns serve as a quantity: the clock of a header, of others the most joints.
+
+    A name of two quantities, such as `TorqueCur`, comes after one of a single quantity.
+    """
+    words = _words_in(template)
+    if own == "time":
+        return int("header" in words), 0
+    return len(labels), -len({_KIND_OF[word] for word in words if word in _KIND_OF})
 
 
 def role_of(name: str) -> str:
@@ -239,9 +289,9 @@ def role_of(name: str) -> str:
 
 
 def _rises(values: np.ndarray) -> bool:
-    """True of a column that goes up, as a time does, but for a few rows."""
+    """True of a column that goes up, as a time does, but for a few rows; not of a constant."""
     steps = np.diff(values[np.isfinite(values)])
-    return bool(len(steps) == 0 or np.mean(steps >= 0.0) > 0.9)
+    return bool(len(steps) == 0 or (np.mean(steps >= 0.0) > 0.9 and steps.any()))
 
 
 def _with_units(

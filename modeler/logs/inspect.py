@@ -26,6 +26,7 @@ from modeler.logs.guess import (
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LENGTH, LogMap, find_unit, unit_named
 from modeler.logs.rates import moves, on_grid, rate_doubts, repeats_line
+from modeler.logs.stamps import coarse_clock
 from modeler.numerics.held import repeated_rows
 
 GAP = 1.5  # of the median step
@@ -222,7 +223,11 @@ def inspect_log(
     notes, pairs = (*table.told, *table.notes), speeds_by_position(found)
     if every is not None:
         notes = (*notes, _TOLD.format(rows, len(time)))
-    doubts = [*_of_clock(clock), *absent_roles(found), *unlike_si(found)]
+    coarse = ""
+    if clock is not None and clock.repeated and every is None:
+        others = (v for name, v in values.items() if table.called(name) != clock.column)
+        coarse = coarse_clock(time, others)
+    doubts = [*_of_clock(clock, coarse), *absent_roles(found), *unlike_si(found)]
     doubts += doubtful_degrees(found, values)
     rest = {speed for position, speed in pairs if not moves(values[position])}
     doubts += rate_doubts(pairs, values, time)
@@ -460,10 +465,12 @@ def _limits(
     return tuple((end, count / rows) for end, count in counts if count > _STUCK * rows)
 
 
-def _of_clock(clock: Clock | None) -> list[str]:
+def _of_clock(clock: Clock | None, coarse: str) -> list[str]:
     """What a clock should not do."""
     if clock is None:
         return ["no column looks like the time: name it with --map time=COLUMN, or give --map rate"]
+    if coarse:
+        return [f"{clock.column}: {coarse}"]
     lines = []
     if clock.back:
         lines.append(f"{clock.column} goes back in {clock.back} rows: sort or split the log")

@@ -58,14 +58,17 @@ class LogTable:
         self._columns: dict[str, Column] = dict(self.found.columns)
         self._check()
         self._entries, self._guessed = mapping.entries(joints), bool(mapping.told)
+        if mapping.rate:
+            self._entries.pop("time", None)
         self._taken: dict[str, str] = {}  # which an error of the next line reads
         self._taken = self._matched()
         timed = "time" in self._taken or "time" in self._columns
-        timed = timed or (not mapping.rate and any(role_of(n) == "time" for n in self._columns))
-        self._rate = None if timed else mapping.rate or self.found.rate
+        timed = timed or any(role_of(n) == "time" for n in self._columns)
+        self._rate = mapping.rate or (None if timed else self.found.rate)
         self._said = "" if mapping.rate else ", as the file says"
         self.rated = self._rate is not None
         used = set(self._taken.values())
+        used |= {"time"} if self._rate else set()
         others = [name for name in self._columns if name not in used and name not in self._taken]
         self.names: tuple[str, ...] = (*self._taken, *(["time"] if self._rate else []), *others)
         self._units = {name: self._unit(name) for name in self.names}
@@ -147,7 +150,9 @@ class LogTable:
         ]
         lines = [f"by the units that the file states: {', '.join(stated)}"] if stated else []
         if self._rate:
-            lines.append(f"no time column: rows counted at {self._rate:g} Hz{self._said}")
+            beside = next((n for n in self._columns if n == "time" or role_of(n) == "time"), "")
+            why = f"column {beside} is not used" if beside else "no time column"
+            lines.append(f"{why}: rows counted at {self._rate:g} Hz{self._said}")
         return lines
 
     def __contains__(self, name: str) -> bool:
@@ -252,8 +257,10 @@ class LogTable:
         if colon and head in there:
             hint = f' (if column {head} is meant, "{unit}" is no unit that is known)'
         guess = "or let it be guessed, --map auto, "
+        guess = "" if self._guessed else guess
+        guess += "or of even rows their rate, --map rate=HZ, " * (name == "time")
         return (
             f"no column {name if wanted == name else f'{wanted} ({name})'}{hint}; the columns are "
             f"{', '.join(there[:_SHOWN])}; say which it is, --map {name}=COLUMN, "
-            f"{'' if self._guessed else guess}or add it"
+            f"{guess}or add it"
         )

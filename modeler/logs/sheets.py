@@ -1,16 +1,24 @@
 """Spreadsheets (.xlsx and what else calamine reads), by the rules of text files."""
 
+import re
+import sys
+import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 
 import pyarrow as pa
 
 from modeler.core.errors import DataError
+from modeler.core.files import check_unpacked
 from modeler.logs.blocks import arrow_columns
 from modeler.logs.clock_times import first_moment, is_clock
 from modeler.logs.columns import Columns, Stream, Wanted, missing_package, reading
 from modeler.logs.dialect import decimal_number, head_of
 
+_PIECE = 2**22  # bytes that are unpacked at a time, to be counted
+_CELL = 150  # bytes of a cell in memory: as read, and as text
+_TAG = re.compile(rb"<(?:\w+:)?(row|c)((?:\s[^>]*)?)>")
+_PLACE = re.compile(rb"""\sr=["']([A-Z]{0,3})(\d{1,7})["']""")
 _LEAST = 2  # rows of a table with names
 
 
@@ -25,6 +33,7 @@ def read_sheets(path: Path, wanted: Wanted) -> Columns:
     except ModuleNotFoundError:
         raise missing_package(path, "a spreadsheet", "python-calamine") from None
     with reading(path, "spreadsheet", "save it again as .xlsx, or as CSV"):
+        _check_room(path)
         book = CalamineWorkbook.from_path(str(path))
         cells = {n: book.get_sheet_by_name(n).to_python() for n in book.sheet_names
                  if wanted.topic in ("", n)}  # fmt: skip
@@ -53,6 +62,42 @@ def read_sheets(path: Path, wanted: Wanted) -> Columns:
     streams = tuple(Stream(n, "sheet", len(r), n == name) for n, r in sheets.items())
     streams *= len(streams) > 1
     return Columns(found.columns, found.rows, head.units, (), streams, head.rate, told=read)
+
+
+def _check_room(path: Path) -> None:
+    """Refuse a workbook that unpacks, or whose cells fill their rows and columns, to too much.
+
+    Office Open XML (ECMA-376), part 1, section 18.3: a sheet lists the cells that hold something by
+    their places; readers make a table as large as the farthest of them. Of the texts that cells
+    share, each has a copy.
+    """
+    size = cells = longest = shared = 0
+    with zipfile.ZipFile(path) as book:
+        for part in book.infolist():
+            part.file_size = sys.maxsize  # what it states: it is unpacked to its end
+            text, row, column, ends = b"", 0, 0, [0, 0]
+            with book.open(part) as file:
+                while piece := file.read(_PIECE):
+                    size += len(piece)
+                    check_unpacked(path, size)
+                    text = text[text.rfind(b"<") :] + piece
+                    if "sharedStrings" in part.filename:
+                        longest = max(longest, *map(len, text.split(b"</si>")))
+                    for tag in _TAG.finditer(text[: text.rfind(b"<")]):
+                        of_row, attributes = tag[1] == b"row", tag[2]
+                        row, column = (row + 1, 0) if of_row else (row, column + 1)
+                        if place := _PLACE.search(attributes):
+                            row, column = int(place[2]), _column(place[1])
+                        if not of_row and not attributes.endswith(b"/"):
+                            ends = [max(ends[0], row), max(ends[1], column)]
+                            shared += b't="s"' in attributes
+            cells += ends[0] * ends[1]
+        check_unpacked(path, max(_CELL * cells, longest * shared))
+
+
+def _column(letters: bytes) -> int:
+    """The number of a column: 1 of `A`, 28 of `AB`."""
+    return sum((letter - 64) * 26**k for k, letter in enumerate(reversed(letters)))
 
 
 def _has_numbers(rows: Sequence[Sequence[str]]) -> bool:

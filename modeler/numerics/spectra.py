@@ -220,6 +220,23 @@ SHORTEST = 2.0
 """s, of a lap."""
 
 
+_SPARSE = 10  # steps in the time of a log for each of its rows, from which on pauses fill it
+
+
+def longest_stretch(time: np.ndarray, step: float) -> slice:
+    """All rows; where pauses fill the time of a log, the longest stretch between them.
+
+    Args:
+        time: (n,) s, increasing.
+        step: s, between rows.
+    """
+    if len(time) < 2 or time[-1] - time[0] < _SPARSE * step * len(time):
+        return slice(0, len(time))
+    ends = np.concatenate([[0], np.flatnonzero(np.diff(time) > _SPARSE * step) + 1, [len(time)]])
+    longest = int(np.argmax(np.diff(ends)))
+    return slice(int(ends[longest]), int(ends[longest + 1]))
+
+
 def lap(since: np.ndarray, q: np.ndarray) -> float:
     """Period of a motion that repeats at least once, s; 0 if it does not.
 
@@ -228,7 +245,9 @@ def lap(since: np.ndarray, q: np.ndarray) -> float:
         q: (s, J) positions.
     """
     step = float(np.median(np.diff(since))) if len(since) > 2 else 0.0
-    count = int(since[-1] / step) + 1 if step > 0.0 else 0
+    rows = longest_stretch(since, step)
+    since, q = since[rows] - since[rows][:1], q[rows]
+    count = int(since[-1] / step) + 1 if step > 0.0 and len(since) else 0
     if count < 8 or since[-1] < 2 * SHORTEST:
         return 0.0
     even = np.arange(count) * step

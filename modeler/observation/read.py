@@ -18,6 +18,7 @@ from modeler.logs import (
     LogTable,
     ParquetBlocks,
     blocks_of,
+    coarse_clock,
     columns_given,
 )
 from modeler.observation.log import MOST_WHOLE, Log, fingerprint
@@ -161,6 +162,9 @@ def _time(table: LogTable) -> np.ndarray:
     back = np.flatnonzero(np.diff(time) <= 0.0)
     if back.size:
         row = int(back[0]) + 1
+        channels = (table.numbers(n) for n in table.names if n != "time" and table.is_numeric(n))
+        if coarse := coarse_clock(time, channels):
+            raise DataError(f"{table.path}: column {name}, row {table.before + row + 1}: {coarse}")
         raise backwards(table, table.before + row, time[row - 1], time[row])
     step = float(np.median(np.diff(time))) if len(time) > 1 else 1.0
     if not _SHORTEST_STEP <= step <= _LONGEST_STEP:
@@ -174,10 +178,12 @@ def _time(table: LogTable) -> np.ndarray:
 
 def backwards(table: LogTable, row: int, before: float, time: float) -> DataError:
     """The error of a row, counted from 0, whose time is not after the one before it."""
+    remedy = "sort the file, or split it where the clock restarts"
+    if time == before:
+        remedy = "delete rows written twice; if times are rounded, give the rate, --map rate=HZ"
     return DataError(
         f"{table.path}: column {table.called('time')}, row {row + 1}: {time:.9g} s after "
-        f"{before:.9g} s; expected increasing time; delete repeated rows, or sort "
-        "and split the file where the clock restarts"
+        f"{before:.9g} s; expected increasing time; {remedy}"
     )
 
 
@@ -202,7 +208,8 @@ def _torque(table: LogTable, joint: JointSpec, spec: ModuleSpec) -> tuple[np.nda
     called = " or ".join(map(table.called, (tau, current, *([duty] if joint.drive else []))))
     raise DataError(
         f"{table.path}: no column {called}: joint {joint.name} of "
-        f"{spec.robot} is actuated; log its torque, or its current and give the drive gain"
+        f"{spec.robot} is actuated; log its torque, or its current and give the drive gain; "
+        "if another file of the same clock has it, give a folder with both"
     )
 
 

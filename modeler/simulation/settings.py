@@ -19,7 +19,7 @@ _MOST = {
     "linear_resolution": 1.0, "torque_noise": 100.0, "process_noise": 100.0,
 }  # fmt: skip
 """What may be 0 and more, up to this."""
-_MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
+MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
 _FORM = "EFFECT, EFFECT@JOINT or EFFECT@JOINT:name=value,..., as in stribeck@2:extra=3"
 
 
@@ -103,11 +103,11 @@ def check_settings(settings: SimulationSettings, joints: tuple[str, ...]) -> Non
         value = getattr(settings, name)
         if not (math.isfinite(value) and value > 0):
             raise DataError(f"simulation, {name}: got {value}; expected a number above 0")
-    if settings.duration * settings.rate > _MOST_SAMPLES:
+    if settings.duration * settings.rate > MOST_SAMPLES:
         raise DataError(
             f"simulation, duration: got {settings.duration:g} s at {settings.rate:g} samples per "
             f"second, {settings.duration * settings.rate:.3g} samples; expected at most "
-            f"{_MOST_SAMPLES:.0e}; simulate a shorter motion or lower the rate"
+            f"{MOST_SAMPLES:.0e}; simulate a shorter motion or lower the rate"
         )
     for name, most in _MOST.items():
         value = getattr(settings, name)

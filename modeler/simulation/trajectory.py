@@ -16,6 +16,7 @@ from modeler.core.errors import DataError, RobotError
 from modeler.core.files import check_unpacked, read_file
 from modeler.robot import Limits, Robot
 from modeler.simulation.portable_math import sine_and_cosine, ten_digits
+from modeler.simulation.settings import MOST_SAMPLES
 
 _MARGIN = 0.92  # of the limits: the joints overshoot the command a little
 _SPEEDS = (1.0, 0.6, 0.25, 1.0, 0.4, 0.1)  # of the top speed, taken in turn
@@ -270,6 +271,7 @@ def _quintic_step(s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 _DEGREE = 5  # of the spline through positions where derivatives are not given
 _LARGEST = 2**30  # bytes
 _FEWEST = _DEGREE + 1  # samples
+_BEYOND = 1e12  # of s, rad, m and their rates: squares of squares of it are numbers still
 
 
 def read_motion(path: str | Path, joints: Sequence[str]) -> Reference:
@@ -318,6 +320,11 @@ def curve_of(motion: Reference) -> BPoly:
 def at_rate(motion: Reference, rate: float) -> Reference:
     """The motion at other samples: polynomials of degree five that meet all that is given."""
     curve = curve_of(motion)
+    if motion.time[-1] * rate > MOST_SAMPLES:
+        raise DataError(
+            f"--motion: lasts {motion.time[-1]:.4g} s, {motion.time[-1] * rate:.3g} samples; "
+            f"expected at most {MOST_SAMPLES:.0e}; take out its pauses, or lower --rate"
+        )
     count = int(np.floor(motion.time[-1] * rate + 1e-9)) + 1
     time = np.arange(count) / rate
     at = np.minimum(time, motion.time[-1])
@@ -377,9 +384,11 @@ def _column(table: pa.Table, path: Path, name: str) -> np.ndarray:
     if not (pa.types.is_floating(column.type) or pa.types.is_integer(column.type)):
         raise DataError(f"{path}, column {name}: got {column.type}; expected numbers")
     values = column.cast(pa.float64()).to_numpy(zero_copy_only=False)
-    if not np.all(np.isfinite(values)):
-        row = int(np.argmax(~np.isfinite(values))) + 2
-        raise DataError(f"{path}, row {row}: {name} is empty or not finite; expected a number")
+    if not np.all(np.abs(values) < _BEYOND):
+        row = int(np.argmax(~(np.abs(values) < _BEYOND))) + 2
+        raise DataError(
+            f"{path}, row {row}: {name} is empty, or not below {_BEYOND:g}; expected a number"
+        )
     return values
 
 

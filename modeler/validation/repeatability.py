@@ -1,12 +1,13 @@
 """What the variance of a joint's torque is made of: explained, repeatable, noise."""
 
+import dataclasses
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from modeler.numerics.noise import at
-from modeler.numerics.spectra import ALIKE, lap
+from modeler.numerics.spectra import ALIKE, lap, longest_stretch
 from modeler.validation.prediction import Prediction, full_rate
 from modeler.validation.residual_structure import Structure
 
@@ -78,7 +79,9 @@ def _motions(prediction: Prediction) -> list[_RepeatedMotion]:
 
 def _laps(motions: list[_RepeatedMotion]) -> Repetition:
     partners, periods = [], []
-    for own in motions:
+    for whole in motions:
+        rows = longest_stretch(whole.time, whole.step)
+        own = dataclasses.replace(whole, time=whole.time[rows], q=whole.q[rows])
         length = float(np.ptp(own.time))
         even = np.arange(0.0, length, own.step)
         rough = lap(even, _at(own, own.time[0] + even))

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
+import pytest
 
 from modeler.core.builtin import builtin_names, builtin_text
 from modeler.robot.read import read_robot
@@ -24,6 +25,7 @@ from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes, edited_
 from tests.bad_input.robot_texts import CRANK, LEGS, MAGNET, SERIAL
 from tests.bad_input.yard import Ground, Yard, csv_text
 from tests.logs import writers
+from tests.logs.programs import lerobot
 from tests.robot.par_files import par_of
 
 SAMPLES = 400
@@ -44,6 +46,29 @@ COMMANDS = (
     "diagnose m.json b.csv --json d.json", "robots wrist",
     "fit two-link a.csv --map q1=q1:rad --map tau1=tau1 --out f.json",
 )  # fmt: skip
+URDF = b"""<?xml version="1.0"?>
+<robot name="arm"><link name="base"/>
+<link name="a"><inertial><origin xyz="0.1 0 0" rpy="0 0.1 0"/><mass value="3.0"/>
+<inertia ixx="0.02" ixy="0.001" ixz="0" iyy="0.03" iyz="0" izz="0.025"/></inertial></link>
+<link name="b"><inertial><mass value="2.0"/>
+<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.05" iyz="0" izz="0.05"/></inertial></link>
+<joint name="j1" type="revolute"><parent link="base"/><child link="a"/><origin xyz="0 0 0.3"/>
+<axis xyz="0 0 1"/><limit lower="-2" upper="2" velocity="3" effort="100"/>
+<dynamics damping="2.0" friction="1.5"/></joint>
+<joint name="j2" type="prismatic"><parent link="a"/><child link="b"/><axis xyz="0 1 0"/>
+<limit lower="-1" upper="1" velocity="3" effort="50"/></joint>
+<transmission name="t"><joint name="j1"/><actuator name="m">
+<mechanicalReduction>50</mechanicalReduction></actuator></transmission>
+</robot>
+"""
+MJCF = b"""<mujoco model="arm"><compiler angle="degree"/><option gravity="0 0 -9.81"/>
+<default><joint damping="0.5" armature="0.01"/></default>
+<worldbody><body name="a" pos="0 0 0.3"><joint name="j1" axis="0 0 1" range="-90 90"/>
+<geom type="capsule" size="0.05 0.2" mass="2"/><body name="b" pos="0.4 0 0" euler="0 90 0">
+<joint name="j2" type="slide" axis="0 1 0" frictionloss="0.3"/>
+<inertial pos="0.1 0 0" mass="1.5" diaginertia="0.01 0.02 0.02"/></body></body></worldbody>
+<actuator><motor name="m" joint="j1" gear="50"/></actuator></mujoco>
+"""
 WORDS = (*NUMBERS, '"', "[", "]", "{", "}", "=", ",", "\n", "#", "q1", "sin(", ")", "**", "pi",
          "[mdh]", "rows", "\0", "é", "\\", "true", "'", "time", "tau1", ";", "rad")  # fmt: skip
 
@@ -59,7 +84,8 @@ class Drawer:
         """Format, what was done, the files, the command."""
         kind = self.random.choice(
             ["toml", "toml", "par", "csv", "csv", "parquet", "npz", "mat", "hdf5", "mcap", "bag",
-             "bag1", "model", "model", "map", "motion", "command", "command"]
+             "bag1", "db3", "json", "xlsx", "mat73", "lerobot", "stamped", "listed", "urdf", "urdf",
+             "mjcf", "model", "model", "map", "motion", "command", "command"]
         )  # fmt: skip
         return getattr(self, f"_{kind}")()
 
@@ -164,8 +190,9 @@ class Drawer:
             table = {n: v[:SAMPLES] for n, v in self.ground.log("d.csv").items()}
             with tempfile.TemporaryDirectory() as folder:
                 path = write(Path(folder) / f"good{ending}", writers.Run(table))
-                for file in sorted(path.iterdir()) if path.is_dir() else [path]:
-                    self._good[kind if file == path else f"{kind}/{file.name}"] = file.read_bytes()
+                for file in sorted(path.rglob("*.*")) if path.is_dir() else [path]:
+                    name = kind if file == path else f"{kind}/{file.relative_to(path).as_posix()}"
+                    self._good[name] = file.read_bytes()
         names = [name for name in self._good if name == kind or name.startswith(f"{kind}/")]
         files = {n.replace(kind, f"bad{ending}", 1): self._good[n] for n in names}
         spoilt = self.random.choice(sorted(files))
@@ -191,6 +218,42 @@ class Drawer:
 
     def _bag1(self):
         return self._other("bag ROS 1", ".bag", writers.bag1, writers.ROS)
+
+    def _mat73(self):
+        return self._other("MAT 7.3", ".mat", writers.mat73, writers.under("data.", MAP))
+
+    def _db3(self):
+        return self._other("bag file", ".db3", _db3, writers.ROS)
+
+    def _json(self):
+        return self._other("MCAP of JSON", ".mcap", _json_mcap, writers.ROS)
+
+    def _xlsx(self):
+        return self._other("spreadsheet", ".xlsx", _xlsx, MAP)
+
+    def _lerobot(self):
+        names = dict(zip("123", ("shoulder_pan", "shoulder_lift", "elbow_flex"), strict=True))
+        mapping = {
+            "q<j>": "observation.state[{name}] [deg]",
+            "tau<j>": "observation.effort[{name}]",
+        }
+        return self._other("data set", "", _lerobot, {"names": names, **mapping})
+
+    def _stamped(self):
+        mapping = {"time": "stamp", "q<j>": "q{j}", "tau<j>": "tau{j}"}
+        return self._other("CSV with seconds and nanoseconds", ".csv", _stamped_csv, mapping)
+
+    def _listed(self):
+        mapping = {"q<j>": "q[{n}]", "tau<j>": "tau[{n}]"}
+        return self._other("CSV with lists", ".csv", _listed_csv, mapping)
+
+    def _urdf(self) -> tuple[str, str, dict[str, bytes], str]:
+        content, told = self._bytes(URDF)
+        return "URDF", told, {"bad.urdf": content}, "convert bad.urdf --out x.toml"
+
+    def _mjcf(self) -> tuple[str, str, dict[str, bytes], str]:
+        content, told = self._bytes(MJCF)
+        return "MJCF", told, {"bad.xml": content}, "convert bad.xml --out x.toml"
 
     def _model(self) -> tuple[str, str, dict[str, bytes], str]:
         if self.random.random() < 0.5:
@@ -240,6 +303,57 @@ class Drawer:
                 words[at], words[other] = words[other], words[at]
         files = {"x.par": PAR}
         return "command line", "words", files, " ".join(words)
+
+
+def _db3(path: Path, run: writers.Run) -> Path:
+    """The file of a bag by itself."""
+    folder = writers.bag(path.with_suffix(""), run)
+    return next(folder.glob("*.db3")).rename(path)
+
+
+def _json_mcap(path: Path, run: writers.Run) -> Path:
+    reason = "NOT CHECKED: needs mcap; pip install mcap"
+    writer_of = pytest.importorskip("mcap.writer", reason=reason)
+    with path.open("wb") as file:
+        writer = writer_of.Writer(file)
+        writer.start("")
+        schema = writer.register_schema("JointState", "jsonschema", b"{}")
+        channel = writer.register_channel("joint_states", "json", schema)
+        for stamp, names, q, tau in writers.states(run):
+            message = {"name": names, "position": [*q], "effort": [*tau]}
+            writer.add_message(channel, stamp, json.dumps(message).encode(), stamp)
+        writer.finish()
+    return path
+
+
+def _xlsx(path: Path, run: writers.Run) -> Path:
+    openpyxl = pytest.importorskip("openpyxl", reason="NOT CHECKED: needs openpyxl")
+    book = openpyxl.Workbook()
+    book.active.append(["t", *(f"pos[{k}]" for k in (1, 2, 3)), *(f"load[{k}]" for k in (1, 2, 3))])
+    for row in np.column_stack([run.other[name] for name in ("t", "pos", "load")]):
+        book.active.append(row.tolist())
+    book.save(path)
+    return path
+
+
+def _lerobot(path: Path, run: writers.Run) -> Path:
+    path.mkdir()
+    lerobot(path, run)
+    return path
+
+
+def _stamped_csv(path: Path, run: writers.Run) -> Path:
+    moments = np.array(writers.stamps(run))
+    table = {"stamp.sec": moments // 10**9, "stamp.nanosec": moments % 10**9}
+    path.write_text(csv_text(table | {n: v for n, v in run.items() if n != "time"}))
+    return path
+
+
+def _listed_csv(path: Path, run: writers.Run) -> Path:
+    rows = zip(run["time"].tolist(), *(writers.joined(run, n) for n in ("q", "tau")), strict=True)
+    lines = [f'{t!r},"{q.tolist()}",{np.array2string(tau)}' for t, q, tau in rows]
+    path.write_text("time,q,tau\n" + "\n".join(lines) + "\n")
+    return path
 
 
 def _cast(values: pa.Array, kind: pa.DataType) -> pa.Array:

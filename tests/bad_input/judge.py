@@ -235,7 +235,8 @@ def _names_a_place(words: tuple[str, ...], line: str) -> bool:
     names |= {option.strip("-").replace("-", "_") for option in options}
     names |= {name.partition("=")[0] for name in names}
     names |= {"decimation"} if "--decimate" in names else set()
-    return any(name and name in line for name in names - {*words[:1], ".", "-"})
+    commands = {word for word in words[:1] if not word.startswith("--")}
+    return any(name and name in line for name in names - commands - {".", "-"})
 
 
 def _shown(name: str) -> str:

@@ -32,7 +32,10 @@ def test_a_bad_input_ends_as_it_must(row, ground, tmp_path):
     assert not found, f"{row.command[:200]}\n" + "\n".join(found)
 
 
-@pytest.mark.parametrize(("count", "seed"), [(25, 90210), pytest.param(160, 7, marks=IN_TURN)])
+@pytest.mark.parametrize(
+    ("count", "seed"),
+    [(25, 90210), *(pytest.param(150, seed, marks=IN_TURN) for seed in (7, 8, 9, 10))],
+)
 def test_mutants_of_every_format_end_in_one_line(count, seed, ground):
     """Always the same; `python -m tests.bad_input --mutants 500 --seed N` draws others."""
     assert run_mutants(count, seed, None, ground) == []

@@ -254,7 +254,7 @@ def test_one_line_for_a_file_that_is_no_motion_and_for_none(capsys, tmp_path):
     spoilt = {
         "no column q3": ["time,q1,q2", *(f"{k},0,0" for k in range(9))],
         "time does not increase": [header, *rows, rows[3]],
-        "q2 is empty or not finite": [header, *rows[:5], "0.05,0,nan,0", *rows[6:]],
+        "q2 is empty, or not below 1e+12": [header, *rows[:5], "0.05,0,nan,0", *rows[6:]],
         "expected 6 or more": [header, *rows[:3]],
         "row 9: q2 is 'a'; expected a number": [header, *rows[:7], "0.07,0,a,0"],
         "got no rows": [header],

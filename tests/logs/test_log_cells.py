@@ -1,0 +1,209 @@
+"""Lists in cells, names of joints in columns, what is commanded, episodes, joined files."""
+
+from itertools import pairwise
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from modeler.api import read_logs
+from modeler.core.errors import DataError
+from modeler.logs.blocks import blocks_of
+from modeler.logs.columns import Wanted
+from modeler.logs.guess import role_of
+from modeler.logs.readers import read_columns
+from modeler.observation.read import source_of
+from tests.logs.test_log_clocks import csv
+from tests.logs.writers import JOINTS, ORDERS, joined
+
+NAMES = "names=1:waist,2:shoulder,3:elbow"
+
+
+def listed(case, show):
+    q, tau = joined(case.table, "q"), joined(case.table, "tau")
+    rows = zip(case.table["time"].tolist(), q, tau, strict=True)
+    return "timestamp,joint_positions,joint_torques\n" + "".join(
+        f"{t!r},{show(a)},{show(b)}\n" for t, a, b in rows
+    )
+
+
+SHOWN = {
+    "python": lambda row: f'"{row.tolist()}"',
+    "json": lambda row: '"' + str(row.tolist()).replace(" ", "") + '"',
+    "numpy": lambda row: np.array2string(row, precision=17, max_line_width=1000),
+    "numpy over lines": lambda row: f'"{np.array2string(row, precision=17, max_line_width=30)}"',
+    "tuple": lambda row: f'"{tuple(row.tolist())}"',
+    "array": lambda row: f'"array({row.tolist()})"',
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("how", SHOWN)
+def test_lists_in_cells_are_columns(how, case, tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text(listed(case, SHOWN[how]))
+    mapping = ["time=timestamp", "q<j>=joint_positions[{n}]", "tau<j>=joint_torques[{n}]"]
+    (log,) = read_logs(case.compiled, [path], mapping)
+    assert log.q == pytest.approx(joined(case.table, "q"), abs=1e-7)
+    assert log.tau == pytest.approx(joined(case.table, "tau"), abs=1e-6)
+    assert blocks_of(path) is None  # a cell may go over several lines
+    (log,) = read_logs(case.compiled, [path], ["auto"])
+    assert log.tau == pytest.approx(joined(case.table, "tau"), abs=1e-6)
+
+
+def test_names_and_units_in_brackets_are_no_lists(tmp_path):
+    text = "t [s],q[1],q[2]\n[s],[deg],[deg]\n" + "".join(f"{k},{k}.5,2\n" for k in range(20))
+    (tmp_path / "a.csv").write_text(text)
+    found = read_columns(tmp_path / "a.csv", Wanted())
+    assert [name for name, _ in found.columns] == ["t [s]", "q[1]", "q[2]"]
+
+
+def test_structs_are_columns(case, tmp_path):
+    q, tau = joined(case.table, "q").tolist(), joined(case.table, "tau").tolist()
+    rows = [{"q": a, "effort": {"tau": b}} for a, b in zip(q, tau, strict=True)]
+    path = tmp_path / "run.parquet"
+    pq.write_table(pa.table({"t": case.table["time"], "state": rows}), path)
+    mapping = ["time=t", "q<j>=state.q[{n}]", "tau<j>=state.effort.tau[{n}]"]
+    assert case.fitted(path, mapping) == pytest.approx(case.beta, rel=1e-6)
+    assert case.fitted(path, ["auto"]) == pytest.approx(case.beta, rel=1e-6)
+
+
+def shuffled(case):
+    """Values and names in an order that changes from row to row."""
+    order = np.array([ORDERS[k % 2] for k in range(len(case.table["time"]))])
+    names = np.array(JOINTS)[order]
+    return names, *(np.take_along_axis(joined(case.table, own), order, 1) for own in ("q", "tau"))
+
+
+def test_names_in_columns_say_which_joint_is_which(case, tmp_path):
+    """As `rostopic echo -p` writes them, and as lists in Parquet."""
+    names, q, tau = shuffled(case)
+    columns = {"%time": (case.table["time"] * 1e9).astype(int) + 10**18 + 10**17}
+    for field, values in (("name", names), ("position", q), ("effort", tau)):
+        columns |= {f"field.{field}{k}": values[:, k] for k in range(3)}
+    rows = zip(*(values.tolist() for values in columns.values()), strict=True)
+    lines = [",".join(columns), *(",".join(map(str, row)) for row in rows)]
+    path = tmp_path / "run.csv"
+    path.write_text("\n".join(lines) + "\n")
+    assert case.fitted(path, ["auto", NAMES]) == pytest.approx(case.beta, rel=1e-5)
+    table = {"time": case.table["time"], "name": names.tolist(), "position": q.tolist(),
+             "effort": tau.tolist()}  # fmt: skip
+    other = tmp_path / "run.parquet"
+    pq.write_table(pa.table(table), other, row_group_size=501)  # blocks begin with either order
+    mapping = ["q<j>=position[{name}]", "tau<j>=effort[{name}]", NAMES]
+    assert case.fitted(other, mapping) == pytest.approx(case.beta, rel=1e-6)
+    from modeler.logs.mapping import map_from_words
+
+    source = source_of(other, case.compiled.spec, map_from_words(mapping))
+    whole = np.concatenate([log.q for log in source.blocks(501)])
+    assert whole == pytest.approx(joined(case.table, "q"))
+
+
+COMMANDED = [
+    "AccCmptd", "qdd_des", "ddq_d", "tau_J_d", "VelocityCmptd", "torque_ref", "target_moment",
+    "cmd.effort", "TorqueSetpoint", "acc_goal", "planned_velocity", "tau_computed", "taucmd",
+    "reference.velocities", "vel_soll",
+]  # fmt: skip
+POSITIONS = ["PositionCmptd", "q_d", "q_ref", "target_q", "qdes", "state.desired.positions",
+             "cmd/pos", "points.positions"]  # fmt: skip
+MEASURED = {
+    "actual_q": "q", "pos_feedback": "q", "tau_J": "tau", "cmd_controller/actual.position": "q",
+    "reference_robot.measured_torque": "tau", "target_current_actual": "current",
+}  # fmt: skip
+
+
+def test_what_is_commanded_is_not_measured():
+    assert {name: role_of(f"{name}[1]") for name in COMMANDED} == dict.fromkeys(COMMANDED, "")
+    assert {name: role_of(f"{name}[1]") for name in POSITIONS} == dict.fromkeys(POSITIONS, "qc")
+    assert {name: role_of(f"{name}[1]") for name in MEASURED} == MEASURED
+    assert role_of("state.error.positions[1]") == ""
+
+
+def test_commanded_columns_beside_measured_ones(case, tmp_path):
+    """As drives of an arm call them; units in names do not make them measured."""
+    table = {"Time": case.table["time"]}
+    for k in (1, 2, 3):
+        table |= {f"Position{k}": case.table[f"q{k}"], f"TorqueCur{k}": case.table[f"tau{k}"] * 7.0,
+                  f"Torque{k}": case.table[f"tau{k}"], f"Cur{k}": case.table[f"tau{k}"] * 0.1,
+                  f"PositionCmptd{k}": case.table[f"q{k}"] + 0.1,
+                  f"AccCmptd{k}": 0.0 * case.table["time"],
+                  f"vel_cmd_{k} [deg/s]": case.table[f"q{k}"],
+                  f"error_{k} [deg]": case.table[f"q{k}"]}  # fmt: skip
+    path = csv(tmp_path / "run.csv", table)
+    (log,) = read_logs(case.compiled, [path], ["auto"])
+    assert log.qdd is None and log.qd is None
+    assert log.commanded == pytest.approx(log.q + 0.1)
+    assert log.extra["current1"] == pytest.approx(0.1 * case.table["tau1"])
+    assert case.fitted(path, ["auto"]) == pytest.approx(case.beta, rel=1e-6)
+
+
+def episodes(path, case, lengths, head="data/demo_{}/obs/", times=False):
+    h5py = pytest.importorskip("h5py", reason="NOT CHECKED: needs h5py; pip install h5py")
+    ends = np.cumsum([0, *lengths])
+    with h5py.File(path, "w") as file:
+        for k, (a, b) in enumerate(pairwise(ends)):
+            group = head.format(k + 8)  # 8, 9, 10: sorted as numbers
+            file[f"{group}joint_pos"] = np.rad2deg(joined(case.table, "q")[a:b])
+            file[f"{group}joint_pos"].attrs["units"] = "deg"
+            file[f"{group}joint_effort"] = joined(case.table, "tau")[a:b]
+            if times:
+                file[f"{group}time"] = case.table["time"][a:b] - case.table["time"][a]
+    return path
+
+
+@pytest.mark.parametrize("times", [False, True])
+def test_episodes_are_segments(times, case, tmp_path):
+    path = episodes(tmp_path / "run.hdf5", case, (600, 500, 700), times=times)
+    step = float(np.median(np.diff(case.table["time"])))
+    rate = [] if times else [f"rate={1.0 / step:g}"]
+    (log,) = read_logs(case.compiled, [path], ["auto", *rate])
+    assert log.q == pytest.approx(joined(case.table, "q")[:1800])
+    assert np.flatnonzero(np.diff(log.segment)).tolist() == [599, 1099]
+    assert log.time == pytest.approx(case.table["time"][:1800] - case.table["time"][0])
+    assert any(
+        "3 episodes, data/demo_8 to 10, one after the other as segments" in t for t in log.told
+    )
+    (log,) = read_logs(case.compiled, [path], ["auto", *rate, "topic=data/demo_9"])
+    assert log.q == pytest.approx(joined(case.table, "q")[600:1100])
+    if not times:
+        with pytest.raises(DataError, match=r"no column time; .*--map rate=HZ"):
+            read_logs(case.compiled, [path], ["auto"])
+
+
+def test_groups_of_joints_are_no_episodes(case, tmp_path):
+    path = episodes(tmp_path / "a.hdf5", case, (300, 300), "joint_{}/")
+    names = [name for name, _ in read_columns(path, Wanted()).columns]
+    assert "joint_8/joint_pos[1]" in names and "joint_9/joint_pos[1]" in names
+
+
+def test_files_of_other_rates_join_by_time(case, tmp_path):
+    """Positions in one file, torques in another that is faster and begins later."""
+    time = case.table["time"]
+    q = {"time": time[50:], **{f"q{j}": case.table[f"q{j}"][50:] for j in (1, 2, 3)}}
+    fast = np.arange(0.3, time[-1] - 0.2, 0.5 * float(time[1] - time[0]))
+    tau = {
+        "t": fast,
+        **{f"tau{j}": np.interp(fast, time, case.table[f"tau{j}"]) for j in (1, 2, 3)},
+    }
+    (tmp_path / "run").mkdir()
+    csv(tmp_path / "run" / "positions.csv", q)
+    csv(tmp_path / "run" / "torques.csv", tau)
+    (log,) = read_logs(case.compiled, [tmp_path / "run"])
+    inside = (time >= 0.3) & (time <= fast[-1])
+    assert log.time == pytest.approx(time[inside])
+    assert log.q == pytest.approx(joined(case.table, "q")[inside])
+    assert log.tau == pytest.approx(joined(case.table, "tau")[inside], abs=1e-9)
+    assert any("joined by time" in line and "torques.csv" in line for line in log.told)
+
+
+def test_a_gap_of_one_file_is_not_filled(tmp_path):
+    rows = np.arange(100) * 0.01
+    csv(tmp_path / "q.csv", {"time": rows, "a": rows})
+    there = (rows < 0.3) | (rows > 0.6)
+    csv(tmp_path / "tau.csv", {"time": rows[there] + 0.002, "b": rows[there]})
+    tau = dict(read_columns(tmp_path, Wanted()).columns)["tau"].numbers()
+    assert (
+        np.isnan(tau[35:58]).all()
+        and np.isfinite(tau[1:28]).all()
+        and np.isfinite(tau[65:98]).all()
+    )

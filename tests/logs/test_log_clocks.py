@@ -1,0 +1,153 @@
+"""Times in two columns, times that are coarser than rows, a rate over a time column."""
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from modeler.api import look_at
+from modeler.core.errors import DataError
+from modeler.logs.blocks import blocks_of
+from modeler.logs.columns import Wanted
+from modeler.logs.log_table import LogTable
+from modeler.logs.mapping import map_from_words
+from modeler.logs.readers import read_columns
+from modeler.logs.stamps import coarse_clock, stamp_pairs
+from modeler.observation.read import source_of
+from tests.logs.writers import START, joined, stamps
+
+PAIRS = [
+    ("sec", "nanosec", "time"), ("secs", "nsecs", "time"),
+    ("header.stamp.sec", "header.stamp.nanosec", "header.stamp"),
+    ("field.header.stamp.secs", "field.header.stamp.nsecs", "field.header.stamp"),
+    ("stamp_sec", "stamp_nanosec", "stamp"), ("tv_sec", "tv_nsec", "tv.time"),
+    ("/js/header/stamp/sec", "/js/header/stamp/nanosec", "/js/header/stamp"),
+    ("Seconds", "Nanoseconds", "time"), ("stampSec", "stampNsec", "stamp"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("seconds", "fraction", "name"), PAIRS)
+def test_names_of_seconds_and_nanoseconds(seconds, fraction, name):
+    assert stamp_pairs(["q1", seconds, fraction]) == {name: (seconds, fraction, 1e-9)}
+
+
+def test_names_that_are_no_pair():
+    assert stamp_pairs(["sec", "q_s", "positions", "time_ns", "time", "t_ms", "t_s"]) == {}
+
+
+def in_two_columns(case, names=("header.stamp.sec", "header.stamp.nanosec")):
+    moments = np.array(stamps(case.table))
+    table = {names[0]: moments // 10**9, names[1]: moments % 10**9}
+    return table | {name: v for name, v in case.table.items() if name != "time"}
+
+
+def csv(path, table, head=True):
+    rows = zip(*(v.tolist() for v in table.values()), strict=True)
+    lines = [",".join(table)] * head + [",".join(map(repr, row)) for row in rows]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+@pytest.mark.parametrize("ending", ["csv", "parquet", "npz"])
+def test_time_in_two_columns_is_exact(ending, case, tmp_path):
+    path, table = tmp_path / f"run.{ending}", in_two_columns(case)
+    if ending == "csv":
+        csv(path, table)
+    elif ending == "parquet":
+        pq.write_table(pa.table(table), path)
+    else:
+        np.savez(path, **table)
+    mapping = ["time=header.stamp"]
+    time = LogTable(path, map_from_words(mapping)).numbers("time")
+    expected = (np.array(stamps(case.table)) - START // 10**9 * 10**9) * 1e-9
+    assert np.abs(time - expected).max() < 1e-12  # of a float of 1.7e9 s: 2e-7
+    for given in (mapping, ["auto"]):
+        assert case.fitted(path, given) == pytest.approx(case.beta, rel=1e-5)
+
+
+@pytest.mark.parametrize("ending", ["csv", "parquet"])
+@pytest.mark.parametrize("kind", [int, float])
+def test_blocks_of_a_file_count_from_its_first_second(ending, kind, case, tmp_path):
+    path, table = tmp_path / f"run.{ending}", in_two_columns(case)
+    table["header.stamp.sec"] = table["header.stamp.sec"].astype(kind)
+    csv(path, table) if ending == "csv" else pq.write_table(pa.table(table), path)
+    source = source_of(path, case.compiled.spec, map_from_words(["time=header.stamp"]))
+    time = np.concatenate([log.time for log in source.blocks(500)])
+    assert time[0] == pytest.approx(START % 10**9 * 1e-9, abs=1e-12) and len(time) > 1000
+    assert np.diff(time) == pytest.approx(np.diff(case.table["time"]), abs=1e-9)
+    assert np.isfinite(
+        blocks_of(path).window(0.5, 100, ["header.stamp"]).columns[0][1].numbers()
+    ).all()
+
+
+def test_two_whole_clocks_are_no_pair(tmp_path):
+    rows = np.arange(3000)
+    path = csv(tmp_path / "a.csv", {"sec": rows // 1000, "nsec": rows * 10**6, "q1": rows * 1.0})
+    with pytest.raises(DataError, match=r"row 1001: got 1 s beside whole seconds; expected less"):
+        LogTable(path).numbers("time")
+    assert LogTable(path, map_from_words(["time=nsec:ns"])).numbers("time")[-1] == 2.999
+
+
+def test_messages_echoed_without_names(case, tmp_path):
+    """`ros2 topic echo --csv`: stamp, frame, names in the order of the driver, numbers."""
+    order, moments = (2, 0, 1), np.array(stamps(case.table))
+    q, tau = joined(case.table, "q")[:, order], joined(case.table, "tau")[:, order]
+    lines = [
+        f"{m // 10**9},{m % 10**9},base,{','.join(str(k + 1) + '_joint' for k in order)},"
+        + ",".join(map(repr, [*a.tolist(), 0.0, 0.0, 0.0, *b.tolist()]))
+        for m, a, b in zip(moments, q, tau, strict=True)
+    ]
+    path = tmp_path / "echo.csv"
+    path.write_text("\n".join(lines) + "\n")
+    mapping = ["time=header.stamp", "q<j>=position[{j}_joint]", "tau<j>=effort[{j}_joint]"]
+    assert case.fitted(path, mapping) == pytest.approx(case.beta, rel=1e-5)
+    path.write_text("\n".join(line.partition("base")[0] + "1.5,2.5" for line in lines) + "\n")
+    assert [n for n, _ in read_columns(path, Wanted()).columns][-2:] == ["c3", "c4"]
+
+
+COARSE = [(250.0, 0.01), (250.0, 1.0), (150.0, 0.01), (333.0, 0.1), (1000.0, 0.016), (100.0, 1.0)]
+
+
+@pytest.mark.parametrize(("rate", "step"), COARSE)
+@pytest.mark.parametrize("rounded", [np.floor, np.round])
+def test_the_rate_of_a_coarse_clock(rate, step, rounded):
+    k, chance = np.arange(int(20 * rate)), np.random.default_rng(3)
+    time = step * rounded((k / rate + 0.3712) / step)
+    found = coarse_clock(time, [chance.normal(size=k.size)])
+    assert f"to {step:g} s" in found and found.endswith(f"give --map rate={rate:g}")
+
+
+def test_rows_that_are_not_even_have_no_rate():
+    chance = np.random.default_rng(4)
+    time = np.floor(np.cumsum(chance.exponential(0.004, 3000)) / 0.01) * 0.01
+    assert "rows are not even" in coarse_clock(time, [chance.normal(size=3000)])
+    assert coarse_clock(np.repeat(np.arange(300) * 0.01, 2), [np.repeat(np.arange(300), 2)]) == ""
+
+
+@pytest.mark.parametrize("step", [0.01, 1.0])
+def test_a_coarse_log_is_told_and_its_rate_works(step, case, tmp_path):
+    rate = 1.0 / float(np.median(np.diff(case.table["time"])))
+    table = {**case.table, "time": step * np.floor(case.table["time"] / step + 1e-9)}
+    path = csv(tmp_path / "coarse.csv", table)
+    told = rf"times are rounded to {step:g} s and repeat; rows are even: give --map rate={rate:g}$"
+    for mapping in ((), ["auto"]):
+        with pytest.raises(DataError, match=told):
+            case.fitted(path, mapping)
+    assert any("rows are even" in line for line in look_at(path).doubts)
+    assert not any("delete" in line for line in look_at(path).doubts)
+    for mapping in (
+        [f"rate={rate:g}"],
+        ["auto", f"rate={rate:g}"],
+        ["time=time", f"rate={rate:g}"],
+    ):
+        assert case.fitted(path, mapping) == pytest.approx(case.beta, rel=1e-6)
+    told = LogTable(path, map_from_words([f"rate={rate:g}"])).told
+    assert told == (f"column time is not used: rows counted at {rate:g} Hz",)
+
+
+def test_a_log_without_times_says_how_to_give_a_rate(tmp_path):
+    path = csv(tmp_path / "a.csv", {"q1": np.arange(20.0), "tau1": np.arange(20.0)})
+    with pytest.raises(
+        DataError, match=r"no column time; .*of even rows their rate, --map rate=HZ"
+    ):
+        LogTable(path).numbers("time")
