@@ -10,7 +10,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.cross_checks import CrossCheck
+from modeler.diagnosis.cross_checks import CrossCheck, ParameterChange
 from modeler.diagnosis.data_checks import SHORT, doubts, length, one_speed
 from modeler.diagnosis.detected import detected
 from modeler.diagnosis.drive_gains import gain_deviations, gain_visible, is_gain
@@ -33,7 +33,7 @@ from modeler.diagnosis.result import (
 )
 from modeler.diagnosis.score import Change, Residuals, Score, errors_of
 from modeler.diagnosis.search import Search, Step, Tick, extended
-from modeler.diagnosis.sentences import evidence, sentences
+from modeler.diagnosis.sentences import NOT_JUDGED, evidence, sentences
 from modeler.diagnosis.state import SearchData, State, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects import Acts, effect_named
@@ -118,7 +118,7 @@ def _systematic(state: State, left: Sequence[np.ndarray], tick: Tick) -> Callabl
 
 def assembled(
     model: IdentifiedModel, bands: Sequence[BandSearch], window: Window | None,
-    faults: Sequence[Doubt] = (),
+    faults: Sequence[Doubt] = (), moved: Sequence[ParameterChange] = (),
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
@@ -127,6 +127,7 @@ def assembled(
         bands: the search in the band of the diagnosis; then, if there is one, that in a wider band.
         window: of a contact that was masked.
         faults: channels that contradict the model; if one is certain, nothing is named.
+        moved: parameters in which the machine of the held-out logs differs; then nothing is judged.
     """
     first, last = bands[0], bands[-1]
     found, other = first.found, first.other
@@ -142,11 +143,13 @@ def assembled(
         every = detected(last.found, window, errors_of(last.seen[-1]), falls, every)
     joints = _joints(found, first.seen, first.share)
     every = [_doubted(finding, joints) for finding in every]
+    if moved:
+        every = [dataclasses.replace(finding, doubt=NOT_JUDGED) for finding in every]
     every.sort(key=lambda finding: finding.status == "perhaps")
     effects, refinements = (tuple(f for f in every if f.refines is r) for r in (False, True))
     diagnosis = Diagnosis(
         robot=model.spec.robot,
-        verdict="cannot tell" if contradicted else verdict(effects, joints, found),
+        verdict="cannot tell" if contradicted or moved else verdict(effects, joints, found),
         effects=effects,
         refinements=refinements,
         rivals=tuple((*rival.key, rival.gain) for rival in found.ranked[:8]),
@@ -157,7 +160,7 @@ def assembled(
         sentences=(),
         fit_band=model.processing.parallel_cutoff or 0.0,
         data=doubts(model, found, other, faults, window),
-        contradicted=contradicted, window=window, search=found,
+        contradicted=contradicted, machine_changed=tuple(moved), window=window, search=found,
     )  # fmt: skip
     return sentences(diagnosis)
 
@@ -191,7 +194,7 @@ def _finding(
     left = [end.residual[j] / before.sigma[j] for j in touched]
     values = end.values[k]
     deviations = judged.deviations * float(np.sqrt(np.mean(np.concatenate(left) ** 2)))
-    if pick.effect.acts is Acts.TORQUE:  # least squares make delays too small
+    if pick.delays:  # least squares make delays too small
         values, deviations = instrumental(before, pick)
     visible = judged.visible
     if is_gain(pick):

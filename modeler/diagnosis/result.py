@@ -14,7 +14,7 @@ from modeler.core.result import Presented
 from modeler.core.table import percent, printed
 from modeler.core.toml_cells import toml_text
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.cross_checks import CrossCheck, Key
+from modeler.diagnosis.cross_checks import CrossCheck, Key, ParameterChange
 from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.judge import KEPT
@@ -376,6 +376,8 @@ class Diagnosis(Presented):
         fit_band: Hz up to which the model was fitted, and `modeler add` fits.
         data: doubts about the logs themselves.
         contradicted: True if channels of the logs contradict the model: then nothing is named.
+        machine_changed: parameters in which the machine of the held-out logs differs: then
+            nothing is judged.
         window: when something pushed, if anything did.
         search: everything behind it.
         discoveries: equations proposed by joint; None where none were asked for.
@@ -394,6 +396,7 @@ class Diagnosis(Presented):
     fit_band: float
     data: tuple[str, ...]
     contradicted: bool
+    machine_changed: tuple[ParameterChange, ...]
     window: Window | None
     search: Search
     discoveries: tuple[Discovery, ...] | None = None
@@ -425,7 +428,7 @@ class Diagnosis(Presented):
                 {"effect": effect, "joint": joint} for effect, joint in self.blind_spots
             ],
             **entries(self, "joints unmoved held_out sentences band fit_band data changed"),
-            "contradicted": self.contradicted,
+            **entries(self, "contradicted machine_changed"),
             **({} if self.discoveries is None else {
                 "discoveries": [found.to_json() for found in self.discoveries]}),
         })  # fmt: skip

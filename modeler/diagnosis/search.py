@@ -29,7 +29,7 @@ from modeler.diagnosis.judge import (
 from modeler.diagnosis.plausible import DRIVES, drives, objection
 from modeler.diagnosis.profile import explained_by, values_of
 from modeler.diagnosis.state import SearchData, State, state_of, together, visible
-from modeler.effects import Effect, Shape
+from modeler.effects import Effect, Needs, Shape
 
 _STEPS = 8
 _TURNS = 5
@@ -429,6 +429,8 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
     pick, values = later.picks[-1], later.values[-1]
     named = values_of(later, pick, values, np.zeros(len(values)))
     why = objection(later, pick, named.value | dict(pick.shapes))
+    if why and pick.joint is None and Needs.LAG in pick.effect.needs:
+        return dataclasses.replace(best, why=why), None  # a delay of all torques has a name
     return dataclasses.replace(best, why=why) if why else best, later
 
 

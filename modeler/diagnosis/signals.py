@@ -11,7 +11,7 @@ from scipy.linalg import expm
 from modeler.core.brief import Brief
 from modeler.effects import Memory
 from modeler.numerics.filters import recursion
-from modeler.observation import Segment, bristle, lag, nearest_closed, signals_of, since_reversal
+from modeler.observation import Segment, bristle, nearest_closed, signals_of, since_reversal
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -182,7 +182,7 @@ class Signals(Brief):
     ) -> np.ndarray:
         """(n,) inner state z on joint j, for shape parameters by name; what a lag follows, (n,)."""
         if memory.kind == "lag":
-            return lag(followed, self.step, shapes[memory.shape])
+            return filtered(followed, self.step, shapes[memory.shape])
         if memory.kind == "slip":
             return bristle(self.q[:, j], shapes[memory.shape])
         return resonance(self.load[:, j], self.step, shapes[memory.shape], shapes[memory.damping])
@@ -252,6 +252,17 @@ class Signals(Brief):
             viscous, rotor = self.reference.drives[:, j]
             torque[j] += viscous * dv + rotor * da
         return torque.swapaxes(0, 1)
+
+
+def filtered(x: np.ndarray, step: float, tau: float) -> np.ndarray:
+    """(n,) z of z' = (x - z)/tau, at rest under the first x; x is straight between its points.
+
+    With p = exp(-step/tau), r = (1 - p) tau/step: z_k = p z_(k-1) + (1 - r) x_k + (r - p) x_(k-1).
+    """
+    kept = np.exp(-step / tau)
+    ramp = (1.0 - kept) * tau / step
+    held = np.array([1.0 - ramp, ramp - kept, 0.0])
+    return np.asarray(x[0] + recursion(x - x[0], held, np.array([1.0, -kept, 0.0])))
 
 
 def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:

@@ -47,6 +47,7 @@ class Needs(enum.Enum):
     MASS = "the body has no negative mass"
     INERTIA = "what rings has about the inertia that the model has on the joint"
     GAIN = "the gain of a drive is positive, and within ten times of the one given"
+    LAG = "its torque is the filtered one, not one that is only delayed"
     FRICTION = "it is a part of the friction of its joint, never larger than all of it"
 
 
@@ -296,9 +297,7 @@ class Effect(Brief):
     def written(self) -> bool:
         """True if a robot file may name it: its columns are functions of the joints' motion."""
         acts = self.acts in (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
-        names = frozenset().union(*(form.names for form in self.forms))
-        moved = self.acts is Acts.POSITION and not names.isdisjoint({"load", "z"})
-        return acts and not self.rings and not moved and "rate" not in names
+        return acts and not self.hindrance
 
     @property
     def coupled(self) -> bool:
