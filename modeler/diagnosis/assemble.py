@@ -34,7 +34,7 @@ from modeler.diagnosis.result import (
 from modeler.diagnosis.score import Change, Residuals, Score, errors_of
 from modeler.diagnosis.search import Search, Step, Tick, extended
 from modeler.diagnosis.sentences import NOT_JUDGED, evidence, sentences
-from modeler.diagnosis.state import SearchData, State, state_of
+from modeler.diagnosis.state import SearchData, State, cutoff, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects import Acts, effect_named
 from modeler.estimation import IdentifiedModel
@@ -100,7 +100,9 @@ def band_search(
                 explained_fraction(own[k:], touched, share, chain[k].sigma)
                 for own, share in zip(squares, shares, strict=True)
             )
-            findings.append(_finding(found, k, touched, score.whole, closed, looks[k]))
+            names = [found.end.names[j] for j in touched]
+            left = [change.after for change in score.joints if change.joint in names]
+            findings.append(_finding(found, k, touched, score.whole, closed, looks[k], left))
         tick()
     return BandSearch(found, other, seen, shares[0], findings)
 
@@ -138,10 +140,12 @@ def assembled(
         return compared(last.seen[-1], after, [candidate.index], last.found.end)
 
     every: list[Finding] = []
+    end, seen = found.end, first.seen[-1]
     if not contradicted:
         every = _once([finding for band in bands for finding in band.findings])
+        every, end, seen = _in_band_of_table(every, bands)
         every = detected(last.found, window, errors_of(last.seen[-1]), falls, every)
-    joints = _joints(found, first.seen, first.share)
+    joints = _joints(found, end, (first.seen[0], seen), first.share)
     every = [_doubted(finding, joints) for finding in every]
     if moved:
         every = [dataclasses.replace(finding, doubt=NOT_JUDGED) for finding in every]
@@ -176,6 +180,37 @@ def _once(findings: Sequence[Finding]) -> list[Finding]:
     return list(found.values())
 
 
+def _in_band_of_table(
+    every: Sequence[Finding], bands: Sequence[BandSearch]
+) -> tuple[list[Finding], State, Residuals]:
+    """Findings of the wider band with the errors that they have in the band of the table.
+
+    And the state with all that is named, and what it leaves of unseen motion.
+    """
+    first, last, found = bands[0], bands[-1], list[Finding]()
+    state, seen = first.found.end, first.seen[-1]
+    for finding in every:
+        step = next(
+            (s for s in last.found.steps if len(bands) > 1 and finding in last.findings
+             and finding.pick is not None and s.pick is finding.pick.candidate), None
+        )  # fmt: skip
+        if step is not None and not finding.doubt:
+            later = extended(state, step.pick)
+            left = holdout_residuals(later, first.other)
+            score = compared(seen, left, touched_joints(step.judged, state, later), later)
+            ends, why = (score.whole.before, score.whole.after), ""
+            if score.better:
+                state, seen = later, left
+            else:
+                why = f"the error falls only up to {cutoff(last.found.start.data):.2g} Hz"
+            finding = dataclasses.replace(
+                finding, error_before=ends[0], error_after=ends[1], doubt=why,
+                evidence=evidence(step, *ends),
+            )  # fmt: skip
+        found.append(finding)
+    return found, state, seen
+
+
 def _doubted(finding: Finding, joints: Mapping[str, JointState]) -> Finding:
     """An event, where something acts all the time: what stood out of it may be none."""
     if not finding.event or finding.objection or not any(j.unexplained for j in joints.values()):
@@ -185,7 +220,7 @@ def _doubted(finding: Finding, joints: Mapping[str, JointState]) -> Finding:
 
 def _finding(
     found: Search, k: int, touched: Sequence[int], change: Change, closed: float,
-    looks: tuple[CrossCheck, ...],
+    looks: tuple[CrossCheck, ...], after: Sequence[float],
 ) -> Finding:  # fmt: skip
     """What the k-th step put in."""
     step, end, first = found.steps[k], found.end, k == 0 and not found.given
@@ -225,7 +260,7 @@ def _finding(
         refines=refines,
         objection=against,
         looks=looks,
-        doubt=doubt(pick, errors, against, sigmas, closed, looks, rivals, refines),
+        doubt=doubt(pick, errors, against, sigmas, closed, looks, rivals, refines, after or (0.0,)),
         first=first,
         pick=Pick(pick, values, end, visible),
     )
@@ -261,7 +296,7 @@ def _refines(found: Search, k: int) -> bool:
 
 
 def _joints(
-    found: Search, seen: Sequence[Residuals], systematic: Callable[[int], float]
+    found: Search, end: State, seen: Sequence[Residuals], systematic: Callable[[int], float]
 ) -> dict[str, JointState]:
     states, ends = {}, [errors_of(seen[k]) for k in (0, -1)]
     shown = [j for j, y in enumerate(found.start.rows.y) if y.size]
@@ -272,7 +307,7 @@ def _joints(
         if j not in shares:
             continue
         size = mean_square(found.start.rows.y[j])
-        before, after = (mean_square(s.residual[j]) for s in (found.start, found.end))
+        before, after = (mean_square(s.residual[j]) for s in (found.start, end))
         share = after / size if size > 0.0 else math.nan
         states[joint.name] = JointState(
             error_before=ends[0].get(joint.name, math.nan),

@@ -242,9 +242,8 @@ def changed_parameters(
             abs(change) * float(np.linalg.norm(w[:, i])) / (float(np.linalg.norm(y)) or math.inf)
             for w, y in zip(there.rows.W, there.rows.y, strict=True)
         )
-        known = a.sigma is not None and b.sigma is not None
-        if known and share > FELT and abs(change) > MOVED * math.hypot(a.sigma, b.sigma):
-            moved.append(
-                ParameterChange(a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share)
-            )
+        if a.sigma is None or b.sigma is None or share < FELT:
+            continue
+        if abs(change) > MOVED * math.hypot(a.sigma, b.sigma):
+            moved.append(ParameterChange(a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share))
     return tuple(sorted(moved, key=lambda own: -own.share))

@@ -217,6 +217,16 @@ def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
     return f"the true gain would be {true} the given one: check sign and unit of that torque"
 
 
+def _no_tilt(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """A base that stands askew turns gravity, and changes it by no more than that."""
+    change, (column,) = float(np.linalg.norm(list(parameters.values()))), pick.form.columns
+    if change <= column.largest:
+        return ""
+    return (
+        f"gravity would change by {change:.3g} {column.unit_revolute}, and a tilted base turns it"
+    )
+
+
 AS_WELL = 1.1
 """Ratio of two squared residuals below which the data do not tell two filters apart."""
 
@@ -313,6 +323,7 @@ _CHECKS: Mapping[Needs, Callable[[State, Candidate, Mapping[str, float]], str]] 
     Needs.INERTIA: _other_oscillator,
     Needs.GAIN: _no_gain,
     Needs.LAG: _no_lag,
+    Needs.TILT: _no_tilt,
     Needs.FRICTION: _more_than_all,
 }
 """A sentence where the robot is not so; empty where it is."""

@@ -116,7 +116,9 @@ class ProfileProblem:
     def squares(self, candidate: Candidate, values: np.ndarray) -> float:
         """S with these shapes and these values (k,) of the effect; all else is fitted."""
         torque = self.off(candidate) @ values
-        return self.target[2] + float(torque @ torque - 2.0 * torque @ np.concatenate(self.target[0]))
+        return self.target[2] + float(
+            torque @ torque - 2.0 * torque @ np.concatenate(self.target[0])
+        )
 
     def off(self, candidate: Candidate) -> np.ndarray:
         """(rows of all joints, k) what all else leaves of the columns, divided by sigma."""

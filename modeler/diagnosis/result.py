@@ -13,7 +13,7 @@ from modeler.core.json import entries, nulled
 from modeler.core.result import Presented
 from modeler.core.table import percent, printed
 from modeler.core.toml_cells import toml_text
-from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.candidates import Candidate, why_not_added
 from modeler.diagnosis.cross_checks import CrossCheck, Key, ParameterChange
 from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import Window
@@ -66,8 +66,10 @@ SMALL = 0.1
 """Least fall of the error of the joints that an effect touches, as a share of it; less only where
 nothing systematic is left with it."""
 
-MOST_LEFT = 0.6
-"""Error with the effect from which on a model says too little of its joints to name anything."""
+MOST_LEFT = 0.5
+"""Error of a joint with the effect from which on the fit does not determine that joint: of 139
+joints of measured logs, 34 of 41 with more predict other motion of the machine to no better than
+60 %."""
 
 SHOWN = 0.02
 """Fall of the residual variance that an effect lets expect in another look, from which on it must
@@ -84,6 +86,7 @@ def doubt(
     pick: Candidate, errors: tuple[float, float], objection: str = "",
     sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
     looks: Sequence[CrossCheck] = (), ties: Sequence[Candidate] = (), refines: bool = False,
+    left: Sequence[float] = (0.0,),
 ) -> str:  # fmt: skip
     """Why an effect is perhaps missing and no more; empty if it is named.
 
@@ -96,11 +99,13 @@ def doubt(
         looks: what others say of it.
         ties: effects that these data do not tell from it.
         refines: True for what mends a law of the model, which may be small.
+        left: relative errors with it of the joints that it touches.
     """
     before, after = errors
+    worst = max(after, *left)
     reasons = [objection] if objection and not is_gain(pick) else []
-    if after > MOST_LEFT:
-        reasons.append(f"with it the error is {percent(after)} still")
+    if worst > MOST_LEFT:
+        reasons.append(f"with it the error of a joint is {percent(worst)} still")
     small = not refines and (closed is None or closed < CLOSED)
     if small and after > (1.0 - SMALL) * before:
         reasons.append(f"the error falls by less than {percent(SMALL)} of itself")
@@ -128,6 +133,10 @@ FELT = 0.005
 
 LEFT = 0.15
 """Share of the residual's variance that must be systematic before an unnamed cause is reported."""
+
+
+HIDDEN = 0.01
+"""Share of its columns below which the logs do not show an effect."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -410,6 +419,18 @@ class Diagnosis(Presented):
         """Hz up to which residuals were looked at; values are those of this band too."""
         observation = self.search.start.data.observation
         return observation.report.processing.parallel_cutoff
+
+    @property
+    def addable(self) -> tuple[Finding, ...]:
+        """The effects that `modeler add` puts in."""
+        spec = self.search.spec
+        has = {(p.effect, p.joint) for p in spec.standard}
+        return tuple(
+            f for f in self.effects
+            if f.pick is not None and f.pick.visible >= HIDDEN and not self.machine_changed
+            and not why_not_added(f.pick.candidate.effect, spec)
+            and ((f.effect, f.joint) not in has or f.pick.candidate.effect.several)
+        )  # fmt: skip
 
     @property
     def changed(self) -> bool:

@@ -6,7 +6,7 @@ from modeler.core.table import percent, printed
 from modeler.diagnosis.orders import knocking
 from modeler.diagnosis.result import Diagnosis, Finding, Key
 from modeler.diagnosis.search import Step
-from modeler.effects import Effect, effect_named
+from modeler.effects import Effect, Needs, effect_named
 from modeler.estimation import spread_text
 
 TOLD = 0.15
@@ -111,7 +111,10 @@ def _changes(diagnosis: Diagnosis) -> list[str]:
 def refused_lines(diagnosis: Diagnosis) -> list[str]:
     """What explains much of these logs and is not named all the same, the best first."""
     found = diagnosis.search
-    timing = [judged for judged in found.last.ranked if not judged.confirmed]
+    timing = [
+        judged for judged in found.last.ranked
+        if not judged.confirmed and Needs.LAG not in judged.candidate.effect.needs
+    ]  # fmt: skip
     named = {(f.effect, f.joint) for f in (*diagnosis.effects, *diagnosis.refinements)}
     lost = [step.judged for step in found.steps if step.pick.key not in named]
     lines: dict[Key, tuple[float, str]] = {}

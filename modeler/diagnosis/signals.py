@@ -310,7 +310,7 @@ def tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
     axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
     """
     basis, q = signals.reference.tilts, signals.q[window]
-    if basis is None:
+    if not basis:  # a slide along gravity feels no other
         return np.zeros((*q.shape, 0))
     slopes = frame_slopes(signals.reference.compiled, q)
     return np.stack([gravity_torque(slopes, axis, chi) for axis, chi in basis], axis=-1)

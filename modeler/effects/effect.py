@@ -44,6 +44,7 @@ class Needs(enum.Enum):
     GRAVITY = "gravity turns its joint"
     CURVE = "its torque bends over the stroke by more than is left unexplained"
     REST = "its rest position q0 lies in the motion, unless the model has an offset"
+    TILT = "gravity keeps its size: it only turns"
     MASS = "the body has no negative mass"
     INERTIA = "what rings has about the inertia that the model has on the joint"
     GAIN = "the gain of a drive is positive, and within ten times of the one given"

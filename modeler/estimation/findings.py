@@ -546,9 +546,12 @@ def _channels(seen: Evidence) -> list[_Channel]:
         return kept[shift]
 
     def all_lagged(tau: float, beta: np.ndarray | None) -> np.ndarray:
-        return sum(w * rows.shifted(compiled, np.full(n, tau * u), beta) for u, w in _DECAY)
+        every = [w * rows.shifted(compiled, np.full(n, tau * u), beta) for u, w in _DECAY]
+        return np.asarray(np.sum(every, axis=0))
 
-    def torque_alone(all_moved: Columns, j: int, shift: float, beta: np.ndarray | None) -> np.ndarray:
+    def torque_alone(
+        all_moved: Columns, j: int, shift: float, beta: np.ndarray | None
+    ) -> np.ndarray:
         found = (rows.W if beta is None else rows.W @ beta).copy()
         found[:, j] = all_moved(shift, beta)[:, j]
         return found
