@@ -19,6 +19,7 @@ from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import dense
 from modeler.diagnosis.generate import generate_candidates, ruled_out
 from modeler.diagnosis.judge import (
+    NEARLY,
     Judged,
     decide,
     holdout_residuals,
@@ -112,7 +113,7 @@ def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
         return []
     asked = scan_candidates(state, [step.pick, *barred]).judged()
     own = [j for j in asked.ranked if j.key == step.pick.key]
-    least = own[0].fall if own else 0.0
+    least = NEARLY * own[0].fall if own else 0.0
     alike = (
         j for j in asked.ranked
         if j not in own and j.significant and j.fall >= least
