@@ -24,21 +24,14 @@ from modeler.diagnosis.added_model import (
     with_law,
     with_shapes,
 )
-from modeler.diagnosis.candidates import (
-    JOINTED,
-    Candidate,
-    StatedEffects,
-    links_of,
-    passive_joints,
-    why_not_added,
-)
+from modeler.diagnosis.candidates import Candidate, StatedEffects, links_of, passive_joints
 from modeler.diagnosis.diagnosis import kept_parameters
 from modeler.diagnosis.drive_gains import gain_visible, is_gain
 from modeler.diagnosis.effect_columns import body_parameters
 from modeler.diagnosis.learn import ANY_LAW, LawAsked, Learned, learn
 from modeler.diagnosis.plausible import objection
 from modeler.diagnosis.profile import values_of
-from modeler.diagnosis.result import HIDDEN, Pick, doubt
+from modeler.diagnosis.result import HIDDEN, JOINTED, Pick, doubt, why_not_added
 from modeler.diagnosis.score import Residuals, Score, errors_of, no_better, rms_error, scored
 from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where

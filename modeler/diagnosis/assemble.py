@@ -187,27 +187,25 @@ def _in_band_of_table(
 
     And the state with all that is named, and what it leaves of unseen motion.
     """
-    first, last, found = bands[0], bands[-1], list[Finding]()
+    first, found = bands[0], list(every)
     state, seen = first.found.end, first.seen[-1]
-    for finding in every:
-        step = next(
-            (s for s in last.found.steps if len(bands) > 1 and finding in last.findings
-             and finding.pick is not None and s.pick is finding.pick.candidate), None
-        )  # fmt: skip
-        if step is not None and not finding.doubt:
-            later = extended(state, step.pick)
-            left = holdout_residuals(later, first.other)
-            score = compared(seen, left, touched_joints(step.judged, state, later), later)
-            ends, why = (score.whole.before, score.whole.after), ""
-            if score.better:
-                state, seen = later, left
-            else:
-                why = f"the error falls only up to {cutoff(last.found.start.data):.2g} Hz"
-            finding = dataclasses.replace(
-                finding, error_before=ends[0], error_after=ends[1], doubt=why,
-                evidence=evidence(step, *ends),
-            )  # fmt: skip
-        found.append(finding)
+    for i, finding in enumerate(every):
+        if finding.doubt or finding.pick is None or finding in first.findings:
+            continue
+        pick, wider = finding.pick.candidate, bands[-1].found
+        (step,) = (step for step in wider.steps if step.pick is pick)
+        later = extended(state, pick)
+        left = holdout_residuals(later, first.other)
+        score = compared(seen, left, touched_joints(step.judged, state, later), later)
+        ends, why = (score.whole.before, score.whole.after), ""
+        if score.better:
+            state, seen = later, left
+        else:
+            why = f"the error falls only up to {cutoff(wider.start.data):.2g} Hz"
+        text = evidence(step, *ends)
+        found[i] = dataclasses.replace(
+            finding, error_before=ends[0], error_after=ends[1], doubt=why, evidence=text
+        )
     return found, state, seen
 
 
@@ -260,7 +258,7 @@ def _finding(
         refines=refines,
         objection=against,
         looks=looks,
-        doubt=doubt(pick, errors, against, sigmas, closed, looks, rivals, refines, after or (0.0,)),
+        doubt=doubt(pick, errors, against, sigmas, closed, looks, rivals, refines, after),
         first=first,
         pick=Pick(pick, values, end, visible),
     )

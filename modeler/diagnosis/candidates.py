@@ -9,7 +9,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec
-from modeler.effects import CATALOGUE, MOTION, PASSIVE_FRICTION_IS, Acts, Effect, Form, Needs, Shape
+from modeler.effects import CATALOGUE, PASSIVE_FRICTION_IS, Acts, Effect, Form, Needs, Shape
 
 
 @dataclass(frozen=True)
@@ -126,25 +126,6 @@ class Candidate(Brief):
         if self.effect.acts is Acts.POSITION:
             return list(range(max(self.index - 1, 0), self.index + 1))
         return list(range(joints))
-
-
-def why_not_added(effect: Effect, spec: ModuleSpec) -> str:
-    """Why an effect cannot go into a model of this robot; empty if it can."""
-    if effect.hindrance:
-        return effect.hindrance
-    moved = all(name.startswith(MOTION) for name in effect.forms[0].names)
-    moved = moved and effect.acts is not Acts.POSITION
-    if spec.closure is None or effect.acts not in JOINTED or moved:
-        return ""
-    # the C of a robot with loops reads the motion of its joints, nothing else
-    return (
-        f"{spec.robot} has loops, and there effects may read positions, speeds and accelerations "
-        "only; keep it in mind as a finding"
-    )
-
-
-JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
-"""Effects that act on a joint."""
 
 
 def links_of(spec: ModuleSpec) -> list[str]:

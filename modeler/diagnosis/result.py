@@ -10,16 +10,18 @@ import numpy as np
 
 from modeler.core.brief import LONGEST, Brief
 from modeler.core.json import entries, nulled
+from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
 from modeler.core.table import percent, printed
 from modeler.core.toml_cells import toml_text
-from modeler.diagnosis.candidates import Candidate, why_not_added
+from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.cross_checks import CrossCheck, Key, ParameterChange
 from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.judge import KEPT
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
+from modeler.effects import MOTION, Acts, Effect
 
 # Does an effect explain what is systematic, or only part of it?
 
@@ -86,7 +88,7 @@ def doubt(
     pick: Candidate, errors: tuple[float, float], objection: str = "",
     sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
     looks: Sequence[CrossCheck] = (), ties: Sequence[Candidate] = (), refines: bool = False,
-    left: Sequence[float] = (0.0,),
+    left: Sequence[float] = (),
 ) -> str:  # fmt: skip
     """Why an effect is perhaps missing and no more; empty if it is named.
 
@@ -102,10 +104,12 @@ def doubt(
         left: relative errors with it of the joints that it touches.
     """
     before, after = errors
-    worst = max(after, *left)
+    worst = max([after, *left])
     reasons = [objection] if objection and not is_gain(pick) else []
     if worst > MOST_LEFT:
-        reasons.append(f"with it the error of a joint is {percent(worst)} still")
+        reasons.append(
+            f"with it the error is {percent(worst)} still, so the fit does not determine a joint"
+        )
     small = not refines and (closed is None or closed < CLOSED)
     if small and after > (1.0 - SMALL) * before:
         reasons.append(f"the error falls by less than {percent(SMALL)} of itself")
@@ -133,6 +137,25 @@ FELT = 0.005
 
 LEFT = 0.15
 """Share of the residual's variance that must be systematic before an unnamed cause is reported."""
+
+
+def why_not_added(effect: Effect, spec: ModuleSpec) -> str:
+    """Why an effect cannot go into a model of this robot; empty if it can."""
+    if effect.hindrance:
+        return effect.hindrance
+    moved = all(name.startswith(MOTION) for name in effect.forms[0].names)
+    moved = moved and effect.acts is not Acts.POSITION
+    if spec.closure is None or effect.acts not in JOINTED or moved:
+        return ""
+    # the C of a robot with loops reads the motion of its joints, nothing else
+    return (
+        f"{spec.robot} has loops, and there effects may read positions, speeds and accelerations "
+        "only; keep it in mind as a finding"
+    )
+
+
+JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
+"""Effects that act on a joint."""
 
 
 HIDDEN = 0.01
