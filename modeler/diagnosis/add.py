@@ -31,13 +31,13 @@ from modeler.diagnosis.effect_columns import body_parameters
 from modeler.diagnosis.learn import ANY_LAW, LawAsked, Learned, learn
 from modeler.diagnosis.plausible import objection
 from modeler.diagnosis.profile import values_of
-from modeler.diagnosis.result import Pick, doubt
+from modeler.diagnosis.result import HIDDEN, JOINTED, Pick, doubt, why_not_added
 from modeler.diagnosis.score import Residuals, Score, errors_of, no_better, rms_error, scored
 from modeler.diagnosis.search import extended, scan_candidates, scan_catalogue
 from modeler.diagnosis.sentences import where
 from modeler.diagnosis.state import SearchData, State, analysed, state_of
 from modeler.diagnosis.timing import instrumental
-from modeler.effects import MOTION, Acts, Effect, effect_named
+from modeler.effects import Acts, Effect, effect_named
 from modeler.estimation import Addition, IdentifiedModel, identify, provenance, with_verdict
 from modeler.robot import listed, near, robot_from_text
 from modeler.runtime import CompiledModel, load
@@ -56,9 +56,6 @@ def reads_speed_only(effect: Effect) -> bool:
 
 
 # What `add` is asked for, checked before any log is looked at.
-
-
-_JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
 
 
 def requested_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effect:
@@ -80,17 +77,9 @@ def requested_effect(model: IdentifiedModel, name: str, joint: str | None) -> Ef
             f"{name}: no such effect{near(name, [known.id for known in catalogue])}; `modeler "
             "effects` lists them, with --robot FILE those of a robot file too"
         )
-    if effect.hindrance:
-        raise DataError(f"{effect.id}: cannot be added ({effect.hindrance})")
-    jointed = effect.acts in _JOINTED
-    reads_motion = all(name.startswith(MOTION) for name in effect.forms[0].names)
-    reads_motion = reads_motion and effect.acts is not Acts.POSITION
-    if model.spec.closure is not None and jointed and not reads_motion:
-        # the C of a robot with loops reads the motion of its joints, nothing else
-        raise DataError(
-            f"{effect.id}: cannot be added ({model.spec.robot} has loops, and there effects may "
-            "read positions, speeds and accelerations only; keep it in mind as a finding)"
-        )
+    if why := why_not_added(effect, model.spec):
+        raise DataError(f"{effect.id}: cannot be added ({why})")
+    jointed = effect.acts in JOINTED
     if joint is not None:
         _check_joint(model.spec, effect, joint)
     if effect.several or not jointed:  # there may be several orders of ripples
@@ -105,7 +94,7 @@ def requested_effect(model: IdentifiedModel, name: str, joint: str | None) -> Ef
 
 def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
     """Effects act on joints with a motor, on joints that loops leave over, or on links."""
-    jointed, passive = effect.acts in _JOINTED, list(passive_joints(spec))
+    jointed, passive = effect.acts in JOINTED, list(passive_joints(spec))
     if not jointed and (effect.acts is not Acts.LINK or effect.last_link):
         raise DataError(
             f"--joint {joint}: {effect.id} acts on the whole robot, not on one joint; leave "
@@ -126,9 +115,6 @@ def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
             f"--joint {joint}: {effect.id} reads {listed(read)} of it as of another joint; name "
             "another, or leave --joint out"
         )
-
-
-_HIDDEN = 0.01  # share of its columns below which the logs do not show an effect
 
 
 @dataclass(frozen=True, eq=False)
@@ -406,7 +392,7 @@ def _found(before: _Fitted, effect: Effect, joint: str | None) -> Pick:
 def _judged(before: _Fitted, pick: Pick) -> tuple[_Fitted, Score]:
     """The model with the effect, and whether it is the better one."""
     effect = pick.candidate.effect
-    if pick.visible < _HIDDEN:  # it would take its values from the model that is there
+    if pick.visible < HIDDEN:  # it would take its values from the model that is there
         raise DataError(
             f"{effect.id}: cannot be told from what the model has on these logs "
             f"({percent(pick.visible)} of it is left); {effect.look_alikes}"

@@ -10,7 +10,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.cross_checks import CrossCheck
+from modeler.diagnosis.cross_checks import CrossCheck, ParameterChange
 from modeler.diagnosis.data_checks import SHORT, doubts, length, one_speed
 from modeler.diagnosis.detected import detected
 from modeler.diagnosis.drive_gains import gain_deviations, gain_visible, is_gain
@@ -33,8 +33,8 @@ from modeler.diagnosis.result import (
 )
 from modeler.diagnosis.score import Change, Residuals, Score, errors_of
 from modeler.diagnosis.search import Search, Step, Tick, extended
-from modeler.diagnosis.sentences import evidence, sentences
-from modeler.diagnosis.state import SearchData, State, state_of
+from modeler.diagnosis.sentences import NOT_JUDGED, evidence, sentences
+from modeler.diagnosis.state import SearchData, State, cutoff, state_of
 from modeler.diagnosis.timing import instrumental
 from modeler.effects import Acts, effect_named
 from modeler.estimation import IdentifiedModel
@@ -100,7 +100,9 @@ def band_search(
                 explained_fraction(own[k:], touched, share, chain[k].sigma)
                 for own, share in zip(squares, shares, strict=True)
             )
-            findings.append(_finding(found, k, touched, score.whole, closed, looks[k]))
+            names = [found.end.names[j] for j in touched]
+            left = [change.after for change in score.joints if change.joint in names]
+            findings.append(_finding(found, k, touched, score.whole, closed, looks[k], left))
         tick()
     return BandSearch(found, other, seen, shares[0], findings)
 
@@ -118,7 +120,7 @@ def _systematic(state: State, left: Sequence[np.ndarray], tick: Tick) -> Callabl
 
 def assembled(
     model: IdentifiedModel, bands: Sequence[BandSearch], window: Window | None,
-    faults: Sequence[Doubt] = (),
+    faults: Sequence[Doubt] = (), moved: Sequence[ParameterChange] = (),
 ) -> Diagnosis:  # fmt: skip
     """The diagnosis.
 
@@ -127,6 +129,7 @@ def assembled(
         bands: the search in the band of the diagnosis; then, if there is one, that in a wider band.
         window: of a contact that was masked.
         faults: channels that contradict the model; if one is certain, nothing is named.
+        moved: parameters in which the machine of the held-out logs differs; then nothing is judged.
     """
     first, last = bands[0], bands[-1]
     found, other = first.found, first.other
@@ -137,16 +140,20 @@ def assembled(
         return compared(last.seen[-1], after, [candidate.index], last.found.end)
 
     every: list[Finding] = []
+    end, seen = found.end, first.seen[-1]
     if not contradicted:
         every = _once([finding for band in bands for finding in band.findings])
+        every, end, seen = _in_band_of_table(every, bands)
         every = detected(last.found, window, errors_of(last.seen[-1]), falls, every)
-    joints = _joints(found, first.seen, first.share)
+    joints = _joints(found, end, (first.seen[0], seen), first.share)
     every = [_doubted(finding, joints) for finding in every]
+    if moved:
+        every = [dataclasses.replace(finding, doubt=NOT_JUDGED) for finding in every]
     every.sort(key=lambda finding: finding.status == "perhaps")
     effects, refinements = (tuple(f for f in every if f.refines is r) for r in (False, True))
     diagnosis = Diagnosis(
         robot=model.spec.robot,
-        verdict="cannot tell" if contradicted else verdict(effects, joints, found),
+        verdict="cannot tell" if contradicted or moved else verdict(effects, joints, found),
         effects=effects,
         refinements=refinements,
         rivals=tuple((*rival.key, rival.gain) for rival in found.ranked[:8]),
@@ -157,7 +164,7 @@ def assembled(
         sentences=(),
         fit_band=model.processing.parallel_cutoff or 0.0,
         data=doubts(model, found, other, faults, window),
-        contradicted=contradicted, window=window, search=found,
+        contradicted=contradicted, machine_changed=tuple(moved), window=window, search=found,
     )  # fmt: skip
     return sentences(diagnosis)
 
@@ -173,6 +180,35 @@ def _once(findings: Sequence[Finding]) -> list[Finding]:
     return list(found.values())
 
 
+def _in_band_of_table(
+    every: Sequence[Finding], bands: Sequence[BandSearch]
+) -> tuple[list[Finding], State, Residuals]:
+    """Findings of the wider band with the errors that they have in the band of the table.
+
+    And the state with all that is named, and what it leaves of unseen motion.
+    """
+    first, found = bands[0], list(every)
+    state, seen = first.found.end, first.seen[-1]
+    for i, finding in enumerate(every):
+        if finding.doubt or finding.pick is None or finding in first.findings:
+            continue
+        pick, wider = finding.pick.candidate, bands[-1].found
+        (step,) = (step for step in wider.steps if step.pick is pick)
+        later = extended(state, pick)
+        left = holdout_residuals(later, first.other)
+        score = compared(seen, left, touched_joints(step.judged, state, later), later)
+        ends, why = (score.whole.before, score.whole.after), ""
+        if score.better:
+            state, seen = later, left
+        else:
+            why = f"the error falls only up to {cutoff(wider.start.data):.2g} Hz"
+        text = evidence(step, *ends)
+        found[i] = dataclasses.replace(
+            finding, error_before=ends[0], error_after=ends[1], doubt=why, evidence=text
+        )
+    return found, state, seen
+
+
 def _doubted(finding: Finding, joints: Mapping[str, JointState]) -> Finding:
     """An event, where something acts all the time: what stood out of it may be none."""
     if not finding.event or finding.objection or not any(j.unexplained for j in joints.values()):
@@ -182,7 +218,7 @@ def _doubted(finding: Finding, joints: Mapping[str, JointState]) -> Finding:
 
 def _finding(
     found: Search, k: int, touched: Sequence[int], change: Change, closed: float,
-    looks: tuple[CrossCheck, ...],
+    looks: tuple[CrossCheck, ...], after: Sequence[float],
 ) -> Finding:  # fmt: skip
     """What the k-th step put in."""
     step, end, first = found.steps[k], found.end, k == 0 and not found.given
@@ -191,7 +227,7 @@ def _finding(
     left = [end.residual[j] / before.sigma[j] for j in touched]
     values = end.values[k]
     deviations = judged.deviations * float(np.sqrt(np.mean(np.concatenate(left) ** 2)))
-    if pick.effect.acts is Acts.TORQUE:  # least squares make delays too small
+    if pick.delays:  # least squares make delays too small
         values, deviations = instrumental(before, pick)
     visible = judged.visible
     if is_gain(pick):
@@ -222,7 +258,7 @@ def _finding(
         refines=refines,
         objection=against,
         looks=looks,
-        doubt=doubt(pick, errors, against, sigmas, closed, looks, rivals, refines),
+        doubt=doubt(pick, errors, against, sigmas, closed, looks, rivals, refines, after),
         first=first,
         pick=Pick(pick, values, end, visible),
     )
@@ -258,7 +294,7 @@ def _refines(found: Search, k: int) -> bool:
 
 
 def _joints(
-    found: Search, seen: Sequence[Residuals], systematic: Callable[[int], float]
+    found: Search, end: State, seen: Sequence[Residuals], systematic: Callable[[int], float]
 ) -> dict[str, JointState]:
     states, ends = {}, [errors_of(seen[k]) for k in (0, -1)]
     shown = [j for j, y in enumerate(found.start.rows.y) if y.size]
@@ -269,7 +305,7 @@ def _joints(
         if j not in shares:
             continue
         size = mean_square(found.start.rows.y[j])
-        before, after = (mean_square(s.residual[j]) for s in (found.start, found.end))
+        before, after = (mean_square(s.residual[j]) for s in (found.start, end))
         share = after / size if size > 0.0 else math.nan
         states[joint.name] = JointState(
             error_before=ends[0].get(joint.name, math.nan),

@@ -9,7 +9,7 @@ import numpy as np
 
 from modeler.core.brief import Brief
 from modeler.core.manifest import ModuleSpec
-from modeler.effects import CATALOGUE, PASSIVE_FRICTION_IS, Acts, Effect, Form, Shape
+from modeler.effects import CATALOGUE, PASSIVE_FRICTION_IS, Acts, Effect, Form, Needs, Shape
 
 
 @dataclass(frozen=True)
@@ -90,6 +90,11 @@ class Candidate(Brief):
     def local(self) -> bool:
         """True if it enters the torque of its own joint only."""
         return self.effect.acts is Acts.JOINT
+
+    @property
+    def delays(self) -> bool:
+        """True if it shifts all torques in time."""
+        return "rate" in self.form.names
 
     @property
     def scaled(self) -> int:
@@ -182,6 +187,9 @@ def candidates(
                     form = next((f for f in effect.forms if warm or "T" not in f.names), None)
                     if form is not None and _others_known(form, joint.name, spec):
                         found += over_grid(effect, form, joint.name, j, scales[j])
+            if Needs.LAG in effect.needs and len(spec.joints) > 1:
+                whole = dataclasses.replace(effect, acts=Acts.TORQUE)
+                found += over_grid(whole, whole.forms[0], None, -1, scales[0])
         elif effect.acts in (Acts.TORQUE, Acts.GRAVITY):
             found.append(Candidate(effect, effect.forms[0], None, -1))
         elif effect.acts is Acts.MOTOR:
@@ -211,7 +219,7 @@ def _named_first(
 
 
 def over_grid(
-    effect: Effect, form: Form, joint: str, index: int, scale: JointScale
+    effect: Effect, form: Form, joint: str | None, index: int, scale: JointScale
 ) -> Iterator[Candidate]:
     """An effect on a joint with all combinations of its shapes."""
     names = [shape.name for shape in form.shapes]

@@ -18,10 +18,22 @@ from modeler.core.json import entries
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.effect_columns import dense
 from modeler.diagnosis.generate import generate_candidates, ruled_out
-from modeler.diagnosis.judge import Judged, decide, numbers, refines, tied
+from modeler.diagnosis.judge import (
+    NEARLY,
+    Judged,
+    decide,
+    holdout_residuals,
+    numbers,
+    on_logs,
+    refines,
+    tied,
+)
+from modeler.diagnosis.score import Residuals, errors_of
 from modeler.diagnosis.search import Search, Step, Tick, about_itself, scan_candidates
 from modeler.diagnosis.state import SearchData, State, columns_of, state_of
 from modeler.diagnosis.timing import smoothed
+from modeler.estimation import IdentifiedModel, identify
+from modeler.observation import Log, observed, prepare
 
 RIVALS = 8
 """Effects that are asked again in the other looks: those that came nearest."""
@@ -101,7 +113,7 @@ def _ruled_out(found: Search, step: Step) -> list[CrossCheck]:
         return []
     asked = scan_candidates(state, [step.pick, *barred]).judged()
     own = [j for j in asked.ranked if j.key == step.pick.key]
-    least = own[0].fall if own else 0.0
+    least = NEARLY * own[0].fall if own else 0.0
     alike = (
         j for j in asked.ranked
         if j not in own and j.significant and j.fall >= least
@@ -167,3 +179,72 @@ def _recheck(state: State, step: Step, found: Search) -> list[Judged]:
     return list(
         scan_candidates(state, [c for c in (*first, *again) if _logged(state.data, c)]).best
     )
+
+
+# Is the machine of the held-out logs that of the training logs?
+
+
+DIFFERS = 2.0
+"""Ratio of the held-out error of a joint to that of a fit to the held-out logs alone, and to that
+of the training logs (both cross-validated), from which on the machine may differ."""
+
+MOVED = 5.0
+"""Standard deviations of the difference from which on a parameter has changed."""
+
+FELT = 0.005
+"""Least rms torque of its change, over that of a joint, on the held-out logs."""
+
+
+@dataclass(frozen=True)
+class ParameterChange:
+    """A base parameter that differs between the training and the held-out logs.
+
+    Attributes:
+        name: of the parameter.
+        before, after: fitted to the training logs, and to the held-out logs alone.
+        sigma_before, sigma_after: standard deviations.
+        unit: of all four.
+        share: rms torque of the change over that of the joint where it is largest.
+    """
+
+    name: str
+    before: float
+    after: float
+    sigma_before: float
+    sigma_after: float
+    unit: str
+    share: float
+
+
+def changed_parameters(
+    model: IdentifiedModel, found: Search, other: SearchData, left: Residuals, logs: Sequence[Log]
+) -> tuple[ParameterChange, ...]:
+    """Parameters in which the machine of the held-out logs differs, the most important first.
+
+    Args:
+        model: as given.
+        found: the search on the training logs.
+        other: the held-out logs.
+        left: what the model with all effects leaves of these.
+        logs: the same logs.
+    """
+    there = on_logs(found.end, other)
+    alone, own = (errors_of(holdout_residuals(state, None)) for state in (there, found.end))
+    most = {joint: DIFFERS * max(alone[joint], own.get(joint, 0.0)) for joint in alone}
+    misses = any(error > most.get(joint, math.inf) for joint, error in errors_of(left).items())
+    if not misses or other.kept is not None:
+        return ()
+    rows = observed(other.compiled, logs, prepare(other.spec, logs, model.processing))
+    fitted = identify(rows, "weighted", other.compiled).parameters
+    moved = []
+    for i, (a, b) in enumerate(zip(model.fit.parameters, fitted, strict=True)):
+        change = b.value - a.value
+        share = max(
+            abs(change) * float(np.linalg.norm(w[:, i])) / (float(np.linalg.norm(y)) or math.inf)
+            for w, y in zip(there.rows.W, there.rows.y, strict=True)
+        )
+        if a.sigma is None or b.sigma is None or share < FELT:
+            continue
+        if abs(change) > MOVED * math.hypot(a.sigma, b.sigma):
+            moved.append(ParameterChange(a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share))
+    return tuple(sorted(moved, key=lambda own: -own.share))

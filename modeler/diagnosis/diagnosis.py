@@ -10,7 +10,12 @@ from threadpoolctl import threadpool_limits
 from modeler.core.errors import DataError
 from modeler.diagnosis.assemble import BandSearch, assembled, band_search
 from modeler.diagnosis.candidates import StatedEffects
-from modeler.diagnosis.cross_checks import OtherLook, recheck_effects
+from modeler.diagnosis.cross_checks import (
+    OtherLook,
+    ParameterChange,
+    changed_parameters,
+    recheck_effects,
+)
 from modeler.diagnosis.data_checks import faults_of, without_friction
 from modeler.diagnosis.effect_columns import coarser
 from modeler.diagnosis.events import BURST, MARGIN, Window, burst_ratio, contact_window, explained
@@ -154,7 +159,10 @@ def diagnose(
         beyond = None if beyond is None else _masked(beyond, window)
         found = bands()
     meter.stage(_NAMED if equations else 1.0)
-    diagnosis = assembled(model, found, window, doubted)
+    moved = tuple[ParameterChange, ...]()
+    if other is not None and limit:
+        moved = changed_parameters(model, found[0].found, other, found[0].seen[-1], holdout)
+    diagnosis = assembled(model, found, window, doubted, moved)
     if equations and limit:
         meter.stage(1.0)
         facts = [(f.effect, f.joint) for f in diagnosis.effects if f.status == "fact"]
@@ -210,7 +218,7 @@ def _aligned(
     data: SearchData, found: Search, model: IdentifiedModel, mending: LogRepair
 ) -> SearchData | None:
     """The data without a delay that is a convention of the logger; None if there is none."""
-    delays = [j for j in found.ranked if j.candidate.effect.acts is Acts.TORQUE and not j.confirmed]
+    delays = [j for j in found.ranked if j.candidate.delays and not j.confirmed]
     shift = logger_shift(found.start, delays[0].candidate, delays[0].values) if delays else 0.0
     if shift == 0.0:
         return None

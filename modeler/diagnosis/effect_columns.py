@@ -77,7 +77,7 @@ def own_columns(
 def all_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:
     """(n, J, k) torques of its columns on every joint, over a window of the samples."""
     acts = candidate.effect.acts
-    if acts is Acts.TORQUE:
+    if candidate.delays:
         return signals.rate[window, :, None]
     if acts is Acts.GRAVITY:
         return tilt_columns(signals, window)
@@ -192,6 +192,10 @@ class Rows(Brief):
         """The columns of a candidate on these rows."""
         if candidate.local or candidate.effect.acts is Acts.POSITION:
             return self._together([candidate])
+        if candidate.effect.acts is Acts.TORQUE and not candidate.delays:  # alike on every joint
+            alone = [dataclasses.replace(candidate, index=j) for j in range(self.joints)]
+            own = [np.stack([own_columns([c], s) for c in alone], axis=1) for s in self.signals]
+            return self.spread(lambda i, w: own[i][w])
         return self.spread(lambda i, w: all_columns(candidate, self.signals[i], w))
 
     def many(self, candidates: Sequence[Candidate]) -> list[Columns]:

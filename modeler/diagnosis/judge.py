@@ -184,8 +184,10 @@ def possible(candidate: Candidate, values: np.ndarray) -> bool:
     With l the length of a spring on a lever, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq
     for one of constant force: in sin(q - q0) / l the first has the coefficient -k l0 b, the second
     F b. The rest of the first, k b sin(q - q0), is mostly that of the link's first moment: the sign
-    tells them apart, unless the second pushes.
+    tells them apart, unless the second pushes. What a tilt is depends on the robot (`plausible`).
     """
+    if candidate.effect.acts is Acts.GRAVITY:
+        return True
     turned = candidate.effect.sign * float(values[-1]) < 0.0
     return not turned and not any(
         (column.nonnegative and value < 0.0) or abs(value) > column.largest

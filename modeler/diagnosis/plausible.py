@@ -1,13 +1,16 @@
 """Do the values of an effect belong to this robot?"""
 
+import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from modeler.core.table import percent
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.drive_gains import TENFOLD
 from modeler.diagnosis.effect_columns import body_parameters, dense
 from modeler.diagnosis.judge import GATE, PLAIN
+from modeler.diagnosis.profile import ProfileProblem, own_columns_of
 from modeler.diagnosis.state import State, all_columns_of, columns_of, state_of, visible
 from modeler.effects import Needs
 from modeler.estimation import body, nearest_possible
@@ -214,6 +217,43 @@ def _no_gain(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
     return f"the true gain would be {true} the given one: check sign and unit of that torque"
 
 
+def _no_tilt(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """A base that stands askew turns gravity, and changes it by no more than that."""
+    change, (column,) = float(np.linalg.norm(list(parameters.values()))), pick.form.columns
+    if change <= column.largest:
+        return ""
+    return (
+        f"gravity would change by {change:.3g} {column.unit_revolute}, and a tilted base turns it"
+    )
+
+
+AS_WELL = 1.1
+"""Ratio of two squared residuals below which the data do not tell two filters apart."""
+
+
+def _no_lag(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
+    """A torque that is only late, or of which a part alone is filtered.
+
+    1 + lag (1/(tau s + 1) - 1) is a first-order filter for lag = 1, and for lag = 2 the Pade
+    approximation of a delay of 2 tau.
+    """
+    problem = ProfileProblem(state, pick, own_columns_of(state, state.picks.index(pick)))
+    share, tau = parameters[pick.parameter_names()[0]], parameters["tau"]
+
+    def least(lag: float) -> tuple[float, float]:
+        every = share * tau / lag * np.geomspace(0.5, 2.0, 25)
+        picks = ((dataclasses.replace(pick, shapes={"tau": float(x)}), x) for x in every)
+        return min((problem.squares(own, np.array([lag])), float(x)) for own, x in picks)
+
+    (filtered, _), (late, half) = least(1.0), least(2.0)
+    if late < AS_WELL * filtered:
+        how = "as well" if filtered < AS_WELL * late else "better"
+        return f"a pure delay of {2e3 * half:.2g} ms describes it {how}"
+    if filtered > AS_WELL * problem.squares(pick, np.array([share])):
+        return f"a filter that only {percent(share)} of the torque passes describes it better"
+    return ""
+
+
 def gravity_like(start: State, candidates: Sequence[Candidate]) -> list[str]:
     """Joints on which the links' own gravity imitates what balances it, most of it at any shape.
 
@@ -282,6 +322,8 @@ _CHECKS: Mapping[Needs, Callable[[State, Candidate, Mapping[str, float]], str]] 
     Needs.MASS: _no_body,
     Needs.INERTIA: _other_oscillator,
     Needs.GAIN: _no_gain,
+    Needs.LAG: _no_lag,
+    Needs.TILT: _no_tilt,
     Needs.FRICTION: _more_than_all,
 }
 """A sentence where the robot is not so; empty where it is."""

@@ -113,6 +113,13 @@ class ProfileProblem:
         deviations = np.sqrt(np.maximum(np.diag(inverse), 0.0))
         return Point(dict(candidate.shapes), left - float(h @ values), values, deviations, others)
 
+    def squares(self, candidate: Candidate, values: np.ndarray) -> float:
+        """S with these shapes and these values (k,) of the effect; all else is fitted."""
+        torque = self.off(candidate) @ values
+        return self.target[2] + float(
+            torque @ torque - 2.0 * torque @ np.concatenate(self.target[0])
+        )
+
     def off(self, candidate: Candidate) -> np.ndarray:
         """(rows of all joints, k) what all else leaves of the columns, divided by sigma."""
         columns = self.rows.columns(candidate)
@@ -415,10 +422,10 @@ def profile_of(state: State, place: int) -> Profile | None:
         state: with the effect.
         place: of it among the effects of the state.
     """
-    return profile(state, state.picks[place], _own(state, place))
+    return profile(state, state.picks[place], own_columns_of(state, place))
 
 
-def _own(state: State, place: int) -> slice:
+def own_columns_of(state: State, place: int) -> slice:
     """The columns of an effect of the state."""
     sizes = [len(values) for values in state.values]
     first = state.W[0].shape[1] - sum(sizes[place:])
@@ -427,7 +434,7 @@ def _own(state: State, place: int) -> slice:
 
 def explained_by(state: State, place: int) -> Callable[[Candidate], float]:
     """The fall of S with an effect that was put in, by its shapes; 0 where physics forbids it."""
-    problem = ProfileProblem(state, state.picks[place], _own(state, place))
+    problem = ProfileProblem(state, state.picks[place], own_columns_of(state, place))
 
     def fall(candidate: Candidate) -> float:
         point = problem.at(candidate)

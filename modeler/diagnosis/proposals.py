@@ -18,6 +18,7 @@ from modeler.diagnosis.learn import effect_id, free_name, learn
 from modeler.diagnosis.orders import rival
 from modeler.diagnosis.profile import profile_of, values_of
 from modeler.diagnosis.result import Discovery, Finding, Pick, Proposal
+from modeler.diagnosis.score import errors_of
 from modeler.diagnosis.search import Search, Step, extended
 from modeler.diagnosis.state import SearchData, State, all_columns_of, columns_of, state_of, visible
 from modeler.effects import Acts, read_definition
@@ -113,7 +114,23 @@ def _offered(searches: Sequence[JointSearch], other: SearchData | None) -> list[
         kept.append(_Offered(state, later, item, best))
         if len(kept) == MOST:
             break
-    return kept
+    return _by_held_out_error(kept, other)
+
+
+def _by_held_out_error(kept: list[_Offered], other: SearchData | None) -> list[_Offered]:
+    """The least held-out error first; of those that it does not surely beat, the shortest."""
+    if len(kept) < 2:
+        return kept
+    left = [holdout_residuals(own.later, other) for own in kept]
+    j, state = kept[0].item.candidate.index, kept[0].state
+    errors = [errors_of(seen)[state.names[j]] for seen in left]
+    best = left[int(np.argmin(errors))]
+
+    def place(k: int) -> tuple[bool, float, float]:
+        worse = compared(left[k], best, [j], state).whole.falls
+        return worse, errors[k] if worse else kept[k].item.formula.symbols, errors[k]
+
+    return [kept[k] for k in sorted(range(len(kept)), key=place)]
 
 
 def _whole_cost(search: JointSearch, item: Scored) -> float:

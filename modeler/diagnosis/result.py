@@ -10,16 +10,18 @@ import numpy as np
 
 from modeler.core.brief import LONGEST, Brief
 from modeler.core.json import entries, nulled
+from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Presented
 from modeler.core.table import percent, printed
 from modeler.core.toml_cells import toml_text
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.cross_checks import CrossCheck, Key
+from modeler.diagnosis.cross_checks import CrossCheck, Key, ParameterChange
 from modeler.diagnosis.drive_gains import is_gain
 from modeler.diagnosis.events import Window
 from modeler.diagnosis.judge import KEPT
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
+from modeler.effects import MOTION, Acts, Effect
 
 # Does an effect explain what is systematic, or only part of it?
 
@@ -66,8 +68,10 @@ SMALL = 0.1
 """Least fall of the error of the joints that an effect touches, as a share of it; less only where
 nothing systematic is left with it."""
 
-MOST_LEFT = 0.6
-"""Error with the effect from which on a model says too little of its joints to name anything."""
+MOST_LEFT = 0.5
+"""Error of a joint with the effect from which on the fit does not determine that joint: of 139
+joints of measured logs, 34 of 41 with more predict other motion of the machine to no better than
+60 %."""
 
 SHOWN = 0.02
 """Fall of the residual variance that an effect lets expect in another look, from which on it must
@@ -84,6 +88,7 @@ def doubt(
     pick: Candidate, errors: tuple[float, float], objection: str = "",
     sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
     looks: Sequence[CrossCheck] = (), ties: Sequence[Candidate] = (), refines: bool = False,
+    left: Sequence[float] = (),
 ) -> str:  # fmt: skip
     """Why an effect is perhaps missing and no more; empty if it is named.
 
@@ -96,11 +101,15 @@ def doubt(
         looks: what others say of it.
         ties: effects that these data do not tell from it.
         refines: True for what mends a law of the model, which may be small.
+        left: relative errors with it of the joints that it touches.
     """
     before, after = errors
+    worst = max([after, *left])
     reasons = [objection] if objection and not is_gain(pick) else []
-    if after > MOST_LEFT:
-        reasons.append(f"with it the error is {percent(after)} still")
+    if worst > MOST_LEFT:
+        reasons.append(
+            f"with it the error is {percent(worst)} still, so the fit does not determine a joint"
+        )
     small = not refines and (closed is None or closed < CLOSED)
     if small and after > (1.0 - SMALL) * before:
         reasons.append(f"the error falls by less than {percent(SMALL)} of itself")
@@ -128,6 +137,29 @@ FELT = 0.005
 
 LEFT = 0.15
 """Share of the residual's variance that must be systematic before an unnamed cause is reported."""
+
+
+def why_not_added(effect: Effect, spec: ModuleSpec) -> str:
+    """Why an effect cannot go into a model of this robot; empty if it can."""
+    if effect.hindrance:
+        return effect.hindrance
+    moved = all(name.startswith(MOTION) for name in effect.forms[0].names)
+    moved = moved and effect.acts is not Acts.POSITION
+    if spec.closure is None or effect.acts not in JOINTED or moved:
+        return ""
+    # the C of a robot with loops reads the motion of its joints, nothing else
+    return (
+        f"{spec.robot} has loops, and there effects may read positions, speeds and accelerations "
+        "only; keep it in mind as a finding"
+    )
+
+
+JOINTED = (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
+"""Effects that act on a joint."""
+
+
+HIDDEN = 0.01
+"""Share of its columns below which the logs do not show an effect."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -376,6 +408,8 @@ class Diagnosis(Presented):
         fit_band: Hz up to which the model was fitted, and `modeler add` fits.
         data: doubts about the logs themselves.
         contradicted: True if channels of the logs contradict the model: then nothing is named.
+        machine_changed: parameters in which the machine of the held-out logs differs: then
+            nothing is judged.
         window: when something pushed, if anything did.
         search: everything behind it.
         discoveries: equations proposed by joint; None where none were asked for.
@@ -395,6 +429,7 @@ class Diagnosis(Presented):
     fit_band: float
     data: tuple[str, ...]
     contradicted: bool
+    machine_changed: tuple[ParameterChange, ...]
     window: Window | None
     search: Search
     discoveries: tuple[Discovery, ...] | None = None
@@ -421,6 +456,18 @@ class Diagnosis(Presented):
         return observation.report.processing.parallel_cutoff
 
     @property
+    def addable(self) -> tuple[Finding, ...]:
+        """The effects that `modeler add` puts in."""
+        spec = self.search.spec
+        has = {(p.effect, p.joint) for p in spec.standard}
+        return tuple(
+            f for f in self.effects
+            if f.pick is not None and f.pick.visible >= HIDDEN and not self.machine_changed
+            and not why_not_added(f.pick.candidate.effect, spec)
+            and ((f.effect, f.joint) not in has or f.pick.candidate.effect.several)
+        )  # fmt: skip
+
+    @property
     def changed(self) -> bool:
         """True if the base parameters were kept and the robot has changed since."""
         return self.search.start.data.kept is not None
@@ -441,7 +488,7 @@ class Diagnosis(Presented):
                 for name, joint in self.joints.items()
             },
             **entries(self, "unmoved held_out sentences band fit_band data changed"),
-            "contradicted": self.contradicted,
+            **entries(self, "contradicted machine_changed"),
             **({} if self.discoveries is None else {
                 "discoveries": [found.to_json() for found in self.discoveries]}),
         })  # fmt: skip

@@ -29,7 +29,7 @@ from modeler.diagnosis.judge import (
 from modeler.diagnosis.plausible import DRIVES, drives, objection
 from modeler.diagnosis.profile import explained_by, values_of
 from modeler.diagnosis.state import SearchData, State, state_of, together, visible
-from modeler.effects import Effect, Shape
+from modeler.effects import Effect, Needs, Shape
 
 _STEPS = 8
 _TURNS = 5
@@ -414,6 +414,10 @@ def _doubted(refused: Sequence[Judged], best: Judged) -> list[Judged]:
     ]  # fmt: skip
 
 
+SHORT = 0.01
+"""s: a delay of all torques below is linear in the band of a diagnosis, and has a name there."""
+
+
 def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State | None]:
     """An effect that led, with what speaks against its values, and the state with it.
 
@@ -429,6 +433,10 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
     pick, values = later.picks[-1], later.values[-1]
     named = values_of(later, pick, values, np.zeros(len(values)))
     why = objection(later, pick, named.value | dict(pick.shapes))
+    lags = pick.joint is None and Needs.LAG in pick.effect.needs
+    short = lags and float(values[0]) * pick.shapes["tau"] < SHORT
+    if why and (short or Needs.TILT in pick.effect.needs):
+        return dataclasses.replace(best, why=why), None
     return dataclasses.replace(best, why=why) if why else best, later
 
 
@@ -472,11 +480,15 @@ def _beside_prior(
         if key[1] == best.key[1] and judged.candidate.local:
             later = extended(state, judged.candidate)
             scan = scan_catalogue(state.weighed_as(later), (), *key)
+            if not scan.best:  # it shows with the weights of the state alone
+                continue
             least = scan.best[0]
             again = scan.at_best(least, scan.starts(least.candidate)).candidate
             later = extended(state, again)
             error = float(np.linalg.norm(later.base.left_out[again.index]))
             found[key] = error * float(later.sigma[again.index]), again
+    if not found:
+        return best
     likely = first.key if first.key in found else best.key
     key = min(found, key=lambda key: found[key][0] * (1.0 if key == likely else CLEAR))
     return _judged_again(state, found[key][1])

@@ -6,13 +6,18 @@ from modeler.core.table import percent, printed
 from modeler.diagnosis.orders import knocking
 from modeler.diagnosis.result import Diagnosis, Finding, Key
 from modeler.diagnosis.search import Step
-from modeler.effects import Effect, effect_named
+from modeler.effects import Effect, Needs, effect_named
 from modeler.estimation import spread_text
 
 TOLD = 0.15
 """Gain from which on an effect is mentioned that was refused."""
 
 MOST_REFUSED = 3
+
+NOT_JUDGED = "the machine differs between the training and the held-out logs"
+"""Why no effect is judged where parameters have changed."""
+
+_MOST_MOVED = 8  # parameters that are listed
 
 _ONLY_HERE = "of these logs' error, but that of motion left out does not surely fall with it"
 _PART = "it explains only part of what is systematic"
@@ -73,7 +78,7 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
     """The diagnosis with its sentences."""
     lines = [_headline(diagnosis), *(_effect_line(f, diagnosis) for f in diagnosis.effects)]
     lines += [_refinement(f, diagnosis) for f in diagnosis.refinements]
-    judged = {} if diagnosis.contradicted else diagnosis.joints
+    judged = {} if diagnosis.contradicted or diagnosis.machine_changed else diagnosis.joints
     lines += refused_lines(diagnosis) if judged else []
     for name, joint in judged.items():
         if joint.unexplained:
@@ -83,7 +88,7 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
                 "variance is systematic and not explained by the catalogue"
                 f"{_outbursts(diagnosis, name)}"
             )
-    lines += [f"data: {line}" for line in diagnosis.data]
+    lines += _changes(diagnosis) + [f"data: {line}" for line in diagnosis.data]
     if not diagnosis.held_out:
         lines.append(
             "no held-out logs: errors are cross-validated within the logs, which flatters effects "
@@ -92,10 +97,24 @@ def sentences(diagnosis: Diagnosis) -> Diagnosis:
     return dataclasses.replace(diagnosis, sentences=tuple(lines))
 
 
+def _changes(diagnosis: Diagnosis) -> list[str]:
+    """The parameters in which the machine of the held-out logs differs."""
+    lines = [
+        f"{p.name}: {p.before:.4g} +- {p.sigma_before:.2g} -> {p.after:.4g} +- "
+        f"{p.sigma_after:.2g} {p.unit} (fitted to the held-out logs alone)"
+        for p in diagnosis.machine_changed[:_MOST_MOVED]
+    ]
+    more = len(diagnosis.machine_changed) - len(lines)
+    return lines + [f"{more} other parameters differ too"] * (more > 0)
+
+
 def refused_lines(diagnosis: Diagnosis) -> list[str]:
     """What explains much of these logs and is not named all the same, the best first."""
     found = diagnosis.search
-    timing = [judged for judged in found.last.ranked if not judged.confirmed]
+    timing = [
+        judged for judged in found.last.ranked
+        if not judged.confirmed and Needs.LAG not in judged.candidate.effect.needs
+    ]  # fmt: skip
     named = {(f.effect, f.joint) for f in (*diagnosis.effects, *diagnosis.refinements)}
     lost = [step.judged for step in found.steps if step.pick.key not in named]
     lines: dict[Key, tuple[float, str]] = {}
@@ -123,6 +142,11 @@ def _outbursts(diagnosis: Diagnosis, name: str) -> str:
 
 def _headline(diagnosis: Diagnosis) -> str:
     first = diagnosis.effects[0] if diagnosis.effects else None
+    if diagnosis.machine_changed:
+        return (
+            f"cannot tell: {NOT_JUDGED}, so the diagnosis is not judged; take logs of the machine "
+            "in one state"
+        )
     if diagnosis.verdict == "missing" and first is not None:
         return f"missing: {_named(first, diagnosis)}{tied(first)}"
     if diagnosis.verdict == "closest description" and first is not None:

@@ -11,7 +11,7 @@ from scipy.linalg import expm
 from modeler.core.brief import Brief
 from modeler.effects import Memory
 from modeler.numerics.filters import recursion
-from modeler.observation import Segment, bristle, lag, nearest_closed, signals_of, since_reversal
+from modeler.observation import Segment, bristle, nearest_closed, signals_of, since_reversal
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -182,7 +182,7 @@ class Signals(Brief):
     ) -> np.ndarray:
         """(n,) inner state z on joint j, for shape parameters by name; what a lag follows, (n,)."""
         if memory.kind == "lag":
-            return lag(followed, self.step, shapes[memory.shape])
+            return filtered(followed, self.step, shapes[memory.shape])
         if memory.kind == "slip":
             return bristle(self.q[:, j], shapes[memory.shape])
         return resonance(self.load[:, j], self.step, shapes[memory.shape], shapes[memory.damping])
@@ -254,6 +254,17 @@ class Signals(Brief):
         return torque.swapaxes(0, 1)
 
 
+def filtered(x: np.ndarray, step: float, tau: float) -> np.ndarray:
+    """(n,) z of z' = (x - z)/tau, at rest under the first x; x is straight between its points.
+
+    With p = exp(-step/tau), r = (1 - p) tau/step: z_k = p z_(k-1) + (1 - r) x_k + (r - p) x_(k-1).
+    """
+    kept = np.exp(-step / tau)
+    ramp = (1.0 - kept) * tau / step
+    held = np.array([1.0 - ramp, ramp - kept, 0.0])
+    return np.asarray(x[0] + recursion(x - x[0], held, np.array([1.0, -kept, 0.0])))
+
+
 def resonance(load: np.ndarray, step: float, frequency: float, damping: float) -> np.ndarray:
     """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
     numerator, denominator = _oscillator(step, frequency, damping)
@@ -299,7 +310,7 @@ def tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
     axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
     """
     basis, q = signals.reference.tilts, signals.q[window]
-    if basis is None:
+    if not basis:  # a slide along gravity feels no other
         return np.zeros((*q.shape, 0))
     slopes = frame_slopes(signals.reference.compiled, q)
     return np.stack([gravity_torque(slopes, axis, chi) for axis, chi in basis], axis=-1)

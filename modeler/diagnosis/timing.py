@@ -11,7 +11,7 @@ from modeler.diagnosis.effect_columns import Rows, base_columns, dense, width
 from modeler.diagnosis.ranking import pieces
 from modeler.diagnosis.signals import Signals
 from modeler.diagnosis.state import State, picked_columns
-from modeler.effects import Acts
+from modeler.effects import Needs
 from modeler.observation import low_pass, nearest_closed
 
 DELAY_T_RATIO = 4.0
@@ -59,9 +59,10 @@ def _by_smooth_motion(
     found, error = instrumental(state, candidate)
     sure = bool(np.max(np.abs(found) / np.maximum(error, 1e-300)) > DELAY_T_RATIO)
     step = float(np.median([s.segment.logged_step for s in state.rows.signals]))
-    small = abs(float(found[0])) < CONVENTION * step
+    small = abs(float(found[0])) * candidate.shapes.get("tau", 1.0) < CONVENTION * step
+    timed = candidate.delays or Needs.LAG in candidate.effect.needs
     supported = sure and bool(np.sum(found * values) > 0.0)
-    return found, supported, small and candidate.effect.acts is Acts.TORQUE
+    return found, supported, small and timed
 
 
 def instrumental(state: State, candidate: Candidate) -> tuple[np.ndarray, np.ndarray]:

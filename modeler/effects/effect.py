@@ -44,9 +44,11 @@ class Needs(enum.Enum):
     GRAVITY = "gravity turns its joint"
     CURVE = "its torque bends over the stroke by more than is left unexplained"
     REST = "its rest position q0 lies in the motion, unless the model has an offset"
+    TILT = "gravity keeps its size: it only turns"
     MASS = "the body has no negative mass"
     INERTIA = "what rings has about the inertia that the model has on the joint"
     GAIN = "the gain of a drive is positive, and within ten times of the one given"
+    LAG = "its torque is the filtered one, not one that is only delayed"
     FRICTION = "it is a part of the friction of its joint, never larger than all of it"
 
 
@@ -296,9 +298,7 @@ class Effect(Brief):
     def written(self) -> bool:
         """True if a robot file may name it: its columns are functions of the joints' motion."""
         acts = self.acts in (Acts.JOINT, Acts.MOTOR, Acts.POSITION, Acts.PASSIVE)
-        names = frozenset().union(*(form.names for form in self.forms))
-        moved = self.acts is Acts.POSITION and not names.isdisjoint({"load", "z"})
-        return acts and not self.rings and not moved and "rate" not in names
+        return acts and not self.hindrance
 
     @property
     def coupled(self) -> bool:

@@ -468,6 +468,9 @@ _SHOWN = 0.02  # s; from what it does that of other delays is taken: it grows wi
 _NEAR = 5e-3  # s between the motions of which a slope is taken
 _STEPS = 4  # of Gauss and Newton
 _HINT = 0.2  # of the sum of logarithms; what a small part of a shift explains at least
+_DECAY = tuple(zip(*np.polynomial.laguerre.laggauss(5), strict=True))
+"""Of 1/(tau s + 1) = int exp(-u) exp(-u tau s) du: delays over tau, and their weights."""
+
 Columns = Callable[[float, np.ndarray | None], np.ndarray]
 """(m, n, c) columns with a channel taken some seconds later; with beta (c,) torques (m, n)."""
 
@@ -481,12 +484,14 @@ class _Channel:
         other: what would then be early.
         sign: of its lateness, by the shift of the motion.
         columns: with the motion that many seconds later.
+        lagged: of a torque behind a first-order filter, of that time constant (negative), s.
     """
 
     what: str
     other: str
     sign: float
     columns: Columns
+    lagged: Columns | None = None
 
 
 def _late(seen: Evidence) -> Iterator[Hypothesis]:
@@ -507,6 +512,14 @@ def _late(seen: Evidence) -> Iterator[Hypothesis]:
         )
         if abs(shift) > 0.5 * step:
             yield Hypothesis(Doubt(line), data, least=_enough_of(shift))
+        if channel.lagged is not None and shift < -0.5 * step:
+            tau, data = _best_shift(seen, channel.lagged)
+            line = (
+                f"{channel.what} through a first-order low-pass filter with a time constant of "
+                f"{-1e3 * tau:.0f} ms; log the unfiltered torque"
+            )
+            if tau < -0.5 * step:
+                yield Hypothesis(Doubt(line), data, least=_enough_of(tau))
 
 
 def _enough_of(shift: float) -> float:
@@ -580,9 +593,15 @@ def _channels(seen: Evidence) -> list[_Channel]:
             return found if beta is not None else kept.setdefault(shift, found)
         return kept[shift]
 
-    def torque_earlier(j: int, shift: float, beta: np.ndarray | None) -> np.ndarray:
+    def all_lagged(tau: float, beta: np.ndarray | None) -> np.ndarray:
+        every = [w * rows.shifted(compiled, np.full(n, tau * u), beta) for u, w in _DECAY]
+        return np.asarray(np.sum(every, axis=0))
+
+    def torque_alone(
+        all_moved: Columns, j: int, shift: float, beta: np.ndarray | None
+    ) -> np.ndarray:
         found = (rows.W if beta is None else rows.W @ beta).copy()
-        found[:, j] = all_later(shift, beta)[:, j]
+        found[:, j] = all_moved(shift, beta)[:, j]
         return found
 
     def one_later(j: int, shift: float, beta: np.ndarray | None) -> np.ndarray:
@@ -593,16 +612,17 @@ def _channels(seen: Evidence) -> list[_Channel]:
         found[:, j] = rows.shifted(compiled, shift * (np.eye(n)[j] - 1.0), beta)[:, j]
         return found
 
-    found = [_Channel("all torques come", "the positions", -1.0, all_later)]
+    found = [_Channel("all torques come", "the positions", -1.0, all_later, all_lagged)]
     if not seen.tree or len(seen.joints) == 1:
         return found  # positions that are not of one time do not close the loops
     for place, j in enumerate(seen.joints):
         name, rest = f"joint {seen.name(place)}:", "all the others"
         found += [
-            _Channel(f"{name} its torque comes", rest, -1.0, partial(torque_earlier, j)),
+            _Channel(f"{name} its torque comes", rest, -1.0, partial(torque_alone, all_later, j),
+                     partial(torque_alone, all_lagged, j)),
             _Channel(f"{name} its position comes", rest, 1.0, partial(one_later, j)),
             _Channel(f"{name} its position and torque come", rest, 1.0, partial(both_later, j)),
-        ]
+        ]  # fmt: skip
     return found
 
 

@@ -299,7 +299,7 @@ def write_page(path: Path, sheet: Page) -> Path:
 def after_fit(
     model: str, logs: Sequence[str], robot: str, fit: "FitResult", mapped: Sequence[str] = ()
 ) -> list[str]:
-    """Judge the model on other data, and look for what it lacks; first what the fit asks for.
+    """Compare the model with logs, and look for what it lacks; first what the fit asks for.
 
     Args:
         model: its file.
@@ -308,8 +308,7 @@ def after_fit(
         fit: judged.
         mapped: what `--map` was given; the model keeps it, the robot file does not.
     """
-    own = _listed([model])
-    judge = f"modeler compare {own} HELD_OUT_LOG --report compare.html"
+    judge = f"modeler compare {_listed([model, *logs])} --report compare.html"
     look = f"modeler diagnose {_listed([model, *logs])} --report diagnosis.html"
     verdict = fit.verdict
     if verdict is not None and not verdict.usable:
@@ -328,7 +327,7 @@ def _lacks(fit: "FitResult") -> bool:
 def after_compare(
     model: str, fitted: Sequence[str], logs: Sequence[str], held_out: bool, noise: bool = False
 ) -> str:
-    """Look for what is missing; if nothing is, look at other data, or go to the controller.
+    """Look for what is missing; if nothing is, go to the controller.
 
     Args:
         model: file of the model.
@@ -338,7 +337,7 @@ def after_compare(
         noise: True if nothing else is left on any joint.
     """
     if noise:
-        return f"modeler compare {_listed([model])} HELD_OUT_LOG" if not held_out else _taken(model)
+        return _taken(model)
     if not held_out:
         return f"modeler diagnose {_listed([model, *logs])}"
     return f"modeler diagnose {_listed([model, *fitted])} --holdout {_listed(logs)}"
@@ -356,7 +355,7 @@ def after_diagnosis(
     effects_from: str | None = None,
 ) -> list[str]:  # fmt: skip
     """Add the effects that have columns; without any, see what is left, or take the model."""
-    named = [f for f in diagnosis.effects if f.pick is not None]
+    named = diagnosis.addable
     if not named and diagnosis.verdict == "nothing significant":
         return [_taken(model)]
     if not named:
@@ -376,13 +375,13 @@ def after_diagnosis(
 def after_add(
     model: str, logs: Sequence[str], holdout: Sequence[str], fit: "FitResult"
 ) -> list[str]:
-    """Judge the new model on what was never fitted, and take it to the controller.
+    """Compare the new model with what was never fitted, if given; take it to the controller.
 
     First see what it lacks still, if it does.
     """
     own = _listed([model])
     look = f"modeler diagnose {own} {_listed(logs)}{_held(holdout)}"
-    judge = f"modeler compare {own} {_listed(holdout) if holdout else 'HELD_OUT_LOG'}"
+    judge = f"modeler compare {_listed([model, *(holdout or logs)])}"
     return [*([look] if _lacks(fit) else []), judge, _taken(model)]
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from modeler.api.improve import discovered_added
+from modeler.diagnosis import proposals
 from modeler.diagnosis.added_model import Logs
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.discover import JointSearch
@@ -111,11 +112,11 @@ def test_what_is_found_is_told_to_machines_and_on_the_page(found: Diagnosis) -> 
     told = found.to_json()
     check_schema("diagnose", {"schema": "urn:modeler:schema:diagnose:1", **told})
     json.dumps(told, allow_nan=False)
-    proposals = {own["joint"]: own["proposals"] for own in told["discoveries"]}["2"]
-    assert 1 <= len(proposals) <= 3
-    assert proposals[0]["text"].startswith("[own_effects.found_2a]")
-    if len(proposals) > 1:
-        assert "--between found_2a@2,found_2b@2" in proposals[0]["apart"]
+    offered = {own["joint"]: own["proposals"] for own in told["discoveries"]}["2"]
+    assert 1 <= len(offered) <= 3
+    assert offered[0]["text"].startswith("[own_effects.found_2a]")
+    if len(offered) > 1:
+        assert "--between found_2a@2,found_2b@2" in offered[0]["apart"]
     page = diagnosis_page(found)
     assert any(section.title.startswith("Xbaa2") for section in page.sections)
 
@@ -125,6 +126,18 @@ def test_a_place_of_another_joint_is_found(case: Case) -> None:
     assert best.formula.columns == ["v*exp(-((q3 - c)/b)**2)"]
     assert best.formula.shapes["c"] == pytest.approx(0.5, abs=0.1)
     assert best.formula.shapes["b"] == pytest.approx(0.7, rel=0.1)
+
+
+def test_the_least_held_out_error_stands_first(
+    found: Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(proposals, "_whole_cost", lambda search, item: -item.cost)  # the worst
+    every = discover(found.search, (), None)[1].proposals
+    assert len(every) > 1, "several are offered"
+    errors = [own.finding.error_after for own in every]
+    least = min(errors)
+    assert errors[0] < 1.1 * least, errors
+    assert errors[0] == least or every[0].symbols <= every[errors.index(least)].symbols
 
 
 def test_nothing_is_proposed_where_nothing_is_hidden(case: Case) -> None:

@@ -77,7 +77,7 @@ def test_the_terminal_ends_with_the_verdict_and_the_command_to_go_on_with(
     *_, verdict, following = last(capsys, "fit", "emps", "good.parquet", "--out", "m.json",
                                   "--report", "m.html")  # fmt: skip
     assert verdict.startswith("Valid for torque prediction: ")
-    assert following == "next: modeler compare m.json HELD_OUT_LOG --report compare.html"
+    assert following == "next: modeler compare m.json good.parquet --report compare.html"
     assert following.removeprefix("next: ") in (tmp_path / "m.html").read_text()
     *told, verdict, following = last(capsys, "fit", "emps", "poor.parquet", "--out", "p.json")
     assert verdict.startswith("Valid for torque prediction on similar motions only: ")

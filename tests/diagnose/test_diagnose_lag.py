@@ -1,0 +1,98 @@
+"""A torque behind a low-pass filter is told as that, and never as friction."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.result import Diagnosis
+from modeler.diagnosis.signals import filtered
+from modeler.diagnosis.timing import CONVENTION
+from modeler.observation import Log
+from tests.diagnose.conftest import Case, Torque, on_joint
+
+
+def late(log: Log, tau: np.ndarray, seconds: float) -> np.ndarray:
+    """The torque as it was so many s ago."""
+    return np.interp(log.time - seconds, log.time, tau)
+
+
+def low_passed(log: Log, tau: np.ndarray, seconds: float) -> np.ndarray:
+    """The torque behind 1/(T s + 1), by a bilinear filter."""
+    ratio = 2.0 * seconds * (len(log.time) - 1) / float(log.time[-1] - log.time[0])
+    a = [1.0, (1.0 - ratio) / (1.0 + ratio)]
+    b = np.full(2, 1.0 / (1.0 + ratio))
+    return np.asarray(lfilter(b, a, tau, zi=[tau[0] * (1.0 - b[0])])[0])
+
+
+def changed(how: object, joint: int | None, seconds: float) -> Torque:
+    """What is added to the torques of one joint, or of all, that are filtered or late."""
+
+    def torque(log: Log) -> np.ndarray:
+        moved = np.column_stack([how(log, tau, seconds) for tau in log.tau.T])  # type: ignore[operator]
+        return (
+            moved - log.tau if joint is None else on_joint(log, joint, (moved - log.tau)[:, joint])
+        )
+
+    return torque
+
+
+LAG2, LAG_ALL = changed(low_passed, 1, 0.02), changed(low_passed, None, 0.015)
+DELAY2, DELAY_ALL = changed(late, 1, 0.02), changed(late, None, 0.006)
+
+
+def stated_friction(found: Diagnosis) -> list[str]:
+    """Ids of friction that is more than perhaps missing."""
+    friction = {e.id for e in found.search.catalogue if e.family == "friction"}
+    every = (*found.effects, *found.refinements)
+    return [f.effect for f in every if f.effect in friction and f.status != "perhaps"]
+
+
+@pytest.mark.parametrize(("torque", "joint", "tau"), [(LAG2, "2", 0.02), (LAG_ALL, None, 0.015)])
+def test_a_filtered_torque_is_named_with_its_time(
+    case: Case, torque: Torque, joint: str | None, tau: float
+) -> None:
+    found = case.found(torque)
+    first = found.effects[0]
+    assert (first.effect, first.joint, first.status) == ("torque_lag", joint, "fact")
+    assert first.parameters["tau"] == pytest.approx(tau, rel=0.1)
+    assert first.parameters[f"lag{joint or ''}"] == pytest.approx(1.0, abs=0.1)
+    assert first.error_after < 0.3 * first.error_before
+    assert not stated_friction(found) and not found.addable
+
+
+def test_without_held_out_logs_too(case: Case) -> None:
+    model, train, _ = case.hidden(LAG2)
+    found = diagnose(model, case.compiled, [train])
+    assert (found.effects[0].effect, found.effects[0].status) == ("torque_lag", "fact")
+    assert not stated_friction(found)
+
+
+def test_ruled_out_it_is_no_friction_either(case: Case) -> None:
+    found = case.found(LAG2, ("torque_lag",))
+    assert all(f.status != "fact" for f in found.effects), found.sentences
+
+
+def test_a_pure_delay_is_no_filter(case: Case) -> None:
+    found = case.found(DELAY2)
+    assert all(f.status != "fact" for f in found.effects)
+    assert not stated_friction(found)
+    assert "a pure delay of 2" in found.sentences[0] and "describes it better" in found.sentences[0]
+    whole = case.found(DELAY_ALL)
+    assert (whole.effects[0].effect, whole.effects[0].joint) == ("time_delay", None)
+
+
+def test_less_than_half_a_sample_is_no_effect(case: Case) -> None:
+    step = float(np.median(np.diff(case.train.time)))
+    found = case.found(changed(low_passed, 0, 0.5 * CONVENTION * step))
+    assert not found.effects and found.verdict == "nothing significant"
+
+
+def test_the_filter_is_exact_for_straight_lines() -> None:
+    time = np.arange(200) * 0.01
+    for tau in (0.002, 0.03):
+        told = filtered(time, 0.01, tau)
+        assert told == pytest.approx(time - tau * (1.0 - np.exp(-time / tau)), abs=1e-12)
+    assert math.isclose(filtered(np.ones(5), 0.01, 0.02)[-1], 1.0)

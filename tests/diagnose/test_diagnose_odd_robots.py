@@ -1,0 +1,77 @@
+"""Small odd robots: one axis, slides, no gravity, a short log, a joint that rests."""
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pyarrow
+import pyarrow.parquet
+import pytest
+
+from tests.diagnose.conftest import Run
+
+ROWS = {
+    "turn": '["1", "0", 0, 0, 0, "q1", 0]',
+    "slide": '["1", "0", 1, 0, 0, 0, "q1"]',
+    "second slide": '["2", "1", 1, "pi/2", 0, 0, "q2"]',
+}
+LEVEL, UPRIGHT, NONE = '[0, "-g", 0]', '[0, 0, "-g"]', "[0, 0, 0]"
+ROBOTS = {
+    "slide_along_gravity": (UPRIGHT, ["slide"]),
+    "slide_across_gravity": (LEVEL, ["slide"]),
+    "pendulum_with_prior": (LEVEL, ["turn"]),
+    "turn_without_gravity": (NONE, ["turn"]),
+    "gantry": (UPRIGHT, ["slide", "second slide"]),
+    "turn_and_slide": (LEVEL, ["turn", "second slide"]),
+}
+PRIOR = "[parameters]\nM1 = 3.0\nMX1 = 0.4\nZZ1 = 0.3\n[parameters.uncertainty]\ninertial = 0.1\n"
+
+
+def write_robot(folder: Path, name: str) -> Path:
+    """Its file."""
+    gravity, rows = ROBOTS[name]
+    place = folder / "r.toml"
+    place.write_text(
+        f'name = "{name}"\ngravity = {gravity}\n[symbols]\ng = 9.81\n[mdh]\n'
+        'columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]\n'
+        f"rows = [{', '.join(ROWS[row] for row in rows)}]\n"
+        '[effects]\nviscous = "all"\ncoulomb = "all"\n' + PRIOR * name.endswith("prior")
+    )
+    return place
+
+
+def write_changed(place: Path, name: str, to: Path) -> None:
+    """A log that is short, of one segment; a log whose last joint rests."""
+    columns = {k: np.array(v) for k, v in pyarrow.parquet.read_table(place).to_pydict().items()}
+    if name == "short":
+        columns = {key: values[:150] for key, values in columns.items()}
+    else:
+        last = max(key for key in columns if key[0] == "q" and key[1:].isdigit())[1:]
+        for key in columns:
+            if key in (f"q{last}", f"qd{last}", f"qc{last}"):
+                columns[key] = np.full_like(columns[key], columns[key][0] * (key[1] != "d"))
+    pyarrow.parquet.write_table(pyarrow.table(columns), to)
+
+
+QUICK = ("slide_along_gravity", "pendulum_with_prior", "turn_without_gravity")
+
+
+@pytest.mark.parametrize(
+    "name", [n if n in QUICK else pytest.param(n, marks=pytest.mark.slow) for n in ROBOTS]
+)
+def test_a_diagnosis_ends_in_sentences(name: str, tmp_path: Path, run: Run) -> None:
+    robot, a, b = write_robot(tmp_path, name), tmp_path / "a.parquet", tmp_path / "b.parquet"
+    for seed, log, words in ((1, a, ("--hide", "stribeck")), (2, b, ())):
+        words = (*words, "--duration", 6, "--rate", 100, "--seed", seed, "--out", log)
+        assert run("simulate", robot, *words)[0] == 0
+    assert run("fit", robot, a, "--out", tmp_path / "m.json")[0] == 0
+    short, resting = tmp_path / "short.parquet", tmp_path / "resting.parquet"
+    write_changed(a, "short", short)
+    write_changed(b, "resting", resting)
+    asked = [(a, "--holdout", b), (a, "--holdout", resting), (short,)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        for words in asked:
+            status, out, err = run("diagnose", tmp_path / "m.json", *words)
+            assert (status, err) == (0, "") or (status == 1 and err.count("\n") == 1), err
+            assert status or "cross-validated" in out or "held out" in out

@@ -1,0 +1,89 @@
+"""What `diagnose` says to do next can be done: no effect that `add` refuses, no words that fail."""
+
+import dataclasses
+import shlex
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modeler.cli import main
+from modeler.core.errors import DataError
+from modeler.diagnosis.add import requested_effect
+from modeler.diagnosis.candidates import Candidate
+from modeler.diagnosis.plausible import objection
+from modeler.effects import CATALOGUE, Acts, Effect, effect_named
+from modeler.report import after_add, after_compare, after_diagnosis, after_fit
+from tests.diagnose.conftest import Case, Run, spring
+
+
+def named(case: Case, effect: Effect) -> list[str]:
+    """The commands after a diagnosis that names one effect, on joint 3 if it is of a joint."""
+    found = case.found(spring)
+    (first,) = found.effects
+    whole = effect.acts in (Acts.TORQUE, Acts.GRAVITY, Acts.WINDOW) or effect.last_link
+    assert first.pick is not None
+    pick = Candidate(effect, effect.forms[0], None if whole else "3", 2)
+    one = dataclasses.replace(
+        first, effect=effect.id, joint=pick.joint,
+        pick=dataclasses.replace(first.pick, candidate=pick),
+    )  # fmt: skip
+    return after_diagnosis("m.json", ["a"], ["b"], dataclasses.replace(found, effects=(one,)))
+
+
+OF_MOTORS = [effect for effect in CATALOGUE if effect.acts is not Acts.PASSIVE]
+
+
+@pytest.mark.parametrize("effect", OF_MOTORS, ids=lambda effect: effect.id)
+def test_what_is_suggested_can_be_added(case: Case, effect: Effect) -> None:
+    model = case.hidden(spring)[0]
+    commands = named(case, effect)
+    for _, command, _, *rest in map(shlex.split, commands):
+        if command == "add":
+            joint = rest[rest.index("--joint") + 1] if "--joint" in rest else None
+            assert requested_effect(model, rest[0], joint) is effect
+        else:  # `add` would refuse it
+            assert command == "compare"
+            with pytest.raises(DataError):
+                requested_effect(model, effect.id, "3" if effect.acts is Acts.JOINT else None)
+    assert commands
+
+
+def test_no_command_has_a_name_that_is_no_file(case: Case) -> None:
+    fit = case.hidden(spring)[0].fit
+    every = [
+        *after_fit("m", ["a"], "r", fit), *after_add("m", ["a"], [], fit),
+        *after_add("m", ["a"], ["b"], fit),
+        *(after_compare("m", ["a"], ["b"], held, noise) for held in (0, 1) for noise in (0, 1)),
+    ]  # fmt: skip
+    files = {"m", "a", "b", "r", "m_c", "compare.html", "diagnosis.html"}
+    for line in every:
+        words = shlex.split(line)[2:]
+        assert {word for word in words if not word.startswith("--")} <= files, line
+
+
+def test_what_is_printed_runs(
+    arm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    words = ("--duration", 10, "--rate", 200, "--seed", 4, "--out", "a.csv")
+    assert run("simulate", "demo-arm", "--hide", "viscous@2", *words)[0] == 0
+    _, out, _ = run("fit", "demo-arm", "a.csv", "--out", "m.json")
+    for _ in range(2):
+        following = [shlex.split(line)[2:] for line in out.splitlines() if line[:6] == "next: "]
+        assert following
+        out = ""
+        for own in following:
+            status, more, err = run(*own)
+            assert (status, err) == (0, ""), own
+            out += more
+
+
+def test_a_tilt_keeps_gravity(case: Case) -> None:
+    tilt, state = effect_named("base_tilt"), case.found(spring).search.end
+    assert tilt is not None
+    pick = Candidate(tilt, tilt.forms[0], None, -1)
+    assert not objection(state, pick, {"gx": 1.0, "gy": -0.9, "gz": 0.0})
+    said = objection(state, pick, {"gx": 7189.0, "gy": 1.0, "gz": 0.0})
+    assert said.startswith("gravity would change by 7.19e+03 m/s^2")
+    assert np.isfinite(tilt.columns[0].largest) and main(["effects", "base_tilt"]) == 0
