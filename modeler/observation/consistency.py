@@ -9,7 +9,7 @@ import numpy as np
 from modeler.core.errors import DataError
 from modeler.logs import clock_line, common_factor
 from modeler.numerics.least_squares import weighted_median
-from modeler.numerics.noise import resolution, robust_deviation, white_noise
+from modeler.numerics.noise import lattice_step, robust_deviation, white_noise
 from modeler.observation.log import Log
 from modeler.observation.segments import Piece
 
@@ -318,7 +318,7 @@ def consistency(
         found_late, delay = lateness(pieces, log.joints, column, lower, parallel_cutoff)
         late += found_late
         windows = [windows_of(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
-        steps = np.array([resolution(own) for own in getattr(log, lower).T])
+        steps = np.array([lattice_step(own) for own in getattr(log, lower).T])
         if refuse:
             noise = [[white_noise(own) for own in getattr(piece, lower).T] for piece in pieces]
             noises = np.maximum(steps, np.median(noise, axis=0))

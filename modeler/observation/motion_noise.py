@@ -15,7 +15,7 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
-from modeler.numerics.noise import resolution
+from modeler.numerics.noise import lattice_step
 from modeler.numerics.spectra import BandSpectrum, MotionSpectrum, band_spectrum, motion_spectrum
 from modeler.observation.segments import Piece
 
@@ -242,7 +242,7 @@ def motion_noise(
                 unit=joint.unit,
                 of=MEASURED[order],
                 moves=moves,
-                step=resolution(np.concatenate([piece.q[:, j] for piece in pieces])),
+                step=lattice_step(np.concatenate([piece.q[:, j] for piece in pieces])),
                 band_hz=band_hz,
                 frequency=tuple(map(_rounded, hz)),
                 spectrum=tuple(map(_rounded, seen)),

@@ -22,6 +22,7 @@ from modeler.observation.motion import HIGHEST, Segment, segment_of
 from modeler.observation.motion_noise import ChannelNoise, MotionNoise
 from modeler.observation.observation import Observation, observed, stacked
 from modeler.observation.prepare import Prepared, closed, prepare, two_digits
+from modeler.observation.repairs import with_repairs
 from modeler.observation.report import Bands, DataReport
 from modeler.observation.settings import Processing
 from modeler.observation.stretch import stretch
@@ -72,7 +73,7 @@ def observe(
         DataError: no logs, of another robot, or no usable row.
         LoopError: hardly a sample closes the loops.
     """
-    asked = processing or Processing()
+    asked = with_repairs(model, logs, processing or Processing())
     prepared = prepare(model.spec, logs, asked)
     return observed(model, logs, lowered(model, prepared, asked))
 

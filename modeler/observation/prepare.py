@@ -1,7 +1,7 @@
 """From logs to segments of filtered motion, with every automatic choice made and recorded."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -24,7 +24,7 @@ from modeler.observation.motion_noise import (
     motion_noise,
     ringing,
 )
-from modeler.observation.outliers import ChannelScales, Defects, defects
+from modeler.observation.outliers import ChannelScales, Defects, confirmed, defects, repairs_named
 from modeler.observation.report import Bands
 from modeler.observation.segments import Piece, SplitReport, split
 from modeler.observation.settings import ChosenProcessing, Processing
@@ -49,6 +49,7 @@ class PreparedLog(Brief):
         rings: sentences on joints that ring.
         defects: values that no robot can have made.
         usual: what is usual in its channels.
+        repairs: those of its defects that a fit tried, and their held-out errors.
     """
 
     pieces: tuple[Piece, ...]
@@ -58,6 +59,7 @@ class PreparedLog(Brief):
     rings: tuple[str, ...]
     defects: Defects
     usual: ChannelScales
+    repairs: Mapping[str, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,22 +136,33 @@ class LogRepair(Brief):
     spec: ModuleSpec
 
     @cached_property
-    def mended(self) -> list[tuple[Log, Defects, ChannelScales]]:
-        """What `defects` makes of each."""
-        return [defects(log, self.spec) for log in self.logs]
+    def _mended(self) -> "dict[tuple[int, frozenset[str]], tuple[Log, Defects, ChannelScales]]":
+        return {}
+
+    def mended(self, run: int, processing: Processing) -> tuple[Log, Defects, ChannelScales]:
+        """What `defects` makes of a log, with the repairs that a fit confirmed."""
+        log, spec = self.logs[run], self.spec
+        key = run, confirmed(processing.repairs_of(log.name))
+        if key not in self._mended:
+            some = repairs_named(log, spec, key[1])
+            self._mended[key] = defects(log, spec, repairs=some)
+        return self._mended[key]
 
     def cut(self, processing: Processing) -> "CutLogs":
         """The logs in pieces; what is known of them as long as nothing is filtered."""
         used = tuple(_speeds_used(log, processing) for log in self.logs)
-        if (processing.keep_damaged, used) not in self._cut:
-            logs = self.logs if processing.keep_damaged else [log for log, _, _ in self.mended]
+        key = processing.keep_damaged, used, confirmed(processing.repairs or {})
+        if key not in self._cut:
+            logs = self.logs
+            if not processing.keep_damaged:
+                logs = [self.mended(run, processing)[0] for run in range(len(logs))]
             every = enumerate(zip(logs, used, strict=True))
             cut = [split(log, run, own) for run, (log, own) in every]
-            self._cut[processing.keep_damaged, used] = CutLogs(self.spec, logs, cut)
-        return self._cut[processing.keep_damaged, used]
+            self._cut[key] = CutLogs(self.spec, logs, cut)
+        return self._cut[key]
 
     @cached_property
-    def _cut(self) -> "dict[tuple[bool, tuple[bool, ...]], CutLogs]":
+    def _cut(self) -> "dict[tuple[bool, tuple[bool, ...], frozenset[str]], CutLogs]":
         return {}
 
 
@@ -220,15 +233,15 @@ def prepare(
     rated = [piece for piece in pieces if piece.qd is not None]
     noisy = processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff)
     steps, prepared = [joint.step for joint in positions.joints], []
-    for run, (log, (own, cuts), (_, damage, usual)) in enumerate(
-        zip(logs, seen.cut, mending.mended, strict=True)
-    ):
+    for run, (log, (own, cuts)) in enumerate(zip(logs, seen.cut, strict=True)):
+        _, damage, usual = mending.mended(run, processing)
         found, check, source = _derived(log, own, chosen, noisy)
         # what is left of rows that repeat comes unevenly, as it was stamped
         own_spectra = [s for p, s in zip(pieces, seen.spectra, strict=True) if p.run == run]
         rings = [] if usual.repeats else what_rings(own_spectra, steps)
         said = tuple(ring.sentence(spec.joints[ring.joint].name) for ring in rings)
-        prepared.append(PreparedLog(found, cuts, source, check, said, damage, usual))
+        repairs = processing.repairs_of(log.name)
+        prepared.append(PreparedLog(found, cuts, source, check, said, damage, usual, repairs))
     pieces = [piece for log in prepared for piece in log.pieces]
     given = all(piece.qd is not None for piece in pieces)
     noise = motion_noise(spec.joints, pieces, seen.bands) if given else positions

@@ -104,7 +104,7 @@ class LogReport(Brief):
             "why the logger left them out"
             for column, count in self.missing.items()
         ]
-        found += [damage.line for damage in self.damages]
+        found += [damage.line for damage in self.damages if damage.is_mended]
         found += [
             f"the torque of joint {joint} is clipped in {count} of {self.rows} rows; they are not "
             "used, but drive slower or with less load"
@@ -123,6 +123,7 @@ class LogReport(Brief):
         found = [
             Mark(one.kind, one.column, start, start + lasts, one.line)
             for one in self.damages
+            if one.is_mended
             for start, lasts in zip(one.times, one.lasts, strict=True)
         ]
         loops = "the loops cannot be closed here; not used, but check positions and geometry"
@@ -265,10 +266,10 @@ class DataReport(Presented):
             lines.append(f"rows with a torque at its limit are {used}")
         if any(log.damages for log in self.logs):
             lines.append(
-                "values that no robot can have made are used as logged"
+                "all values are used as logged"
                 if self.processing.keep_damaged
-                else "values that no robot can have made are mended or left out, as told above; "
-                "--keep-damaged takes them as logged"
+                else "values are mended or left out only where a fit predicts left-out rows better "
+                "with it; --keep-damaged uses all as logged"
             )
         if any(log.contradicted for log in self.logs):
             used = "used" if self.processing.keep_contradicted else "not used"
