@@ -21,8 +21,8 @@ LONGER = 4.0
 LEAST = 20
 """... samples of it, at least."""
 
-OVERSHOOT = 5.0
-"""Steps of resolution and noise that a motion exceeds over a few rows, where it is no rest."""
+OVERSHOOT = 15.0
+"""Standard deviations of its noise that a motion exceeds over a few rows, where it is no rest."""
 
 _FEW = 3  # long runs of equal values that may be faults
 
@@ -89,8 +89,10 @@ def frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> list[tu
 
 
 def noise_of(values: np.ndarray) -> float:
-    """Resolution of a channel (n,) or its noise, the larger; 0 of a few values."""
-    return max(lattice_step(values), white_noise(values)) if len(values) >= LEAST else 0.0
+    """Standard deviation of a channel's noise (n,), or of its steps, the larger; 0 of a few."""
+    if len(values) < LEAST:
+        return 0.0
+    return max(lattice_step(values) / float(np.sqrt(12.0)), white_noise(values))
 
 
 def rows_held(values: np.ndarray) -> int:
@@ -103,9 +105,12 @@ def rows_held(values: np.ndarray) -> int:
     if len(there) < LEAST:
         return 1
     starts, length = lengths_of_runs(np.concatenate([[True], np.diff(there) != 0.0]))
+    if len(starts) < FEWEST:
+        return 1
     jumps = np.abs(np.diff(there[starts])) > COARSE * lattice_step(there)
-    runs = length[1:-1][jumps[:-1] & jumps[1:]] if len(jumps) > 1 else length[:0]
-    if len(runs) < FEWEST:
+    both = np.append(False, jumps[:-1] & jumps[1:])
+    runs = length[:-1][both]
+    if len(np.unique(there[starts[:-1][both]])) < FEWEST:
         return 1
     usual = float(np.median(runs))
     alike = np.mean(np.abs(runs - usual) <= max(1.0, 0.3 * usual)) > ALIKE

@@ -8,6 +8,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.logs import clock_line, common_factor
+from modeler.numerics.held import noise_of
 from modeler.numerics.least_squares import weighted_median
 from modeler.numerics.noise import lattice_step, robust_deviation, white_noise
 from modeler.observation.log import Log
@@ -430,7 +431,8 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
     """True if differentiating the position is quieter than the logged velocity on most joints.
 
     White noise of standard deviation s_q on the position, through the position filter of cut-off
-    f, is noise of (2 pi f) s_q / sqrt(3) on the velocity.
+    f, is noise of (2 pi f) s_q / sqrt(3) on the velocity. A lattice of step s is noise of
+    s / sqrt(12). Only joints that move count.
 
     Args:
         pieces: with logged velocities, of all logs.
@@ -441,9 +443,11 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
         if piece.qd is None or piece.qdd is not None or len(piece.time) < 8:
             return False
         own = 2.0 * np.pi * min(cutoff, 0.5 / piece.step) / np.sqrt(3.0)
-        moved.append([own * white_noise(column) for column in piece.q.T])
-        logged.append([white_noise(column) for column in piece.qd.T])
+        moved.append([own * noise_of(column) for column in piece.q.T])
+        logged.append([noise_of(column) for column in piece.qd.T])
     if not logged:
         return False
+    q = np.concatenate([piece.q for piece in pieces])
+    moves = np.ptp(q, axis=0) > STEPS * np.array([lattice_step(column) for column in q.T])
     noisier = np.median(logged, axis=0) > QUIETER * np.median(moved, axis=0)
-    return bool(np.mean(noisier) > 0.5)
+    return bool(moves.any() and np.mean(noisier[moves]) > 0.5)

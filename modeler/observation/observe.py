@@ -239,7 +239,8 @@ class Look(Brief):
         if not segments:
             return None
         chosen = self.prepared.with_cutoffs(position, parallel).processing
-        chosen = dataclasses.replace(chosen, speed_floors=floors_of(chosen, parts, segments))
+        floors = floors_of(chosen, parts, segments, self.prepared.noise)
+        chosen = dataclasses.replace(chosen, speed_floors=floors)
         some = tuple(stretch(segment, parts, chosen) for segment in segments)
         report = DataReport(chosen, (), (), ())
         return WeightedFit(self.model, stacked(self.model, (), some, report))

@@ -9,7 +9,7 @@ from modeler.core.errors import DataError, LoopError
 from modeler.observation.log import Log
 from modeler.observation.observation import Observation, observed
 from modeler.observation.outliers import ALWAYS, CONFIRMED, Defects, column_of
-from modeler.observation.prepare import LogRepair, Prepared, prepare
+from modeler.observation.prepare import LogRepair, Prepared, check_logs, prepare
 from modeler.observation.settings import Processing
 from modeler.runtime import CompiledModel
 
@@ -35,7 +35,8 @@ def with_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing) -
         logs: read with it.
         asked: processing of them.
     """
-    if asked.repairs is not None or asked.keep_damaged or not logs:
+    check_logs(model.spec, logs, asked)
+    if asked.repairs is not None or asked.keep_damaged:
         return asked
     mending = LogRepair(logs, model.spec)
     open_ = [

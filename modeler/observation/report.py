@@ -170,6 +170,11 @@ class JointReport(Brief):
             return f"joint {self.name}: {self._why_none()}"
         if self.speed_floor is None:
             return f"joint {self.name}: {self.used} rows"
+        if self.speed_floor == float("inf"):
+            return (
+                f"joint {self.name}: {self.used} rows; it never moves: its friction is not "
+                "identifiable"
+            )
         return (
             f"joint {self.name}: {self.used} rows; {percent(self.slow)} of the samples masked "
             f"below {self.speed_floor:.3g} {self.unit}, where the sign of the speed is "
@@ -181,8 +186,6 @@ class JointReport(Brief):
         slow = round(self.slow * (self.samples - sum(self.lost.values())))
         cause = max(self.lost, key=lambda name: self.lost[name], default="")
         if slow >= self.lost.get(cause, 0):
-            if self.speed_floor in (None, float("inf")):
-                return "never moves, so its friction cannot be told and none of its rows is used"
             return (
                 f"0 rows; {percent(self.slow)} of the samples masked below "
                 f"{self.speed_floor:.3g} {self.unit}: it hardly moves, or the time column is not "

@@ -12,7 +12,7 @@ from modeler.numerics.filters import spacing
 from modeler.observation.chunk import Chunk, margin
 from modeler.observation.consistency import consistency
 from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
-from modeler.observation.low_speed import FrictionShaft, shafts, top_speeds
+from modeler.observation.low_speed import REST_TRAVEL, FrictionShaft, shafts, top_speeds
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.observation import Observation, observed
 from modeler.observation.observe import lowered
@@ -345,7 +345,7 @@ def _awake(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:
     """Top speeds of the shafts that move, and were taken to stand still."""
     floors, moving = chosen.processing.speed_floors, [s for s in segments if s.whole.any()]
     still = [part for part in chosen.shafts if floors[part.name] == float("inf")]
-    tops = top_speeds(still, moving) if moving else []
+    tops = top_speeds(still, moving, least=REST_TRAVEL) if moving else []
     return {part.name: top for part, top in zip(still, tops, strict=False) if top > 0.0}
 
 
