@@ -12,6 +12,10 @@ OFTEN = 0.01
 TOGETHER = 0.5
 """Least share of the rows with repeated positions in which all else repeats too."""
 
+ANEW = 0.8
+"""Least share of the other rows in which some channel has a new value: else each is held by itself.
+"""
+
 RESTS = 10.0
 """Times the usual number of equal rows that a robot at rest exceeds, and a recorder does not."""
 
@@ -55,7 +59,11 @@ def repeated_rows(positions: np.ndarray, others: np.ndarray, always: bool = Fals
     _, length = lengths_of_runs(~same)
     usual = max(float(np.median(length)), 1.0)
     same &= ~np.repeat(length > RESTS * usual, length)
-    if always or (same.mean() > OFTEN and same.sum() > TOGETHER * still.sum()):
+    fresh = np.column_stack([positions, others])[~same]
+    anew = np.mean(fresh[1:] != fresh[:-1], axis=0) if len(fresh) > 1 else np.zeros(1)
+    if always or (
+        same.mean() > OFTEN and same.sum() > TOGETHER * still.sum() and anew.max() > ANEW
+    ):
         return np.asarray(same)
     return np.zeros(len(same), dtype=bool)
 
@@ -110,7 +118,8 @@ def rows_held(values: np.ndarray) -> int:
     jumps = np.abs(np.diff(there[starts])) > COARSE * lattice_step(there)
     both = np.append(False, jumps[:-1] & jumps[1:])
     runs = length[:-1][both]
-    if len(np.unique(there[starts[:-1][both]])) < FEWEST:
+    _, again = np.unique(there[starts[:-1][both]], return_counts=True)
+    if len(runs) < FEWEST or again.max() > SWITCHED * len(runs):
         return 1
     usual = float(np.median(runs))
     alike = np.mean(np.abs(runs - usual) <= max(1.0, 0.3 * usual)) > ALIKE
@@ -144,6 +153,9 @@ COARSE = 3.0
 
 FEWEST = 8
 """... and the runs of equal values between such changes that show a hold ..."""
+
+SWITCHED = 0.3
+"""Share of the runs that have one value, at most: more, and a drive switches between its limits."""
 
 ALIKE = 0.7
 """... of which this share is as long as the others."""

@@ -15,7 +15,6 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
-from modeler.numerics.noise import lattice_step
 from modeler.numerics.spectra import BandSpectrum, MotionSpectrum, band_spectrum, motion_spectrum
 from modeler.observation.segments import Piece
 
@@ -261,10 +260,12 @@ def motion_noise(
         [np.asarray(x) for x in measured], [piece.step for piece in pieces], order
     )
     rate = 1.0 / float(np.median([piece.step for piece in pieces]))
-    every = []
+    none, every = (0.0,) * len(joints), []
+    logged = [[piece.q_step or none, piece.qd_step or none] for piece in pieces]
+    steps = np.max(np.array(logged), axis=0)
     for j, (joint, band) in enumerate(zip(joints, bands, strict=True)):
         q, own = np.concatenate([piece.q[:, j] for piece in pieces]), spectra.density[:, j]
-        moves = bool(np.isfinite(band)) and float(np.ptp(q)) > STILL * lattice_step(q)
+        moves = bool(np.isfinite(band)) and float(np.ptp(q)) > STILL * steps[0, j]
         hz, seen = spectra.frequency[np.isfinite(own)], own[np.isfinite(own)]
         band_hz = float(band) if moves else 0.0
         every.append(
@@ -273,7 +274,7 @@ def motion_noise(
                 unit=joint.unit,
                 of=MEASURED[order],
                 moves=moves,
-                step=lattice_step(np.concatenate([np.asarray(x)[:, j] for x in measured])),
+                step=float(steps[min(1, 2 - order), j]) if order else 0.0,
                 band_hz=band_hz,
                 frequency=tuple(map(_rounded, hz)),
                 spectrum=tuple(map(_rounded, seen)),

@@ -1,5 +1,6 @@
 """Pieces of a log on a uniform time grid: filters never run across a gap."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -44,6 +45,7 @@ class Piece:
         resampled: True if the rows were moved to the grid.
         commanded: (n, joints) positions, or None.
         induced: (joints,) as of the log.
+        q_step, qd_step: (joints,) steps of resolution as logged; resampling hides them.
     """
 
     run: int
@@ -61,6 +63,8 @@ class Piece:
     resampled: bool
     commanded: np.ndarray | None = None
     induced: tuple[float, ...] = ()
+    q_step: tuple[float, ...] = ()
+    qd_step: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +122,12 @@ def split(
         jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
         short=log.time[np.concatenate([rows[:0], *(g for g in groups if len(g) < _LEAST)])],
     )
-    return tuple(_piece(log, run, group, clipped, logged_motion) for group in kept), report
+    steps_of = {
+        f"{name}_step": tuple(map(lattice_step, x.T))
+        for name, x in (("q", log.q), ("qd", log.qd)) if x is not None
+    }  # fmt: skip
+    pieces = (_piece(log, run, group, clipped, logged_motion) for group in kept)
+    return tuple(dataclasses.replace(piece, **steps_of) for piece in pieces), report
 
 
 def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool) -> Piece:
