@@ -33,5 +33,6 @@ from .rates import (
     clock_line as clock_line,
     common_factor as common_factor,
     is_derivative as is_derivative,
+    moves as moves,
     repeats_line as repeats_line,
 )

@@ -7,8 +7,8 @@ from typing import Literal
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.logs import clock_line, common_factor
-from modeler.numerics.held import noise_of
+from modeler.logs import clock_line, common_factor, is_derivative, moves
+from modeler.numerics.held import LEAST, noise_of
 from modeler.numerics.least_squares import weighted_median
 from modeler.numerics.noise import lattice_step, robust_deviation, white_noise
 from modeler.observation.log import Log
@@ -214,6 +214,9 @@ _CLEAR = 10.0  # times its noise is what the lower signal must change by over a 
 _DEGREES = 180.0 / np.pi
 _CAUSES = ((_DEGREES, "is it in degrees?"), (1.0 / _DEGREES, "is it the position in degrees?"))
 
+COARSE = 0.02
+"""Share of a joint's top speed, which masks for low speed take: larger steps reach beyond."""
+
 QUIETER = 2.0
 """Noise of the logged velocity over that of the differentiated position from which on that is
 taken: below, a measured velocity has no delay and no quantisation of its own to fear."""
@@ -395,14 +398,16 @@ def _refuse_wrong(
         )
     for j in map(int, np.flatnonzero(size * length > _CLEAR * noise)):
         misfits = [_misfit(logged[:, j], *other) for other in zip(quotients.T, size, strict=True)]
-        if misfits[j] <= WRONG:
+        both = getattr(log, lower)[:, j], getattr(log, column)[:, j], log.time
+        near = abs(gains[j] - 1.0) < SHARE and is_derivative(*both)  # it is coarse, and no more
+        if misfits[j] <= WRONG or near or not moves(both[0]):
             continue
         other = int(np.argmin(misfits))
         if other != j and misfits[other] < 0.5 * WRONG:
             guess = f"it is that of {lower}{log.joints[other]}: are columns exchanged?"
         elif j in scaled:
-            near = (words for factor, words in _CAUSES if abs(abs(gains[j] / factor) - 1.0) < 0.1)
-            cause = next(near, "is it in another unit, or on the motor's side of the gear?")
+            known = (words for factor, words in _CAUSES if abs(abs(gains[j] / factor) - 1.0) < 0.1)
+            cause = next(known, "is it in another unit, or on the motor's side of the gear?")
             cause = "is its sign swapped?" if abs(gains[j] + 1.0) < 0.1 else cause
             guess = f"it is {gains[j]:.3g} times that: {cause}"
         else:
@@ -432,7 +437,8 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
 
     White noise of standard deviation s_q on the position, through the position filter of cut-off
     f, is noise of (2 pi f) s_q / sqrt(3) on the velocity. A lattice of step s is noise of
-    s / sqrt(12). Only joints that move count.
+    s / sqrt(12). Only joints that move count. Speeds in steps above `COARSE` of the top speed are
+    not used: masks for low speed lie within a step.
 
     Args:
         pieces: with logged velocities, of all logs.
@@ -440,8 +446,10 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
     """
     moved, logged = [], []
     for piece in pieces:
-        if piece.qd is None or piece.qdd is not None or len(piece.time) < 8:
+        if piece.qd is None or piece.qdd is not None:
             return False
+        if len(piece.time) < LEAST:
+            continue
         own = 2.0 * np.pi * min(cutoff, 0.5 / piece.step) / np.sqrt(3.0)
         moved.append([own * noise_of(column) for column in piece.q.T])
         logged.append([noise_of(column) for column in piece.qd.T])
@@ -449,5 +457,8 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
         return False
     q = np.concatenate([piece.q for piece in pieces])
     moves = np.ptp(q, axis=0) > STEPS * np.array([lattice_step(column) for column in q.T])
+    top = np.quantile(np.abs(np.concatenate([p.qd for p in pieces if p.qd is not None])), 0.98, 0)
+    step = np.array(pieces[0].qd_step or np.zeros(len(top)))
     noisier = np.median(logged, axis=0) > QUIETER * np.median(moved, axis=0)
+    noisier |= step > COARSE * top
     return bool(moves.any() and np.mean(noisier[moves]) > 0.5)

@@ -204,12 +204,14 @@ class MotionNoise(Brief):
         """A line of each channel: its noise, from where on it hides the motion, its resolution."""
         told = []
         for joint in self.joints:
-            if not joint.moves:
-                told.append(f"joint {joint.joint} rests")
-            elif not joint.is_exact:
+            if joint.moves and not joint.is_exact:
                 size, unit = joint.milli(joint.step)
                 step = f", in steps of {size:.3g} {unit}" if joint.step else ""
                 told.append(f"noise of the {self.quantity}: {joint.words()}{step}")
+        rest = [joint.joint for joint in self.joints if not joint.moves]
+        if rest:
+            verb = "rest" if len(rest) > 1 else "rests"
+            told.append(f"joint{'s' * (len(rest) > 1)} {', '.join(rest)} {verb}")
         return told + self._exact()
 
     def _exact(self) -> list[str]:
