@@ -214,9 +214,6 @@ _CLEAR = 10.0  # times its noise is what the lower signal must change by over a 
 _DEGREES = 180.0 / np.pi
 _CAUSES = ((_DEGREES, "is it in degrees?"), (1.0 / _DEGREES, "is it the position in degrees?"))
 
-COARSE = 0.02
-"""Share of a joint's top speed, which masks for low speed take: larger steps reach beyond."""
-
 QUIETER = 2.0
 """Noise of the logged velocity over that of the differentiated position from which on that is
 taken: below, a measured velocity has no delay and no quantisation of its own to fear."""
@@ -437,8 +434,7 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
 
     White noise of standard deviation s_q on the position, through the position filter of cut-off
     f, is noise of (2 pi f) s_q / sqrt(3) on the velocity. A lattice of step s is noise of
-    s / sqrt(12). Only joints that move count. Speeds in steps above `COARSE` of the top speed are
-    not used: masks for low speed lie within a step.
+    s / sqrt(12). Only joints that move count.
 
     Args:
         pieces: with logged velocities, of all logs.
@@ -457,8 +453,5 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
         return False
     q = np.concatenate([piece.q for piece in pieces])
     moves = np.ptp(q, axis=0) > STEPS * np.array([lattice_step(column) for column in q.T])
-    top = np.quantile(np.abs(np.concatenate([p.qd for p in pieces if p.qd is not None])), 0.98, 0)
-    step = np.array(pieces[0].qd_step or np.zeros(len(top)))
     noisier = np.median(logged, axis=0) > QUIETER * np.median(moved, axis=0)
-    noisier |= step > COARSE * top
     return bool(moves.any() and np.mean(noisier[moves]) > 0.5)

@@ -17,7 +17,8 @@ from modeler.runtime import CompiledModel
 TOP = 0.98
 _CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
 _HALVED = 10  # times, from positions anywhere to 1e-3 of home
-REST_TRAVEL = {"rad": 1e-2, "m": 1e-3}  # a resting joint, steps of its encoder included, goes less
+REST_TRAVEL = {"rad": 5e-3, "m": 2e-4}  # a joint that rests in a log, its encoder's steps included
+TINY = 0.02  # of its travel in all logs, that it goes in such a log
 IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
 
 
@@ -177,14 +178,13 @@ def moving(
 ) -> np.ndarray:  # fmt: skip
     """(n, joints) False where a shaft that acts on the joint is slower than its floor.
 
-    With a margin, s, also so near to such a sample or to a reversal. One that never moves has
-    neither: gravity on it counts.
+    With a margin, s, also so near to such a sample or to a reversal. One that rests has neither.
     """
     fast = np.ones(segment.qd.shape, dtype=bool)
     reach = round(margin / segment.step)
     for part in parts:
-        if part in stands(segment, parts, floors):
-            continue
+        if segment.rests and {*np.flatnonzero(part.coefficients)} <= {*segment.rests}:
+            continue  # gravity on it counts
         speed = part.speed(segment.qd)
         slow = np.abs(speed) < floors[part.name]
         if reach:
@@ -194,28 +194,33 @@ def moving(
     return fast
 
 
-def stands(
-    segment: Segment, parts: Sequence[FrictionShaft], floors: Mapping[str, float]
-) -> list[FrictionShaft]:
-    """Shafts of one joint that never move, here neither: in other logs they may."""
-    return [
-        part for part in parts if floors[part.name] == float("inf")
-        and np.count_nonzero(part.coefficients) == 1
-        and np.ptp(part.speed(segment.q)) < REST_TRAVEL[part.unit]
-    ]  # fmt: skip
-
-
 def at_rest(
-    segment: Segment, parts: Sequence[FrictionShaft], floors: Mapping[str, float]
-) -> Segment:
-    """The segment without speeds of shafts that never move: noise has no sign."""
-    still = stands(segment, parts, floors)
-    joints = [int(np.flatnonzero(part.coefficients)[0]) for part in still]
-    if not joints:
-        return segment
-    qd, qdd = segment.qd.copy(), segment.qdd.copy()
-    qd[:, joints] = qdd[:, joints] = 0.0
-    return dataclasses.replace(segment, qd=qd, qdd=qdd)
+    segments: Sequence[Segment], parts: Sequence[FrictionShaft], still: Sequence[str] = ()
+) -> tuple[Segment, ...]:
+    """The segments without speeds of joints that rest all along a log: noise has no sign.
+
+    Args:
+        segments: of all logs.
+        parts: shafts; those of several joints are left as they are.
+        still: names of those that move in no log.
+    """
+    turned = {part.name: np.flatnonzero(part.coefficients) for part in parts}
+    found = []
+    for segment in segments:
+        own = [s.q for s in segments if s.run == segment.run]
+        travel = np.ptp(np.concatenate(own), axis=0)
+        whole = np.ptp(np.concatenate([s.q for s in segments]), axis=0)
+        joints = tuple(
+            int(j[0]) for part in parts
+            if len(j := turned[part.name]) == 1 and travel[j[0]] < REST_TRAVEL[part.unit]
+            and (part.name in still or travel[j[0]] < TINY * whole[j[0]])
+        )  # fmt: skip
+        if joints:
+            qd, qdd = segment.qd.copy(), segment.qdd.copy()
+            qd[:, joints] = qdd[:, joints] = 0.0
+            segment = dataclasses.replace(segment, qd=qd, qdd=qdd, rests=joints)
+        found.append(segment)
+    return tuple(found)
 
 
 # Inner states along measured positions, as `advance` of the C steps them.

@@ -16,6 +16,7 @@ from modeler.observation.chunk import whole_log
 from modeler.observation.log import Log
 from modeler.observation.low_speed import (
     PERIODS,
+    at_rest,
     floors_of,
     moving,
     shafts,
@@ -216,6 +217,8 @@ def observed(
     seen = prepared.processing, parts, segments
     floors = floors_of(*seen, prepared.noise)
     chosen = dataclasses.replace(prepared.processing, speed_floors=floors)
+    still = [name for name, floor in floors.items() if floor == float("inf")]
+    segments = at_rest(segments, parts, still)
     stretches = tuple(stretch(segment, parts, chosen) for segment in segments)
     tallies, reports = [], []
     for run, (log, times, of) in enumerate(zip(logs, open_times, prepared.logs, strict=True)):

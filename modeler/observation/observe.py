@@ -17,7 +17,7 @@ from modeler.core.json import entries
 from modeler.numerics.filters import BANDWIDTH, SPREAD
 from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.log import Log
-from modeler.observation.low_speed import floors_of, shafts
+from modeler.observation.low_speed import at_rest, floors_of, shafts
 from modeler.observation.motion import HIGHEST, Segment, segment_of
 from modeler.observation.motion_noise import ChannelNoise, MotionNoise
 from modeler.observation.observation import Observation, observed, stacked
@@ -241,7 +241,8 @@ class Look(Brief):
         chosen = self.prepared.with_cutoffs(position, parallel).processing
         floors = floors_of(chosen, parts, segments, self.prepared.noise)
         chosen = dataclasses.replace(chosen, speed_floors=floors)
-        some = tuple(stretch(segment, parts, chosen) for segment in segments)
+        still = [name for name, floor in floors.items() if floor == float("inf")]
+        some = tuple(stretch(s, parts, chosen) for s in at_rest(segments, parts, still))
         report = DataReport(chosen, (), (), ())
         return WeightedFit(self.model, stacked(self.model, (), some, report))
 

@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 
 from modeler.core.brief import Brief
 from modeler.numerics.filters import LEAST_WEIGHT, RowFilter, filter_at, spacing
-from modeler.observation.low_speed import FrictionShaft, at_rest, moving
+from modeler.observation.low_speed import FrictionShaft, moving
 from modeler.observation.motion import Segment
 from modeler.observation.settings import ChosenProcessing
 
@@ -116,7 +116,6 @@ def stretch(
         centres: (rows,) samples in the middle of the rows; None: as of a whole log.
     """
     cutoff = processing.parallel_cutoff
-    segment = at_rest(segment, shafts, processing.speed_floors)
     usable = segment.valid & moving(segment, shafts, processing.speed_floors)
     if centres is None:
         centres = row_centres(segment, spacing(segment.step, cutoff, processing.decimation))

@@ -12,7 +12,7 @@ from modeler.numerics.filters import spacing
 from modeler.observation.chunk import Chunk, margin
 from modeler.observation.consistency import consistency
 from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
-from modeler.observation.low_speed import REST_TRAVEL, FrictionShaft, shafts, top_speeds
+from modeler.observation.low_speed import REST_TRAVEL, FrictionShaft, at_rest, shafts, top_speeds
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.observation import Observation, observed
 from modeler.observation.observe import lowered
@@ -270,7 +270,8 @@ def rows_of_chunk(
             pieces = believed(pieces, check)
     filtered = [segment_of(piece, processing) for piece in pieces]
     both = [closed(model, segment) for segment in filtered if segment is not None]
-    segments = [segment for segment, _ in both]
+    still = [part for part in chosen.shafts if processing.speed_floors[part.name] == float("inf")]
+    segments = at_rest([segment for segment, _ in both], still, [part.name for part in still])
     stretches = tuple(
         stretch(s, chosen.shafts, processing, _centres(s, chunk, chosen)) for s in segments
     )
