@@ -174,7 +174,7 @@ class Clip:
     upper: bool
 
 
-LASTING = 0.6
+LASTING = 0.75
 """Of its speed over the rows before, that a clipped motion has over the last ones before it stops:
 a joint that turns back slows down."""
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.logs import clock_line, common_factor, is_derivative, moves
-from modeler.numerics.held import LEAST, noise_of
+from modeler.numerics.held import noise_of
 from modeler.numerics.least_squares import weighted_median
 from modeler.numerics.noise import lattice_step, robust_deviation, white_noise
 from modeler.observation.log import Log
@@ -442,10 +442,8 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
     """
     moved, logged = [], []
     for piece in pieces:
-        if piece.qd is None or piece.qdd is not None:
+        if piece.qd is None or piece.qdd is not None or len(piece.time) < 8:
             return False
-        if len(piece.time) < LEAST:
-            continue
         own = 2.0 * np.pi * min(cutoff, 0.5 / piece.step) / np.sqrt(3.0)
         moved.append([own * noise_of(column) for column in piece.q.T])
         logged.append([noise_of(column) for column in piece.qd.T])
