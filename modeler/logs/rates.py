@@ -55,8 +55,8 @@ def compared(
 
     The windows are as short as resolution and noise of both let a slope be seen.
     """
-    rises = np.diff(np.fmax.accumulate(np.nan_to_num(time, nan=-np.inf)), prepend=-np.inf) > 0.0
-    there = np.isfinite(time) & np.isfinite(position) & np.isfinite(speed) & rises
+    there = np.flatnonzero(np.isfinite(time) & np.isfinite(position) & np.isfinite(speed))
+    there = there[np.diff(np.maximum.accumulate(time[there]), prepend=-np.inf) > 0.0]
     t, q, v = time[there], position[there], speed[there]
     if len(t) < _LEAST:
         return np.zeros(0), np.zeros(0)

@@ -121,20 +121,23 @@ def test_a_joint_that_sticks_before_it_turns_back_is_not_clipped():
 
 
 def test_a_claim_that_the_fit_does_not_confirm_changes_nothing():
-    """The joint does leap, and its torque knows: joined, the log would be the worse."""
-    arm, (t, q, qd, qdd) = planar_arm(), motion(seed=4)
-    q[3000:, 1] -= 0.9 * np.sign(qd[3000, 1])
-    beta = np.random.default_rng(4).uniform(0.5, 2.0, len(arm.spec.base))
-    tau = arm.base_regressor(q, qd, qdd) @ beta
-    log = Log("run", ("1", "2"), t, q, tau)
-    seen = observe(arm, [log])
-    (line,) = (line for line in seen.report.lines() if "jumps by 0.9" in line)
-    assert "used as logged, held-out error x" in line
-    assert not any("jumps" in doubt for doubt in seen.report.doubts())
-    (score,) = seen.report.processing.repairs.values()
-    assert score > 0.95
-    again = observe(arm, [log], seen.report.processing)
+    """A spike of logged speeds that nobody reads; a leap of positions beside it is mended."""
+    log, beta = recorded(4)
+    qd = motion(seed=4)[2]
+    qd[1000, 0] += 9.0
+    log.q[4000:, 1] -= 0.9 * np.sign(qd[4000, 1])
+    log = dataclasses.replace(log, qd=qd)
+    seen = observe(planar_arm(), [log], Processing(derivatives="position"))
+    text = told(seen)
+    assert "qd1: jumps by 8.99 rad/s and back, at 2 s; used as logged, held-out error x 1.00" in text
+    assert not any("qd1" in doubt for doubt in seen.report.doubts())
+    assert any("q2: jumps by 0.9 rad" in doubt for doubt in seen.report.doubts())
+    scores = seen.report.processing.repairs
+    assert scores["run: q2 zero"] < 0.95 < scores["run: qd1 spike"]
+    again = observe(planar_arm(), [log], seen.report.processing)
     np.testing.assert_array_equal(again.q, seen.q)
+    other = dataclasses.replace(log, name="other")  # nothing is mended that no fit has tried
+    assert not np.array_equal(observe(planar_arm(), [other], seen.report.processing).q, seen.q)
 
 
 def test_speeds_in_coarse_steps_have_their_own_unit_and_mask():
