@@ -290,8 +290,8 @@ def _repeats(
             held.setdefault(rows_held(values[name][~again]), []).append(called(name))
     rate = clock.rate * (1.0 - float(again.mean()))
     return [repeats_line(count, rows, clock.rate)] * bool(count) + [
-        f"{', '.join(names)}: each value stays for {own} rows, sampled at {rate / own:.3g} Hz in a "
-        f"log of {rate:.4g} Hz"
+        f"{', '.join(names)}: holds each value for {own} rows: sampled at {rate / own:.3g} Hz, not "
+        f"{rate:.4g} Hz"
         for own, names in held.items() if own > 1
     ]  # fmt: skip
 

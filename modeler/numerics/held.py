@@ -61,9 +61,8 @@ def repeated_rows(positions: np.ndarray, others: np.ndarray, always: bool = Fals
     same &= ~np.repeat(length > RESTS * usual, length)
     fresh = np.column_stack([positions, others])[~same]
     anew = np.mean(fresh[1:] != fresh[:-1], axis=0) if len(fresh) > 1 else np.zeros(1)
-    if always or (
-        same.mean() > OFTEN and same.sum() > TOGETHER * still.sum() and anew.max() > ANEW
-    ):
+    often = same.mean() > OFTEN and same.sum() > TOGETHER * still.sum() and anew.max() > ANEW
+    if always or (often and all(rows_held(own) == 1 for own in fresh.T)):
         return np.asarray(same)
     return np.zeros(len(same), dtype=bool)
 

@@ -1,6 +1,6 @@
 """What happened to the rows of the logs, in numbers and in words."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from modeler.core.brief import Brief
@@ -90,7 +90,7 @@ class LogReport(Brief):
             text.append(f"  {column}: {count} rows without a value; bridged, not used for the fit")
         for joint, count in self.saturated.items():
             text.append(f"  joint {joint}: torque stuck at its limit in {count} rows")
-        text += [f"  {damage.line}" for damage in self.damages]
+        text += [f"  {line}" for line in joined_lines(self.damages)]
         if self.contradicted:
             text.append(f"  {self.contradicted} samples with impossible derivatives, all joints:")
         text += [f"  {found.line()}" for found in self.contradictions]
@@ -104,7 +104,7 @@ class LogReport(Brief):
             "why the logger left them out"
             for column, count in self.missing.items()
         ]
-        found += [damage.line for damage in self.damages if damage.is_mended]
+        found += joined_lines([damage for damage in self.damages if damage.is_mended])
         found += [
             f"the torque of joint {joint} is clipped in {count} of {self.rows} rows; they are not "
             "used, but drive slower or with less load"
@@ -139,6 +139,14 @@ class LogReport(Brief):
             f"{'first ' if count > 1 else ''}at {self.open_times[0]:.6g} s; not used, but check "
             "positions and geometry there"
         ]
+
+
+def joined_lines(damages: Sequence[Damage]) -> list[str]:
+    """Their lines; of channels of which the same is said, one."""
+    found: dict[str, list[str]] = {}
+    for one in damages:
+        found.setdefault(one.line.removeprefix(f"{one.column}: "), []).append(one.column)
+    return [f"{', '.join(columns)}: {rest}" for rest, columns in found.items()]
 
 
 @dataclass(frozen=True)
