@@ -132,16 +132,17 @@ def interpolated(time: np.ndarray, values: np.ndarray, rows: int, smooth: bool) 
         time: (n,) s.
         values: (n,), NaN where missing.
         rows: for which values are held; one that stays longer was sampled again.
-        smooth: by cubics that do not overshoot.
+        smooth: by a cubic spline, whose second derivative does not leap.
     """
     there = np.flatnonzero(np.isfinite(values))
     starts, length = lengths_of_runs(np.concatenate([[True], np.diff(values[there]) != 0.0]))
     age = np.arange(len(there)) - np.repeat(starts, length)
     fresh = there[(age % rows == 0) & (age < np.repeat(np.maximum(length - rows // 2, 1), length))]
     if smooth and len(fresh) > 1:
-        from scipy.interpolate import PchipInterpolator  # takes long to load
+        from scipy.interpolate import CubicSpline  # takes long to load
 
-        between = PchipInterpolator(time[fresh], values[fresh])(np.minimum(time, time[fresh[-1]]))
+        inside = np.clip(time, time[fresh[0]], time[fresh[-1]])
+        between = CubicSpline(time[fresh], values[fresh])(inside)
     else:
         between = np.interp(time, time[fresh], values[fresh])
     return np.where(np.isfinite(values), between, np.nan)

@@ -122,12 +122,10 @@ def split(
         jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
         short=log.time[np.concatenate([rows[:0], *(g for g in groups if len(g) < _LEAST)])],
     )
-    steps_of = {
-        f"{name}_step": tuple(map(lattice_step, x.T))
-        for name, x in (("q", log.q), ("qd", log.qd)) if x is not None
-    }  # fmt: skip
+    q_step = tuple(map(lattice_step, log.q.T))
+    qd_step = () if log.qd is None else tuple(map(lattice_step, log.qd.T))
     pieces = (_piece(log, run, group, clipped, logged_motion) for group in kept)
-    return tuple(dataclasses.replace(piece, **steps_of) for piece in pieces), report
+    return tuple(dataclasses.replace(own, q_step=q_step, qd_step=qd_step) for own in pieces), report
 
 
 def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool) -> Piece:

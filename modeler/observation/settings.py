@@ -81,9 +81,12 @@ class Processing(Brief):
             )
 
     def repairs_of(self, log: str) -> dict[str, float]:
-        """Those of a log, by column and kind of the defect."""
-        every, start = self.repairs or {}, f"{log}: "
-        return {key.removeprefix(start): x for key, x in every.items() if key.startswith(start)}
+        """Those of a log, by column and kind of the defect; a channel is held in all alike."""
+        return {
+            key.rpartition(": ")[2]: score
+            for key, score in (self.repairs or {}).items()
+            if key.startswith(f"{log}: ") or key.endswith(" held")
+        }
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for a model file."""

@@ -129,7 +129,9 @@ def test_a_claim_that_the_fit_does_not_confirm_changes_nothing():
     log = dataclasses.replace(log, qd=qd)
     seen = observe(planar_arm(), [log], Processing(derivatives="position"))
     text = told(seen)
-    assert "qd1: jumps by 8.99 rad/s and back, at 2 s; used as logged, held-out error x 1.00" in text
+    assert (
+        "qd1: jumps by 8.99 rad/s and back, at 2 s; used as logged, held-out error x 1.00" in text
+    )
     assert not any("qd1" in doubt for doubt in seen.report.doubts())
     assert any("q2: jumps by 0.9 rad" in doubt for doubt in seen.report.doubts())
     scores = seen.report.processing.repairs
