@@ -380,7 +380,10 @@ def defects(
         lost = [one.start for own in ours for one in own if one.kind == "lost"]
         segment = segment + (np.arange(fresh.rows)[:, None] >= np.array(lost, int)).sum(axis=1)
     new = segment if (segment != fresh.piece_number).any() else fresh.segment
-    mended = dataclasses.replace(fresh, segment=new, **values)
+    mended = dataclasses.replace(
+        fresh, segment=new, q=values["q"], tau=values["tau"], qd=values.get("qd"),
+        qdd=values.get("qdd"),
+    )  # fmt: skip
     found = {
         name: [[_at(one, kept, log) for one in own] for own in by_joint]
         for name, by_joint in found.items()

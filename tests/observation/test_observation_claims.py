@@ -122,7 +122,7 @@ def test_a_joint_that_sticks_before_it_turns_back_is_not_clipped():
 
 def test_a_claim_that_the_fit_does_not_confirm_changes_nothing():
     """A spike of logged speeds that nobody reads; a leap of positions beside it is mended."""
-    log, beta = recorded(4)
+    log, _ = recorded(4)
     qd = motion(seed=4)[2]
     qd[1000, 0] += 9.0
     log.q[4000:, 1] -= 0.9 * np.sign(qd[4000, 1])
