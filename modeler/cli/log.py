@@ -73,7 +73,8 @@ def run_log(args: argparse.Namespace) -> Json:
         if stands:  # it fits as it is: a range alone is no doubt
             doubts = [line for line in doubts if line not in seen.ranged]
             seen = dataclasses.replace(seen, suggested=seen.plain)
-        doubts += [line for line in heard.lines if not line.endswith(tuple(doubts))]
+        more = [line for line in heard.lines if not line.endswith(tuple(doubts))]
+        doubts = [own for own in doubts if not any(own in line for line in more)] + more
     said = [*noise.channel_lines(), *bands.chosen_by] if noise is not None else []
     say_lines(_lines(seen, doubts, said))
     places = []

@@ -96,18 +96,18 @@ def _rms(values: np.ndarray) -> float:
 
 
 def _slow(state: State, joints: Mapping[int, JointSpec]) -> list[str]:
-    """Joints that move, but so slowly that no inertia is felt."""
-    names = []
+    """Joints whose torque shows no inertia."""
+    found = []
     for j, joint in joints.items():
         moved = [s.load[:, j] - s.static[:, j] for s in state.rows.signals]
         if _rms(state.rows.filtered(j, moved)) < _SLOW * _rms(state.rows.y[j]):
-            names.append(joint.name)
-    if not names:
-        return []
-    return [
-        f"joint{'s' if len(names) > 1 else ''} {', '.join(names)}: slow motion only, inertia makes "
-        "less than 1 % of the torque: effects of speed and acceleration cannot be told; move faster"
-    ]
+            v = state.rows.filtered(j, [s.v[:, j] for s in state.rows.signals])
+            top = float(np.max(np.abs(v), initial=0.0))
+            found.append(
+                f"joint {joint.name} (up to {top:.2g} {joint.unit}/s): inertia makes less than 1 % "
+                "of its torque, so effects of acceleration are not identifiable; accelerate more"
+            )
+    return found
 
 
 def _computed(state: State) -> list[str]:

@@ -79,8 +79,16 @@ def undescribed(result: FitResult) -> list[Doubt]:
             about=(joint.name,),
         )
         for joint in result.joints
-        if joint.relative_error is not None and joint.relative_error > LITTLE
+        if joint.relative_error is not None
+        and joint.relative_error > LITTLE
+        and joint.name not in at_rest(result)
     ]
+
+
+def at_rest(result: FitResult) -> list[str]:
+    """Joints that never move: what dry friction holds there is no error of the model."""
+    floors = result.processing.speed_floors or {}
+    return [name for name, floor in floors.items() if floor == float("inf")]
 
 
 def noisy_motion(observation: Observation) -> list[Doubt]:
@@ -110,7 +118,9 @@ def systematic(result: FitResult, lasting: np.ndarray) -> list[Doubt]:
     large = {
         joint.name: float(share)
         for joint, share in zip(result.joints, lasting, strict=True)
-        if share > STRUCTURE and (joint.relative_error or 0.0) <= LITTLE  # else it is told already
+        if share > STRUCTURE
+        and (joint.relative_error or 0.0) <= LITTLE  # else it is told already
+        and joint.name not in at_rest(result)
     }
     if not large:
         return []
@@ -131,6 +141,7 @@ def scarce(result: FitResult, seen: CrossValidation) -> list[Doubt]:
         (joint.name, error)
         for joint, error in zip(result.joints, seen.errors, strict=True)
         if joint.relative_error is not None
+        and joint.name not in at_rest(result)
         and np.isfinite(error)
         and error > max(LITTLE, WIDE * joint.relative_error)
     ]

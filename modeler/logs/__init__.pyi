@@ -32,6 +32,8 @@ from .marks import Mark as Mark, marks_of as marks_of, most_of as most_of
 from .rates import (
     clock_line as clock_line,
     common_factor as common_factor,
+    is_derivative as is_derivative,
+    moves as moves,
     repeats_line as repeats_line,
 )
 from .stamps import coarse_clock as coarse_clock

@@ -1,7 +1,7 @@
 """What is in a log: clock, channels, doubts; numbers only, whoever shows them."""
 
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,13 +27,16 @@ from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LENGTH, LogMap, find_unit, unit_named
 from modeler.logs.rates import moves, on_grid, rate_doubts, repeats_line
 from modeler.logs.stamps import coarse_clock
-from modeler.numerics.held import repeated_rows
+from modeler.numerics.held import repeated_rows, rows_held
+from modeler.numerics.noise import lattice_step
 
-GAP = 1.5  # of the median step
+GAP = 1.5  # of a usual step
+_USUAL = 0.95  # quantile of the steps of an uneven clock
 HELD = 3  # rows in a row at the extreme value that make it a limit
 _STUCK = 0.005  # share of the rows
 _SLOW = 0.2  # share of rows in such runs, at any value, from which on a channel is only slow
 _JITTER = 0.05
+_MEASURED = ("q", "qd", "qdd", "tau", "current")
 _TOLD = (
     "long log: all {} rows are read for ranges, missing values, limits, gaps and pictures, {} of "
     "them, in windows, for rate, units, resolution and speeds"
@@ -48,7 +51,7 @@ class Clock:
         column: in the file.
         rate: Hz, by the median step; NaN where most steps are 0.
         jitter: standard deviation of the steps without gaps, as a share of the median.
-        gaps: steps of more than 1.5 medians; `lost` rows would fit into them.
+        gaps: steps of more than 1.5 usual ones; `lost` rows would fit into them.
         largest: gap, s; `at`: s, where it begins, NaN without any.
         repeated: steps of 0; `back`: steps to an earlier time.
         duration: s.
@@ -215,7 +218,7 @@ def inspect_log(
                 low=low,
                 high=high,
                 missing=missing,
-                resolution=_resolution(v[np.isfinite(v)]),
+                resolution=lattice_step(v),
                 limits=limits,
                 constant=low == high,
             )
@@ -231,12 +234,14 @@ def inspect_log(
     doubts += doubtful_degrees(found, values)
     rest = {speed for position, speed in pairs if not moves(values[position])}
     doubts += rate_doubts(pairs, values, time)
-    doubts += _repeats(found, values, rows, clock)
-    doubts += [
-        f"{channel.name} never changes: is it connected?"
-        for channel, name in zip(channels, shown, strict=True)
+    doubts += _repeats(found, values, rows, clock, table.called)
+    still = [
+        channel.name for channel, name in zip(channels, shown, strict=True)
         if channel.constant and not (name in rest and channel.low == 0.0)
-    ]
+    ]  # fmt: skip
+    if still:
+        verb = "never changes: is it" if len(still) == 1 else "never change: are they"
+        doubts.append(f"{', '.join(still)} {verb} connected?")
     bare = [one.without_range() if one.own in ("q", "qc") else one for one in found]
     suggested, plain = ("" if mapping.layers else log_text(f, joints, tuple(values), names)
                         for f in (found, bare))  # fmt: skip
@@ -269,9 +274,13 @@ def _positions(
 
 
 def _repeats(
-    found: Sequence[Guess], values: Mapping[str, np.ndarray], rows: int, clock: Clock | None
-) -> list[str]:
-    """Rows that a recorder wrote again; by the rows of the windows of a long log."""
+    found: Sequence[Guess], values: Mapping[str, np.ndarray], rows: int, clock: Clock | None,
+    called: Callable[[str], str],
+) -> list[str]:  # fmt: skip
+    """Rows that a recorder wrote again, and channels that are sampled more slowly than the log.
+
+    By the rows of the windows of a long log.
+    """
     q, others = (
         [values[name] for one in found if one.own in own for name in one.columns]
         for own in (("q",), ("tau", "current", "qd", "qdd"))
@@ -280,7 +289,16 @@ def _repeats(
         return []
     again = repeated_rows(np.column_stack(q), np.column_stack(others))
     count = round(float(again.mean()) * rows)
-    return [repeats_line(count, rows, clock.rate)] if count else []
+    held: dict[int, list[str]] = {}
+    for one in found:
+        for name in one.columns if one.own in _MEASURED else ():
+            held.setdefault(rows_held(values[name][~again]), []).append(called(name))
+    rate = clock.rate * (1.0 - float(again.mean()))
+    return [repeats_line(count, rows, clock.rate)] * bool(count) + [
+        f"{', '.join(names)}: holds each value for {own} rows: sampled at {rate / own:.3g} Hz, not "
+        f"{rate:.4g} Hz"
+        for own, names in held.items() if own > 1
+    ]  # fmt: skip
 
 
 def _within(
@@ -398,8 +416,9 @@ def _clock(
     if not len(steps):
         raise DataError(f"{table.path}: column {name} has no values; expected the time of each row")
     step = float(np.median(steps)) if seen is None else 1.0 / seen.rate
-    even = steps[(steps > 0.0) & (steps <= GAP * step)]
-    gaps = np.flatnonzero(steps > GAP * step) if step > 0.0 else np.array([], dtype=int)
+    longest = GAP * usual_step(steps, step)
+    even = steps[(steps > 0.0) & (steps <= longest)]
+    gaps = np.flatnonzero(steps > longest) if step > 0.0 else np.array([], dtype=int)
     widest = int(gaps[np.argmax(steps[gaps])]) if gaps.size else 0
     return time, Clock(
         column=table.called(name),
@@ -416,6 +435,12 @@ def _clock(
     )
 
 
+def usual_step(steps: np.ndarray, step: float) -> float:
+    """Longest step, s, of an uneven clock but for the rarest; `step` of an even one."""
+    known = steps[steps > 0.0]
+    return max(step, float(np.quantile(known, _USUAL))) if len(known) else step
+
+
 def _tick(steps: np.ndarray, step: float) -> float:
     """What steps of a clock differ by, if they are whole multiples apart; else 0."""
     off = np.abs(steps - step)
@@ -424,17 +449,6 @@ def _tick(steps: np.ndarray, step: float) -> float:
         return 0.0
     tick = float(off.min())
     return tick if on_grid(off, tick) else 0.0
-
-
-def _resolution(values: np.ndarray) -> float:
-    """The step of the grid that the values lie on; 0 if they lie on none."""
-    levels = np.unique(values)
-    if len(levels) < 3:
-        return 0.0
-    steps = np.diff(levels)
-    steps = steps[steps > 1e-9 * (levels[-1] - levels[0])]  # what rounding parts is one level
-    step = float(np.quantile(steps, 0.01, method="lower"))
-    return step if on_grid(steps, step) else 0.0
 
 
 def _extent(values: np.ndarray) -> _Extent:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.logs.guess import role_of
-from modeler.logs.inspect import GAP, HELD, LogInspection
+from modeler.logs.inspect import GAP, HELD, LogInspection, usual_step
 
 MOST = 100
 """Marks of one kind in one channel; of more, the longest."""
@@ -53,6 +53,8 @@ def _of_clock(seen: LogInspection) -> Iterator[Mark]:
     assert seen.clock is not None
     time, step = seen.steps
     usual, name = 1.0 / seen.clock.rate if seen.clock.rate > 0.0 else np.inf, seen.clock.column
+    if seen.time.size == seen.rows:
+        usual = usual_step(step, usual)
     for k in np.flatnonzero(step > GAP * usual):
         line = f"{name}: no rows for {step[k]:.4g} s"
         yield Mark("gap", name, float(time[k] - step[k]), float(time[k]), line)

@@ -7,16 +7,19 @@ from itertools import permutations
 import numpy as np
 
 from modeler.core.table import percent
+from modeler.numerics.held import noise_of
 
 RATES: Mapping[str, float] = {
     "rad/s": 1.0, "deg/s": np.pi / 180.0, "rpm": np.pi / 30.0, "rev/s": 2.0 * np.pi,
 }  # fmt: skip
 """Units of speeds of revolute joints, in rad/s."""
 
-_LIKE = 0.95  # correlation from which on a speed is the derivative of a position
+_LIKE = 0.9  # correlation from which on a speed is the derivative of a position
 _NEAR = 0.1  # relative; of a ratio that is a matter of units
-_MOVES = 100.0  # spans of resolution or noise from which on a joint moves
+_MOVES = 100.0  # times its noise from which on a joint moves
 _LEAST = 10  # rows
+_CLEAR = 0.1  # of the spread of the slopes: their noise in windows that are long enough
+_NEARBY = 3.0  # usual windows: a longer one lies across a gap
 
 
 @dataclass(frozen=True)
@@ -39,16 +42,40 @@ def pairs_of(
     """The ratio of every speed to the derivative of its position."""
     found = []
     for position, speed in names:
-        slope = slope_of(values[position], time)
-        like = moves(values[position]) and abs(_alike(slope, values[speed])) >= _LIKE
-        found.append(Pair(position, speed, _ratio(slope, values[speed]) if like else np.nan))
+        slope, mean = compared(values[position], values[speed], time)
+        like = moves(values[position]) and abs(_alike(slope, mean)) >= _LIKE
+        found.append(Pair(position, speed, _ratio(slope, mean) if like else np.nan))
     return found
 
 
-def slope_of(values: np.ndarray, time: np.ndarray) -> np.ndarray:
-    """(n,) derivative by differences of neighbours; NaN or infinite where time stands still."""
-    with np.errstate(all="ignore"):
-        return np.asarray(np.gradient(values, time))
+def compared(
+    position: np.ndarray, speed: np.ndarray, time: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Slopes of a position over windows, and means of a speed over the same; (m,) each.
+
+    The windows are as short as resolution and noise of both let a slope be seen.
+    """
+    there = np.flatnonzero(np.isfinite(time) & np.isfinite(position) & np.isfinite(speed))
+    there = there[np.diff(np.maximum.accumulate(time[there]), prepend=-np.inf) > 0.0]
+    t, q, v = time[there], position[there], speed[there]
+    if len(t) < _LEAST:
+        return np.zeros(0), np.zeros(0)
+    noise = [noise_of(x) for x in (q, v)]
+    area = np.append(0.0, np.cumsum(0.5 * np.diff(t) * (v[1:] + v[:-1])))
+    for rows in (2, 4, 8, 16, 32, 64):
+        long = t[rows:] - t[:-rows]
+        slope, mean = ((x[rows:] - x[:-rows]) / long for x in (q, area))
+        doubtful = noise[0] * np.sqrt(2.0) / np.median(long) + noise[1] / np.sqrt(rows)
+        if doubtful < _CLEAR * np.std(slope) or 4 * rows > len(t):
+            break
+    near = long < _NEARBY * np.median(long)  # not across gaps
+    return slope[near], mean[near]
+
+
+def is_derivative(position: np.ndarray, speed: np.ndarray, time: np.ndarray) -> bool:
+    """False if a joint moves, and its speed does not follow."""
+    alike = abs(_alike(*compared(position, speed, time)))
+    return not moves(position) or not alike < _LIKE
 
 
 def moves(values: np.ndarray) -> bool:
@@ -59,12 +86,7 @@ def moves(values: np.ndarray) -> bool:
     known = values[np.isfinite(values)]
     if len(known) < _LEAST:
         return False
-    steps = np.abs(np.diff(known))
-    noise = float(np.median(np.abs(np.diff(known, 3)))) / (0.6745 * np.sqrt(20.0))
-    span = float(np.ptp(known))
-    least = float(np.min(steps, where=steps > 1e-9 * span, initial=np.inf))
-    grid = least if np.isfinite(least) and on_grid(steps, least) else 0.0
-    return span > _MOVES * max(noise, grid)
+    return float(np.ptp(known)) > _MOVES * noise_of(known)
 
 
 def on_grid(steps: np.ndarray, step: float) -> bool:
@@ -93,15 +115,13 @@ def rate_doubts(
 ) -> list[str]:
     """Speeds that are not the derivative of their position, of the joints that move."""
     names = [(q, qd) for q, qd in names if moves(values[q])]
-    slopes = {q: slope_of(values[q], time) for q, _ in names}
     lines, found = list[str](), pairs_of(names, values, time)
     factor = common_factor([pair.ratio for pair in found])
     steps = np.diff(time[np.isfinite(time)])
     if factor is not None and len(found) > 1 and steps.size:
         return [clock_line(factor, 1.0 / float(np.median(steps)))]
     for pair in found:
-        speed = values[pair.speed]
-        line = _ratio_doubt(pair) if np.isfinite(pair.ratio) else _unlike(pair, slopes, speed)
+        line = _ratio_doubt(pair) if np.isfinite(pair.ratio) else _unlike(pair, names, values, time)
         lines += [line] if line else []
     return lines
 
@@ -154,11 +174,15 @@ def repeats_line(repeated: int, rows: int, rate: float) -> str:
     )
 
 
-def _unlike(pair: Pair, slopes: Mapping[str, np.ndarray], speed: np.ndarray) -> str:
-    own = _alike(slopes[pair.position], speed)
+def _unlike(
+    pair: Pair, names: Sequence[tuple[str, str]], values: Mapping[str, np.ndarray], time: np.ndarray
+) -> str:
+    speed = values[pair.speed]
+    like = {q: _alike(*compared(values[q], speed, time)) for q, _ in names}
+    own = like.pop(pair.position)
     if not np.isfinite(own):
         return ""
-    others = {q: abs(_alike(slope, speed)) for q, slope in slopes.items() if q != pair.position}
+    others = {q: abs(other) for q, other in like.items()}
     other = max(others, key=lambda q: np.nan_to_num(others[q]), default="")
     if other and others[other] > _LIKE:
         return (

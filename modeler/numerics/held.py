@@ -4,13 +4,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.numerics.noise import white_noise
+from modeler.numerics.noise import lattice_step, white_noise
 
 OFTEN = 0.01
 """Share of the rows that repeat the one before from which on a recorder is faster than a robot."""
 
 TOGETHER = 0.5
 """Least share of the rows with repeated positions in which all else repeats too."""
+
+ANEW = 0.8
+"""Least share of the other rows in which some channel has a new value: else each is held by itself.
+"""
 
 RESTS = 10.0
 """Times the usual number of equal rows that a robot at rest exceeds, and a recorder does not."""
@@ -21,16 +25,10 @@ LONGER = 4.0
 LEAST = 20
 """... samples of it, at least."""
 
-OVERSHOOT = 5.0
-"""Steps of resolution and noise that a motion would have gone beyond the value that it stops at."""
-
-STUCK = 0.005
-"""Share of the values at an end of the range, at least: friction stops a joint there now and then.
-"""
+OVERSHOOT = 15.0
+"""Standard deviations of its noise that a motion exceeds over a few rows, where it is no rest."""
 
 _FEW = 3  # long runs of equal values that may be faults
-_PARABOLA = 1.5  # times the noise, what a motion may be off a parabola
-_BEFORE = (6, 12, 24, 48)  # samples before a stop that show how the motion would go on
 
 
 def equal_rows(values: np.ndarray) -> np.ndarray:
@@ -61,7 +59,10 @@ def repeated_rows(positions: np.ndarray, others: np.ndarray, always: bool = Fals
     _, length = lengths_of_runs(~same)
     usual = max(float(np.median(length)), 1.0)
     same &= ~np.repeat(length > RESTS * usual, length)
-    if always or (same.mean() > OFTEN and same.sum() > TOGETHER * still.sum()):
+    fresh = np.column_stack([positions, others])[~same]
+    anew = np.mean(fresh[1:] != fresh[:-1], axis=0) if len(fresh) > 1 else np.zeros(1)
+    often = same.mean() > OFTEN and same.sum() > TOGETHER * still.sum() and anew.max() > ANEW
+    if always or (often and all(rows_held(own) == 1 for own in fresh.T)):
         return np.asarray(same)
     return np.zeros(len(same), dtype=bool)
 
@@ -75,7 +76,7 @@ def longest_usual(values: np.ndarray) -> int:
 def frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> list[tuple[int, int]]:
     """[start, stop) where a channel repeats a value far longer than it does else, in motion.
 
-    Not at its largest and smallest value, where it may be at a limit.
+    Not at its largest and smallest value, where it may be at a limit, and not at 0: switched off.
 
     Args:
         values: (n,) of the channel, without gaps.
@@ -89,18 +90,75 @@ def frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> list[tu
         (int(start) + 1, int(start + count))
         for start, count in zip(starts[long], length[long], strict=True)
         if values.min() < values[start] < values.max()
+        and values[start] != 0.0
         and abs(float(position[start + count - 1] - position[start])) > least
     ]
 
 
 def noise_of(values: np.ndarray) -> float:
-    """Resolution of a channel (n,) or its noise, the larger; 0 of a few values."""
+    """Standard deviation of a channel's noise (n,), or of its steps, the larger; 0 of a few."""
     if len(values) < LEAST:
         return 0.0
-    steps = np.abs(np.diff(values))
-    moved = steps[steps > 1e-9 * max(float(np.ptp(values)), 1e-300)]
-    grid = float(moved.min()) if moved.size and np.mean(steps == 0.0) > OFTEN else 0.0
-    return max(grid, white_noise(values))
+    return max(lattice_step(values) / float(np.sqrt(12.0)), white_noise(values))
+
+
+def rows_held(values: np.ndarray) -> int:
+    """Rows for which a channel (n,) repeats each value, as it is sampled more slowly; 1: none.
+
+    Only runs between two changes of more than `COARSE` lattice steps count: a slow motion stays on
+    a count of its encoder too.
+    """
+    there = values[np.isfinite(values)]
+    if len(there) < LEAST:
+        return 1
+    starts, length = lengths_of_runs(np.concatenate([[True], np.diff(there) != 0.0]))
+    if len(starts) < FEWEST:
+        return 1
+    jumps = np.abs(np.diff(there[starts])) > COARSE * lattice_step(there)
+    both = np.append(False, jumps[:-1] & jumps[1:])
+    runs = length[:-1][both]
+    _, again = np.unique(there[starts[:-1][both]], return_counts=True)
+    if len(runs) < FEWEST or again.max() > SWITCHED * len(runs):
+        return 1
+    usual = float(np.median(runs))
+    alike = np.mean(np.abs(runs - usual) <= max(1.0, 0.3 * usual)) > ALIKE
+    return round(usual) if alike and usual >= 2.0 else 1
+
+
+def interpolated(time: np.ndarray, values: np.ndarray, rows: int, smooth: bool) -> np.ndarray:
+    """(n,) a held channel, straight or smoothly from each new value to the next.
+
+    Args:
+        time: (n,) s.
+        values: (n,), NaN where missing.
+        rows: for which values are held; one that stays longer was sampled again.
+        smooth: by a cubic spline, whose second derivative does not leap.
+    """
+    there = np.flatnonzero(np.isfinite(values))
+    starts, length = lengths_of_runs(np.concatenate([[True], np.diff(values[there]) != 0.0]))
+    age = np.arange(len(there)) - np.repeat(starts, length)
+    fresh = there[(age % rows == 0) & (age < np.repeat(np.maximum(length - rows // 2, 1), length))]
+    if smooth and len(fresh) > 1:
+        from scipy.interpolate import CubicSpline  # takes long to load
+
+        inside = np.clip(time, time[fresh[0]], time[fresh[-1]])
+        between = CubicSpline(time[fresh], values[fresh])(inside)
+    else:
+        between = np.interp(time, time[fresh], values[fresh])
+    return np.where(np.isfinite(values), between, np.nan)
+
+
+COARSE = 3.0
+"""Lattice steps that a change of a held channel exceeds ..."""
+
+FEWEST = 8
+"""... and the runs of equal values between such changes that show a hold ..."""
+
+SWITCHED = 0.3
+"""Share of the runs that have one value, at most: more, and a drive switches between its limits."""
+
+ALIKE = 0.7
+"""... of which this share is as long as the others."""
 
 
 @dataclass(frozen=True)
@@ -116,12 +174,19 @@ class Clip:
     upper: bool
 
 
+LASTING = 0.75
+"""Of its speed over the rows before, that a clipped motion has over the last ones before it stops:
+a joint that turns back slows down."""
+
+EVEN = 20
+"""Rows of one stay that shows a clip by itself; else there are two stays."""
+
+
 def clips_of(values: np.ndarray) -> tuple[Clip, ...]:
     """The ends of the range at which a position (n,) is cut off.
 
-    A joint that turns back or stops slows down before; one that is cut off reaches the end in full
-    motion, stays there to the bit and leaves it as fast. So the motion of the samples before each
-    stay at the end, and after it, is carried on, as a parabola, and must lead beyond it.
+    A motion that is cut off reaches the end without slowing down, stays there to the bit, and
+    leaves it as fast.
     """
     there = values[np.isfinite(values)]
     found = []
@@ -131,31 +196,30 @@ def clips_of(values: np.ndarray) -> tuple[Clip, ...]:
             continue
         top = float(x.max())
         starts, length = lengths_of_runs(np.concatenate([[True], np.diff(x == top) != 0]))
-        stays = [(s, n) for s, n in zip(starts, length, strict=True) if x[s] == top and n >= 5]
-        noise = noise_of(x) if stays else 0.0
-        cut = 0
-        for start, count in stays:
-            sides = (x[max(0, start - _BEFORE[-1]) : start],
-                     x[start + count : start + count + _BEFORE[-1]][::-1])  # fmt: skip
-            beyond = sum(_overshoot(side, count, top, noise) for side in sides)
-            cut += int(count) if beyond > 2.0 * OVERSHOOT * noise else 0
-        if cut > max(0.5 * np.sum(x == top), STUCK * len(x)):
+        least = OVERSHOOT * noise_of(x)
+        stays = [
+            int(count)
+            for start, count in zip(starts, length, strict=True)
+            if x[start] == top
+            and count >= 5
+            and _unbraked(x[:start], least)
+            and _unbraked(x[start + count :][::-1], least)
+        ]
+        enough = len(stays) > 1 or max(stays, default=0) >= EVEN
+        if enough and sum(stays) > 0.5 * np.sum(x == top):
             found.append(Clip(sign * top, sign > 0.0))
     return tuple(found)
 
 
-def _overshoot(before: np.ndarray, stay: int, top: float, noise: float) -> float:
-    """How far a motion that is a parabola just before leads beyond `top` in a stay there."""
-    counts = (c for c in _BEFORE if c <= min(len(before), max(int(stay), _BEFORE[0])))
-    carried = (_carried(before[-c:], min(0.5 * stay / c, 0.5), noise) - top for c in counts)
-    return max(carried, default=0.0)
+def _unbraked(before: np.ndarray, least: float) -> bool:
+    """True if a motion (m,) goes on to its last value as fast as it was before, and not slowly.
 
-
-def _carried(before: np.ndarray, later: float, noise: float) -> float:
-    """Where a motion (m,) leads that much later, by m samples; nowhere if it is no parabola."""
-    time = np.arange(1 - len(before), 1) / len(before)
-    shape = np.polyfit(time, before, 2)
-    off = float(np.std(before - np.polyval(shape, time)))
-    if off > _PARABOLA * noise or shape[1] <= 0.0:
-        return float(before[-1])
-    return float(shape[2] + shape[1] * later + min(shape[0], 0.0) * later**2)
+    Over three rows, or so many that it goes farther than its noise.
+    """
+    for rows in (3, 6, 12):
+        if len(before) <= 2 * rows:
+            return False
+        earlier, last = np.diff(before[[-1 - 2 * rows, -1 - rows, -1]])
+        if max(earlier, last) > least:
+            return bool(last >= LASTING * earlier)
+    return False

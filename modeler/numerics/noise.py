@@ -216,12 +216,47 @@ def outbursts(r: np.ndarray, block: np.ndarray) -> float:
 # The smallest step of a channel.
 
 
-_ROUNDING = 1e-9  # of the largest value: smaller differences are those of the arithmetic
+_SINGLE = 2.4e-7  # of the largest value: two steps of single precision
+_DECIMAL = 1e-9  # of the largest value: rounding of the text or the arithmetic
+_OFF = 0.04  # of a step, by which most differences of values on a lattice miss whole multiples
+_FEWEST = 8  # differences that show a lattice
+_ANEW = 0.9  # of the values are new levels, or of the differences one step: below, it is a lattice
+_SMALL = 10.0  # steps: larger differences add their rounding, and say less
 
 
-def resolution(values: np.ndarray) -> float:
-    """Smallest step between two values (n,); 0 if there are no two."""
-    levels = np.unique(values[np.isfinite(values)])
-    gaps = np.diff(levels)
-    gaps = gaps[gaps > _ROUNDING * np.max(np.abs(levels), initial=0.0)]
-    return float(gaps.min()) if gaps.size else 0.0
+def lattice_step(values: np.ndarray) -> float:
+    """Step of the lattice that the values (n,) lie on; 0 if they lie on none.
+
+    Least squares over small differences of neighbours, or of levels where neighbours are too far
+    apart. Differences at the level of single precision are arithmetic.
+    """
+    there = values[np.isfinite(values)]
+    largest = float(np.max(np.abs(there), initial=0.0))
+    levels = np.unique(there)
+    new = len(levels) / max(1, len(there))
+    for rounding in (_DECIMAL * largest, _SINGLE * largest):
+        for gaps, share in ((np.abs(np.diff(there)), new), (np.diff(levels), 1.0)):
+            step = _step_of(gaps[gaps > rounding], share)
+            if step > 4.0 * _SINGLE * largest:
+                return step
+    return 0.0
+
+
+def _step_of(gaps: np.ndarray, levels: float) -> float:
+    """Least-squares step of differences (m,) above rounding; 0 if they have none.
+
+    Args:
+        gaps: differences.
+        levels: share of the values that are new; few differences do where it is small.
+    """
+    if not len(gaps):
+        return 0.0
+    step = float(np.quantile(gaps, 0.01, method="lower"))
+    gaps = gaps[gaps < _SMALL * step]
+    whole = np.round(gaps / step)
+    step = float(whole @ gaps / (whole @ whole))
+    off = float(np.quantile(np.abs(gaps - step * np.round(gaps / step)), 0.9))
+    # differences of one size may be a constant speed, where no value comes again
+    seen = levels < _ANEW or np.mean(whole == 1.0) < _ANEW
+    sure = len(gaps) >= _FEWEST or levels < 0.1
+    return step if seen and sure and off < _OFF * step else 0.0

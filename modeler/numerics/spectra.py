@@ -135,6 +135,25 @@ def welch(values: np.ndarray, length: int, size: int, period: float) -> np.ndarr
     return np.asarray(power)
 
 
+def coherence(x: np.ndarray, y: np.ndarray, frequency: float) -> float:
+    """Share of y's power (n,) that follows x (n,), around a frequency in periods a sample."""
+    length = max(16, min(256, len(x) // 8))
+    if len(x) < 2 * length:
+        return 0.0
+    hann = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(length) / length)
+    a, b = (
+        np.fft.rfft(
+            hann * np.lib.stride_tricks.sliding_window_view(np.diff(own, 2), length)[:: length // 2]
+        )
+        for own in (x, y)
+    )
+    place = round(frequency * length)
+    near = slice(max(1, place - 1), place + 2)
+    both = np.abs(np.mean(a * np.conj(b), axis=0)[near]) ** 2
+    each = (np.mean(np.abs(own) ** 2, axis=0)[near] for own in (a, b))
+    return float(np.max(both / np.maximum(np.multiply(*each), 1e-300)))
+
+
 # The order spectrum: waves of a residual per turn of a joint.
 
 

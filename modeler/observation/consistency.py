@@ -7,9 +7,10 @@ from typing import Literal
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.logs import clock_line, common_factor
+from modeler.logs import clock_line, common_factor, is_derivative, moves
+from modeler.numerics.held import noise_of
 from modeler.numerics.least_squares import weighted_median
-from modeler.numerics.noise import resolution, robust_deviation, white_noise
+from modeler.numerics.noise import lattice_step, robust_deviation, white_noise
 from modeler.observation.log import Log
 from modeler.observation.segments import Piece
 
@@ -318,7 +319,7 @@ def consistency(
         found_late, delay = lateness(pieces, log.joints, column, lower, parallel_cutoff)
         late += found_late
         windows = [windows_of(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
-        steps = np.array([resolution(own) for own in getattr(log, lower).T])
+        steps = np.array([lattice_step(own) for own in getattr(log, lower).T])
         if refuse:
             noise = [[white_noise(own) for own in getattr(piece, lower).T] for piece in pieces]
             noises = np.maximum(steps, np.median(noise, axis=0))
@@ -394,14 +395,16 @@ def _refuse_wrong(
         )
     for j in map(int, np.flatnonzero(size * length > _CLEAR * noise)):
         misfits = [_misfit(logged[:, j], *other) for other in zip(quotients.T, size, strict=True)]
-        if misfits[j] <= WRONG:
+        both = getattr(log, lower)[:, j], getattr(log, column)[:, j], log.time
+        near = abs(gains[j] - 1.0) < SHARE and is_derivative(*both)  # it is coarse, and no more
+        if misfits[j] <= WRONG or near or not moves(both[0]):
             continue
         other = int(np.argmin(misfits))
         if other != j and misfits[other] < 0.5 * WRONG:
             guess = f"it is that of {lower}{log.joints[other]}: are columns exchanged?"
         elif j in scaled:
-            near = (words for factor, words in _CAUSES if abs(abs(gains[j] / factor) - 1.0) < 0.1)
-            cause = next(near, "is it in another unit, or on the motor's side of the gear?")
+            known = (words for factor, words in _CAUSES if abs(abs(gains[j] / factor) - 1.0) < 0.1)
+            cause = next(known, "is it in another unit, or on the motor's side of the gear?")
             cause = "is its sign swapped?" if abs(gains[j] + 1.0) < 0.1 else cause
             guess = f"it is {gains[j]:.3g} times that: {cause}"
         else:
@@ -430,7 +433,8 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
     """True if differentiating the position is quieter than the logged velocity on most joints.
 
     White noise of standard deviation s_q on the position, through the position filter of cut-off
-    f, is noise of (2 pi f) s_q / sqrt(3) on the velocity.
+    f, is noise of (2 pi f) s_q / sqrt(3) on the velocity. A lattice of step s is noise of
+    s / sqrt(12). Only joints that move count.
 
     Args:
         pieces: with logged velocities, of all logs.
@@ -441,9 +445,11 @@ def quieter(pieces: Sequence[Piece], cutoff: float) -> bool:
         if piece.qd is None or piece.qdd is not None or len(piece.time) < 8:
             return False
         own = 2.0 * np.pi * min(cutoff, 0.5 / piece.step) / np.sqrt(3.0)
-        moved.append([own * white_noise(column) for column in piece.q.T])
-        logged.append([white_noise(column) for column in piece.qd.T])
+        moved.append([own * noise_of(column) for column in piece.q.T])
+        logged.append([noise_of(column) for column in piece.qd.T])
     if not logged:
         return False
+    q = np.concatenate([piece.q for piece in pieces])
+    moves = np.ptp(q, axis=0) > STEPS * np.array([lattice_step(column) for column in q.T])
     noisier = np.median(logged, axis=0) > QUIETER * np.median(moved, axis=0)
-    return bool(np.mean(noisier) > 0.5)
+    return bool(moves.any() and np.mean(noisier[moves]) > 0.5)

@@ -1,5 +1,6 @@
 """Shafts with dry friction that all but stand still; inner states of bristles; signals."""
 
+import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -16,6 +17,8 @@ from modeler.runtime import CompiledModel
 TOP = 0.98
 _CREEP = 1e-9  # rad/s or m/s, to both sides of standstill
 _HALVED = 10  # times, from positions anywhere to 1e-3 of home
+REST_TRAVEL = {"rad": 5e-3, "m": 2e-4}  # a joint that rests in a log, its encoder's steps included
+TINY = 0.02  # of its travel in all logs, that it goes in such a log
 IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
 
 
@@ -105,28 +108,37 @@ def with_every_joint(model: CompiledModel) -> tuple[FrictionShaft, ...]:
 
 
 def floors_of(
-    processing: ChosenProcessing, parts: Sequence[FrictionShaft], segments: Sequence[Segment]
-) -> dict[str, float]:
+    processing: ChosenProcessing, parts: Sequence[FrictionShaft], segments: Sequence[Segment],
+    noise: MotionNoise,
+) -> dict[str, float]:  # fmt: skip
     """Speed of each shaft below which its rows are masked; infinite for one that stands still.
 
     `low_speed` times the shaft's top speed over all logs, which is its 98 % quantile: a short
-    transient (an axis that slams into its first position) must not mask the motion after it.
+    transient (an axis that slams into its first position) must not mask the motion after it. And a
+    step of logged speeds, which are 0 or a step at lower ones.
     """
-    return {
-        part.name: processing.speed_floors.get(
-            part.name, processing.low_speed * top or float("inf")
-        )
-        for part, top in zip(parts, top_speeds(parts, segments), strict=True)
-    }
+    floors, low = {}, processing.low_speed
+    for part, top in zip(parts, top_speeds(parts, segments, noise), strict=True):
+        step = noise.speed_step(part.coefficients) if low else 0.0
+        own = max(low * top, min(step, WIDEST * top)) if top else float("inf")
+        floors[part.name] = processing.speed_floors.get(part.name, own)
+    return floors
 
 
-def top_speeds(parts: Sequence[FrictionShaft], segments: Sequence[Segment]) -> list[float]:
+def top_speeds(
+    parts: Sequence[FrictionShaft], segments: Sequence[Segment], noise: MotionNoise | None = None,
+    least: Mapping[str, float] = IDLE_TRAVEL,
+) -> list[float]:  # fmt: skip
     """98 % quantile of the speed of each shaft; 0 of one that stands still."""
     tops = []
     for part in parts:
+        turned = np.flatnonzero(part.coefficients)
+        if noise is not None and not any(noise.joints[j].moves for j in turned):
+            tops.append(0.0)
+            continue
         speeds = np.concatenate([np.abs(part.speed(s.qd[s.whole])) for s in segments])
         travel = np.concatenate([part.speed(s.q[s.whole]) for s in segments])
-        idle = not travel.size or np.ptp(travel) < IDLE_TRAVEL[part.unit]
+        idle = not travel.size or np.ptp(travel) < least[part.unit]
         tops.append(0.0 if idle else float(np.quantile(speeds, TOP)))
     return tops
 
@@ -154,7 +166,7 @@ def wide_floors(
     itself over `PERIODS` of its cut-off.
     """
     floors, cutoff = {}, processing.position_cutoff
-    for part, top in zip(parts, top_speeds(parts, segments), strict=True):
+    for part, top in zip(parts, top_speeds(parts, segments, noise), strict=True):
         doubtful = WIDE_SIGMAS * noise.doubtful_speed(part.coefficients, cutoff)
         floors[part.name] = min(max(WIDE * top, doubtful), WIDEST * top) or float("inf")
     return floors
@@ -166,11 +178,13 @@ def moving(
 ) -> np.ndarray:  # fmt: skip
     """(n, joints) False where a shaft that acts on the joint is slower than its floor.
 
-    With a margin, s, also so near to such a sample or to a reversal.
+    With a margin, s, also so near to such a sample or to a reversal. One that rests has neither.
     """
     fast = np.ones(segment.qd.shape, dtype=bool)
     reach = round(margin / segment.step)
     for part in parts:
+        if segment.rests and {*np.flatnonzero(part.coefficients)} <= {*segment.rests}:
+            continue  # gravity on it counts
         speed = part.speed(segment.qd)
         slow = np.abs(speed) < floors[part.name]
         if reach:
@@ -178,6 +192,35 @@ def moving(
             slow = near(slow, reach)
         fast[np.ix_(slow, list(part.joints))] = False
     return fast
+
+
+def at_rest(
+    segments: Sequence[Segment], parts: Sequence[FrictionShaft], still: Sequence[str] = ()
+) -> tuple[Segment, ...]:
+    """The segments without speeds of joints that rest all along a log: noise has no sign.
+
+    Args:
+        segments: of all logs.
+        parts: shafts; those of several joints are left as they are.
+        still: names of those that move in no log.
+    """
+    turned = {part.name: np.flatnonzero(part.coefficients) for part in parts}
+    found = []
+    for segment in segments:
+        own = [s.q for s in segments if s.run == segment.run]
+        travel = np.ptp(np.concatenate(own), axis=0)
+        whole = np.ptp(np.concatenate([s.q for s in segments]), axis=0)
+        joints = tuple(
+            int(j[0]) for part in parts
+            if len(j := turned[part.name]) == 1 and travel[j[0]] < REST_TRAVEL[part.unit]
+            and (part.name in still or travel[j[0]] < TINY * whole[j[0]])
+        )  # fmt: skip
+        if joints:
+            qd, qdd = segment.qd.copy(), segment.qdd.copy()
+            qd[:, joints] = qdd[:, joints] = 0.0
+            segment = dataclasses.replace(segment, qd=qd, qdd=qdd, rests=joints)
+        found.append(segment)
+    return tuple(found)
 
 
 # Inner states along measured positions, as `advance` of the C steps them.

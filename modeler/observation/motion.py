@@ -51,6 +51,7 @@ class Segment(Brief):
         commanded: (n, joints) commanded positions, filtered like q; None where none were logged.
         read: (n, m) what effects of the model read, made of more samples; None: made of these.
         every: how many samples of the log there are from one to the next.
+        rests: joints whose speeds were set to 0, as they rest.
     """
 
     run: int
@@ -66,6 +67,7 @@ class Segment(Brief):
     commanded: np.ndarray | None = None
     read: np.ndarray | None = None
     every: int = 1
+    rests: tuple[int, ...] = ()
 
     @property
     def samples(self) -> int:

@@ -15,7 +15,6 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.manifest import JointSpec
 from modeler.core.table import percent
-from modeler.numerics.noise import resolution
 from modeler.numerics.spectra import BandSpectrum, MotionSpectrum, band_spectrum, motion_spectrum
 from modeler.observation.segments import Piece
 
@@ -37,6 +36,12 @@ acceleration."""
 MEASURED = ("accelerations", "speeds", "positions")
 """What noise is told of, by the number of derivatives from it to the acceleration."""
 
+STILL = 5.0
+"""Steps of its encoder that a joint at rest stays within."""
+
+EXACT = 1e-8
+"""Rad or m, of noise of positions that no encoder has: 28 bits of a turn."""
+
 WHITE = 1.0
 """Power of 1/f in the floor above which noise is called coloured."""
 
@@ -53,7 +58,7 @@ class ChannelNoise(Brief):
         density: one-sided power density of its noise, unit^2/Hz; of speeds (unit/s)^2/Hz.
         deviation: standard deviation of white noise of that density.
         hides_above_hz: where the noise hides the motion; None if there is too little to tell.
-        step: resolution of the position.
+        step: resolution of what was measured; 0: none.
         colour: noise grows as f^-colour towards low frequencies; 0 for white.
         band_hz: of its motion.
         frequency, spectrum: (m,) Hz, and density of what was measured, means over third octaves.
@@ -88,6 +93,12 @@ class ChannelNoise(Brief):
         least = LEAST_BANDS * self.band_hz
         return float(np.clip(self.hides_above_hz or np.inf, least, HIGHEST_CUTOFF))
 
+    @property
+    def is_exact(self) -> bool:
+        """True if no sensor has so little noise."""
+        size = self.deviation / max(2.0 * np.pi * self.band_hz, 1.0) ** (2 - self.order)
+        return size < EXACT and self.step < EXACT
+
     def speed_deviation(self, cutoff: float) -> float:
         """Standard deviation of the noise of the speed below a cut-off (Hz), unit/s.
 
@@ -105,7 +116,6 @@ class ChannelNoise(Brief):
     def words(self) -> str:
         """Its noise in words."""
         size, unit = self.milli(self.deviation)
-        unit += ("/s2", "/s", "")[self.order]
         coloured = f", growing as f^-{self.colour:.1f}" if self.colour else ""
         above = self.hides_above_hz or np.inf
         return f"joint {self.joint} {size:.2g} {unit} above {above:.2g} Hz{coloured}"
@@ -113,7 +123,8 @@ class ChannelNoise(Brief):
     def milli(self, size: float) -> tuple[float, str]:
         """A size and its unit: mrad or mm if it is small; counts stay counts."""
         small = size < 0.1 and self.unit in ("rad", "m")
-        return (1e3 * size, f"m{self.unit}") if small else (size, self.unit)
+        unit = self.unit + ("/s2", "/s", "")[self.order]
+        return (1e3 * size, f"m{unit}") if small else (size, unit)
 
 
 @dataclass(frozen=True)
@@ -179,27 +190,47 @@ class MotionNoise(Brief):
             coefficients: (J,) of the joints' speeds in that of the shaft.
             cutoff: of the position filter.
         """
-        own = [max(joint.speed_deviation(cutoff), joint.step * cutoff) for joint in self.joints]
+        own = [joint.speed_deviation(cutoff) for joint in self.joints]
+        per = (0.0, 1.0, cutoff)[self.order]
+        step = [joint.step * per for joint in self.joints]
+        return float(np.linalg.norm(np.asarray(coefficients) * np.maximum(own, step)))
+
+    def speed_step(self, coefficients: Sequence[float]) -> float:
+        """Resolution of a shaft's speed where speeds were logged; else 0."""
+        own = [joint.step if self.order == 1 else 0.0 for joint in self.joints]
         return float(np.linalg.norm(np.asarray(coefficients) * own))
 
     def channel_lines(self) -> list[str]:
         """A line of each channel: its noise, from where on it hides the motion, its resolution."""
         told = []
         for joint in self.joints:
-            size, unit = joint.milli(joint.step)
-            step = f", in steps of {size:.3g} {unit}" if joint.step else ""
-            noise = joint.words() if joint.moves else f"joint {joint.joint} rests"
-            told.append(f"noise of the {self.quantity}: {noise}{step}")
-        return told
+            if joint.moves and not joint.is_exact:
+                size, unit = joint.milli(joint.step)
+                step = f", in steps of {size:.3g} {unit}" if joint.step else ""
+                told.append(f"noise of the {self.quantity}: {joint.words()}{step}")
+        rest = [joint.joint for joint in self.joints if not joint.moves]
+        if rest:
+            verb = "rest" if len(rest) > 1 else "rests"
+            told.append(f"joint{'s' * (len(rest) > 1)} {', '.join(rest)} {verb}")
+        return told + self._exact()
+
+    def _exact(self) -> list[str]:
+        """A line on the joints whose motion was not measured."""
+        names = [joint.joint for joint in self.moving if joint.is_exact]
+        if not names:
+            return []
+        return [
+            f"the {self.quantity} of joint{'s' * (len(names) > 1)} {', '.join(names)} have no "
+            "measurement noise: they are planned, filtered or simulated"
+        ]
 
     def lines(self) -> list[str]:
         """One line: of each joint that moves, how large its noise is and where it begins."""
         if not self.moving:
             return []
-        every = "; ".join(joint.words() for joint in self.moving)
-        return [
-            f"noise of the {self.quantity}, and from what frequency on it hides the motion: {every}"
-        ]
+        every = "; ".join(joint.words() for joint in self.moving if not joint.is_exact)
+        title = f"noise of the {self.quantity}, and from what frequency on it hides the motion"
+        return [f"{title}: {every}"] * bool(every) + self._exact()
 
     def why_cutoff(self, chosen: float) -> str:
         """Why a position filter of this cut-off (Hz) was chosen."""
@@ -231,9 +262,12 @@ def motion_noise(
         [np.asarray(x) for x in measured], [piece.step for piece in pieces], order
     )
     rate = 1.0 / float(np.median([piece.step for piece in pieces]))
-    every = []
+    none, every = (0.0,) * len(joints), []
+    logged = [[piece.q_step or none, piece.qd_step or none] for piece in pieces]
+    steps = np.max(np.array(logged), axis=0)
     for j, (joint, band) in enumerate(zip(joints, bands, strict=True)):
-        moves, own = bool(np.isfinite(band)), spectra.density[:, j]
+        q, own = np.concatenate([piece.q[:, j] for piece in pieces]), spectra.density[:, j]
+        moves = bool(np.isfinite(band)) and float(np.ptp(q)) > STILL * steps[0, j]
         hz, seen = spectra.frequency[np.isfinite(own)], own[np.isfinite(own)]
         band_hz = float(band) if moves else 0.0
         every.append(
@@ -242,7 +276,7 @@ def motion_noise(
                 unit=joint.unit,
                 of=MEASURED[order],
                 moves=moves,
-                step=resolution(np.concatenate([piece.q[:, j] for piece in pieces])),
+                step=float(steps[min(1, 2 - order), j]) if order else 0.0,
                 band_hz=band_hz,
                 frequency=tuple(map(_rounded, hz)),
                 spectrum=tuple(map(_rounded, seen)),

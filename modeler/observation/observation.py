@@ -16,6 +16,7 @@ from modeler.observation.chunk import whole_log
 from modeler.observation.log import Log
 from modeler.observation.low_speed import (
     PERIODS,
+    at_rest,
     floors_of,
     moving,
     shafts,
@@ -214,8 +215,10 @@ def observed(
     segments, open_times = without_open(model, logs, prepared.segments)
     parts = with_every_joint(model) if every_joint else shafts(model)
     seen = prepared.processing, parts, segments
-    floors = floors_of(*seen)
+    floors = floors_of(*seen, prepared.noise)
     chosen = dataclasses.replace(prepared.processing, speed_floors=floors)
+    still = [name for name, floor in floors.items() if floor == float("inf")]
+    segments = at_rest(segments, parts, still)
     stretches = tuple(stretch(segment, parts, chosen) for segment in segments)
     tallies, reports = [], []
     for run, (log, times, of) in enumerate(zip(logs, open_times, prepared.logs, strict=True)):
@@ -234,6 +237,9 @@ def observed(
         logs=tuple(reports),
         joints=joint_reports(model.spec.joints, parts, floors, tallies),
     )
+    if parts and all(floor == float("inf") for floor in floors.values()):
+        names = ", ".join(log.name for log in logs)
+        raise DataError(f"{names}: no joint moves; expected a motion; move every joint")
     if not any(part.used.any() for part in stretches):
         raise no_row_left(report)
     rows = stacked(model, [log.name for log in logs], stretches, report)

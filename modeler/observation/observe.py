@@ -17,11 +17,12 @@ from modeler.core.json import entries
 from modeler.numerics.filters import BANDWIDTH, SPREAD
 from modeler.numerics.least_squares import scaled_least_squares
 from modeler.observation.log import Log
-from modeler.observation.low_speed import floors_of, shafts
+from modeler.observation.low_speed import at_rest, floors_of, shafts
 from modeler.observation.motion import HIGHEST, Segment, segment_of
 from modeler.observation.motion_noise import ChannelNoise, MotionNoise
 from modeler.observation.observation import Observation, observed, stacked
 from modeler.observation.prepare import Prepared, closed, prepare, two_digits
+from modeler.observation.repairs import with_repairs
 from modeler.observation.report import Bands, DataReport
 from modeler.observation.settings import Processing
 from modeler.observation.stretch import stretch
@@ -72,7 +73,7 @@ def observe(
         DataError: no logs, of another robot, or no usable row.
         LoopError: hardly a sample closes the loops.
     """
-    asked = processing or Processing()
+    asked = with_repairs(model, logs, processing or Processing())
     prepared = prepare(model.spec, logs, asked)
     return observed(model, logs, lowered(model, prepared, asked))
 
@@ -238,8 +239,10 @@ class Look(Brief):
         if not segments:
             return None
         chosen = self.prepared.with_cutoffs(position, parallel).processing
-        chosen = dataclasses.replace(chosen, speed_floors=floors_of(chosen, parts, segments))
-        some = tuple(stretch(segment, parts, chosen) for segment in segments)
+        floors = floors_of(chosen, parts, segments, self.prepared.noise)
+        chosen = dataclasses.replace(chosen, speed_floors=floors)
+        still = [name for name, floor in floors.items() if floor == float("inf")]
+        some = tuple(stretch(s, parts, chosen) for s in at_rest(segments, parts, still))
         report = DataReport(chosen, (), (), ())
         return WeightedFit(self.model, stacked(self.model, (), some, report))
 

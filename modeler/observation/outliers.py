@@ -1,23 +1,34 @@
-"""What no robot does, in the channels of a log: found, told, and mended or left out; leaps."""
+"""What no robot does, in the channels of a log: hypotheses, and the log as each would mend it."""
 
 import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
+from scipy.ndimage import maximum_filter
 
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import percent
 from modeler.logs import repeats_line
-from modeler.numerics.held import RESTS, Clip, clips_of, frozen_runs, longest_usual, repeated_rows
+from modeler.numerics.held import (
+    RESTS,
+    Clip,
+    clips_of,
+    frozen_runs,
+    interpolated,
+    longest_usual,
+    repeated_rows,
+    rows_held,
+)
 from modeler.numerics.noise import (
     LEAST,
     NEAR,
     STEPS,
     floor_here,
+    lattice_step,
     lone,
     nearby,
-    resolution,
     running_median,
     threshold,
 )
@@ -42,6 +53,9 @@ _RUNS_OUT = 0.1  # of a leap: what is left of it in the steps beside it, at most
 _BACK = 0.3  # of the larger leap: what two leaps there and back may leave
 _MADE_UP = 0.5  # share to which a leap makes up for the way of the frozen samples, or lost rows
 _TURNED = 1e-3  # of a turn: what noise-free arithmetic may leave of a whole one
+_LATE = 2.0  # median steps: across a longer one, a joint may have moved anywhere
+_AROUND = 10  # samples in which a joint that jerks is seen to be as fast as its leap
+_SIDES = 3  # samples either side of a leap over which that speed would carry it
 
 RARE = 2e-2
 """Share of a joint's steps that may be leaps."""
@@ -56,17 +70,20 @@ class LeapWalk:
         turns: (n - 1, J) whole turns that a step has too much, by joint.
         speed: (n - 1, J) running median of the slopes, per s.
         excess: (n - 1, J) step less turns and less what the speed makes of it.
+        fastest: (n - 1, J) largest speed around each step, without it, by steps or as logged.
     """
 
     q: np.ndarray
     turns: np.ndarray
     speed: np.ndarray
     excess: np.ndarray
+    fastest: np.ndarray
 
 
 def walked(
-    time: np.ndarray, q: np.ndarray, revolute: np.ndarray, resolution: np.ndarray
-) -> LeapWalk:
+    time: np.ndarray, q: np.ndarray, revolute: np.ndarray, resolution: np.ndarray,
+    logged: np.ndarray,
+) -> LeapWalk:  # fmt: skip
     """The steps of one stretch without gaps.
 
     Args:
@@ -74,6 +91,7 @@ def walked(
         q: (n, J) rad or m, all finite.
         revolute: (J,) joints that may wrap.
         resolution: (J,) smallest step of each.
+        logged: (n, J) speeds; 0 where there are none.
     """
     steps, dt = np.diff(q, axis=0), np.diff(time)
     usual = float(np.median(dt))
@@ -87,7 +105,12 @@ def walked(
                 whole = steps[:, j] - _TURN * turns[:, j]
                 speed[:, j] = running_median(whole / dt)
                 excess[:, j] = _excess(whole, speed[:, j], dt, usual)
-    return LeapWalk(q, turns, speed, excess)
+    excess[dt > _LATE * usual] = 0.0
+    found = np.fmax(np.abs(steps - _TURN * turns) / dt[:, None], np.abs(logged[1:]))
+    beside = np.ones((2 * _AROUND + 1, 1), dtype=bool)
+    beside[_AROUND] = False
+    fastest = maximum_filter(found, footprint=beside, mode="nearest")
+    return LeapWalk(q, turns, speed, excess, fastest)
 
 
 def floors(walks: Sequence[LeapWalk], resolution: np.ndarray) -> np.ndarray:
@@ -161,7 +184,10 @@ def leaps_of(walk: LeapWalk, time: np.ndarray, j: int, floor: float) -> list[Def
             rest.append(there)
             continue
         kind: Kind = "lost" if _loses_rows(walk, k) else "zero"
-        rest.append(Defect(kind, k + 1, k + 1, float(walk.excess[k, j])))
+        first, last = max(0, k - _SIDES), min(len(time) - 1, k + 1 + _SIDES)
+        way = walk.q[last, j] - walk.q[first, j] - _TURN * walk.turns[first:last, j].sum()
+        if abs(way) > walk.fastest[k, j] * (time[last] - time[first]):
+            rest.append(Defect(kind, k + 1, k + 1, float(walk.excess[k, j])))
     return sorted(wraps + rest, key=lambda leap: leap.start)
 
 
@@ -238,6 +264,7 @@ class Damage:
         size: the largest, in `unit`.
         unit: of the channel.
         line: what it is, where and when, what was done and what to do.
+        is_mended: False where the data are used as logged.
     """
 
     column: str
@@ -249,6 +276,7 @@ class Damage:
     size: float
     unit: str
     line: str
+    is_mended: bool = True
 
 
 Defects = dict[str, list[list[Defect]]]
@@ -267,7 +295,8 @@ class ChannelScales:
             None where the log has no stretch of them.
         repeats: True if rows repeat, as the recorder is faster than the robot.
         clips: (J,) ends of the range at which each position is cut off.
-        held: (J,) samples for which each torque may stay the same.
+        stays: (J,) samples for which each torque may stay the same.
+        held: (J,) rows for which values are held, of "q", "tau", "qd" and "qdd".
     """
 
     steps: np.ndarray
@@ -276,24 +305,41 @@ class ChannelScales:
     floors: Mapping[str, np.ndarray | None]
     repeats: bool
     clips: tuple[tuple[Clip, ...], ...]
-    held: tuple[int, ...]
+    stays: tuple[int, ...]
+    held: Mapping[str, tuple[int, ...]]
+
+
+Repairs = Collection[tuple[str, int, str]]
+"""Channel, joint and kind of the defects that are mended."""
+
+ALWAYS = ("wrap", "repeated")
+"""Kinds that are mended without a fit: nothing is measured otherwise then."""
 
 
 def defects(
-    log: Log, spec: ModuleSpec, usual: ChannelScales | None = None
+    log: Log, spec: ModuleSpec, usual: ChannelScales | None = None, repairs: Repairs | None = None
 ) -> tuple[Log, Defects, ChannelScales]:
-    """The log without what no robot can have made; what that is; and what is usual in the log.
+    """The log mended; what looks like a defect; and what is usual in the log.
 
     Rows that repeat the one before them in all channels are dropped, so that the rate of what is
     left is the robot's. Wraps are counted on, and positions that begin to count from another zero
     are joined to the longest stretch. Spikes, frozen and clipped values become missing ones. Where
-    rows are missing and the clock ran on, a new piece begins.
+    rows are missing and the clock ran on, a new piece begins. Held values are interpolated.
 
     Args:
         log: as it was read, or some consecutive rows of one.
         spec: the robot's manifest; it names the joints.
         usual: in the whole log of which this is a part; None: it is all of it.
+        repairs: what is mended besides `ALWAYS`; None: all.
     """
+
+    def mended_by(name: str, found: Sequence[Sequence[Defect]]) -> list[list[Defect]]:
+        return [
+            [one for one in own
+             if repairs is None or one.kind in ALWAYS or (name, j, one.kind) in repairs]
+            for j, own in enumerate(found)
+        ]  # fmt: skip
+
     again = _repeats(log, usual)
     kept = np.flatnonzero(~again)
     fresh = log
@@ -302,34 +348,57 @@ def defects(
         longest = 1.5 * log.step + float(steps[steps <= RESTS * np.median(steps)].max())
         rate = float(np.quantile(steps, _WITHIN)), longest
         fresh = dataclasses.replace(cut(log, kept), robot_steps=rate)
-    clips = tuple(clips_of(own) for own in fresh.q.T) if usual is None else usual.clips
+    held = _held(fresh) if usual is None else usual.held
+    quick = [rows == 1 for rows in held["q"]]
+    clips = usual.clips if usual is not None else tuple(
+        clips_of(own) if is_quick else () for own, is_quick in zip(fresh.q.T, quick, strict=True)
+    )  # fmt: skip
     clipped = [_clipped(own, ends) for own, ends in zip(fresh.q.T, clips, strict=True)]
-    q, segment, leaps, steps, least = _positions(
-        dataclasses.replace(fresh, q=_without(fresh.q, clipped)), spec, usual
-    )
-    held = tuple(map(longest_usual, fresh.tau.T)) if usual is None else usual.held
+    q = _without(fresh.q, mended_by("q", clipped))
+    leaps, parts, steps, least = _leaps(dataclasses.replace(fresh, q=q), spec, usual, quick)
+    stays = tuple(map(longest_usual, fresh.tau.T)) if usual is None else usual.stays
     others, lonely, torque = _spikes(fresh, usual)
-    for own, stuck in zip(others["tau"], _frozen(fresh, held), strict=True):
+    found = {"q": [sorted(both[0] + both[1], key=lambda one: one.start)
+                   for both in zip(clipped, leaps, strict=True)], **others}  # fmt: skip
+    for own, stuck in zip(found["tau"], _frozen(fresh, stays), strict=True):
         own += stuck
-    positions = [both[0] + both[1] for both in zip(clipped, leaps, strict=True)]
+    segment, values = fresh.piece_number, dict[str, np.ndarray]()
+    for name, by_joint in found.items():
+        for j, rows in enumerate(held[name]):
+            if rows > 1:
+                size, time = float(rows), float(fresh.time[0])
+                by_joint[j] = [one for one in by_joint[j] if one.kind == "wrap"]
+                by_joint[j].append(Defect("held", 0, 0, size, time))
+        ours = mended_by(name, by_joint)
+        values[name] = _without(q if name == "q" else getattr(fresh, name), ours)
+        for j, own in enumerate(ours):
+            if name == "q" and own:
+                _join(values[name][:, j], own, parts)
+            if any(one.kind == "held" for one in own):
+                column = values[name][:, j]
+                column[:] = interpolated(fresh.time, column, held[name][j], smooth=name == "q")
+        lost = [one.start for own in ours for one in own if one.kind == "lost"]
+        segment = segment + (np.arange(fresh.rows)[:, None] >= np.array(lost, int)).sum(axis=1)
     new = segment if (segment != fresh.piece_number).any() else fresh.segment
     mended = dataclasses.replace(
-        fresh,
-        q=q,
-        segment=new,
-        tau=_without(fresh.tau, others["tau"]),
-        qd=None if fresh.qd is None else _without(fresh.qd, others["qd"]),
-        qdd=None if fresh.qdd is None else _without(fresh.qdd, others["qdd"]),
-    )
+        fresh, segment=new, q=values["q"], tau=values["tau"], qd=values.get("qd"),
+        qdd=values.get("qdd"),
+    )  # fmt: skip
     found = {
         name: [[_at(one, kept, log) for one in own] for own in by_joint]
-        for name, by_joint in {"q": positions, **others}.items()
+        for name, by_joint in found.items()
     }
     if again.any():
         every = [Defect("repeated", *run, 0.0, float(log.time[run[0]])) for run in runs(again)]
         found["rows"] = [every]
-    scales = ChannelScales(steps, least, torque, lonely, bool(again.any()), clips, held)
+    scales = ChannelScales(steps, least, torque, lonely, bool(again.any()), clips, stays, held)
     return mended, found, usual or scales
+
+
+def _held(log: Log) -> dict[str, tuple[int, ...]]:
+    """(J,) rows for which the values of each channel are held; 1: they are not."""
+    channels = {"q": log.q, "tau": log.tau, "qd": log.qd, "qdd": log.qdd}
+    return {name: tuple(map(rows_held, x.T)) for name, x in channels.items() if x is not None}
 
 
 def _repeats(log: Log, usual: ChannelScales | None) -> np.ndarray:
@@ -361,29 +430,27 @@ def _frozen(log: Log, held: Sequence[int]) -> list[list[Defect]]:
     return found
 
 
-def _positions(
-    log: Log, spec: ModuleSpec, usual: ChannelScales | None
-) -> tuple[np.ndarray, np.ndarray, list[list[Defect]], np.ndarray, np.ndarray]:
-    """Mended positions, segments, what was found by joint; steps and floors of leaps."""
-    q, segment = log.q.copy(), log.piece_number
+def _leaps(
+    log: Log, spec: ModuleSpec, usual: ChannelScales | None, quick: Sequence[bool]
+) -> tuple[list[list[Defect]], list[np.ndarray], np.ndarray, np.ndarray]:
+    """Leaps of positions by joint, and stretches that they were sought in; steps and floors."""
     positions: list[list[Defect]] = [[] for _ in spec.joints]
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
-    steps = np.array([resolution(own) for own in log.q.T]) if usual is None else usual.steps
+    steps = np.array([lattice_step(own) for own in log.q.T]) if usual is None else usual.steps
     there = np.isfinite(log.q).all(axis=1)
     stretches = [rows for rows in _stretches(log, there) if len(rows) > LEAST]
-    walks = [walked(log.time[rows], log.q[rows], revolute, steps) for rows in stretches]
+    logged = np.zeros_like(log.q) if log.qd is None else log.qd
+    walks = [walked(log.time[k], log.q[k], revolute, steps, logged[k]) for k in stretches]
     least = floors(walks, steps) if usual is None else floors_here(walks, usual.leaps)
     for rows, walk in zip(stretches, walks, strict=True):
         for j in range(len(spec.joints)):
-            leaps = leaps_of(walk, log.time[rows], j, least[j])
+            found = leaps_of(walk, log.time[rows], j, least[j])
+            if not quick[j]:
+                found = [leap for leap in found if leap.kind == "wrap"]
             if log.robot_steps is not None:  # rows of such a log come when they come
-                leaps = [leap for leap in leaps if leap.kind != "lost"]
-            q[rows, j] = _mended(walk, j, leaps)
-            positions[j] += [_at(leap, rows, log) for leap in leaps]
-            for leap in leaps:
-                if leap.kind == "lost":
-                    segment[rows[leap.start] :] += 1
-    return q, segment, positions, steps, least
+                found = [leap for leap in found if leap.kind != "lost"]
+            positions[j] += [_at(leap, rows, log) for leap in found]
+    return positions, stretches, steps, least
 
 
 def _stretches(log: Log, there: np.ndarray) -> Iterator[np.ndarray]:
@@ -408,17 +475,17 @@ def _placed(
     return [_at(one, rows, log) for own, rows in pairs for one in own]
 
 
-def _mended(walk: LeapWalk, j: int, leaps: Sequence[Defect]) -> np.ndarray:
-    """(n,) the positions of joint j: counted on, joined, and NaN where they are wrong."""
-    q = walk.q[:, j].copy()
-    offset, edges = np.zeros(len(q)), [0]
-    for leap in leaps:
-        if leap.kind in ("wrap", "zero"):
-            offset[leap.start :] += leap.size
-            edges.append(leap.start)
-        q[leap.start : leap.stop] = np.nan
-    longest = edges[int(np.argmax(np.diff([*edges, len(q)])))]
-    return np.asarray(q - (offset - offset[longest]))
+def _join(q: np.ndarray, leaps: Sequence[Defect], parts: Sequence[np.ndarray]) -> None:
+    """Count positions (n,) on, in place, from the longest stretch between two leaps."""
+    for rows in parts:
+        offset, edges = np.zeros(len(rows)), [0]
+        for leap in leaps:
+            place = int(np.searchsorted(rows, leap.start))
+            if leap.kind in ("wrap", "zero") and place < len(rows) and rows[place] == leap.start:
+                offset[place:] += leap.size
+                edges.append(place)
+        longest = edges[int(np.argmax(np.diff([*edges, len(rows)])))]
+        q[rows] -= offset - offset[longest]
 
 
 def _spikes(
@@ -454,7 +521,16 @@ def _without(values: np.ndarray, found: Sequence[Sequence[Defect]]) -> np.ndarra
     return kept
 
 
-def damages(log: Log, rows: int, spec: ModuleSpec, found: Defects) -> tuple[Damage, ...]:
+def column_of(log: Log, spec: ModuleSpec, name: str, j: int) -> str:
+    """A channel as the log calls it."""
+    if name == "tau" and log.torque_source:
+        return log.torque_source[j].split()[0]
+    return f"{name}{spec.joints[j].name}"
+
+
+def damages(
+    log: Log, rows: int, spec: ModuleSpec, found: Defects, repairs: Mapping[str, float]
+) -> tuple[Damage, ...]:
     """What was found in the rows of a log, in words.
 
     Args:
@@ -462,33 +538,64 @@ def damages(log: Log, rows: int, spec: ModuleSpec, found: Defects) -> tuple[Dama
         rows: of the whole log.
         spec: the robot's manifest.
         found: in all rows.
+        repairs: by column and kind, the held-out error mended over that as logged.
     """
     told = [_recorded_again(log, rows, own) for own in found.get("rows", ()) if own]
     for name, by_joint in found.items():
         if name == "rows":
             continue
-        for joint, own in zip(spec.joints, by_joint, strict=bool(by_joint)):
-            column, unit = f"{name}{joint.name}", joint.effort_unit
-            if name in _PER:
-                unit = f"{joint.unit}{_PER[name]}"
-            elif log.torque_source:
-                column = log.torque_source[spec.joints.index(joint)].split()[0]
+        for j, own in enumerate(by_joint):
+            joint, column = spec.joints[j], column_of(log, spec, name, j)
+            unit = joint.effort_unit if name == "tau" else f"{joint.unit}{_PER[name]}"
             for kind in dict.fromkeys(one.kind for one in own):
                 same = [one for one in own if one.kind == kind]
-                size = max(abs(one.size) for one in same)
-                samples = sum(one.stop - one.start for one in same)
-                first = f"at {same[0].time:.6g} s"
-                words = _WORDS["torque" if kind == "spike" and column[0] != "q" else kind].format(
-                    when=first if len(same) == 1 else f"{len(same)} times, first {first}",
-                    size=f"{'up to ' * (len(same) > 1)}{size:.3g} {unit}",
-                    unused=f"{samples} sample{'s' * (samples > 1)} "
-                    f"({percent(samples / rows)} of the rows) not used",
-                    part=f"{log.name}@{same[0].time:.6g}:",
+                size = max((one.size for one in same), key=abs)
+                samples, many = sum(one.stop - one.start for one in same), len(same) > 1
+                first, rate = f"at {same[0].time:.6g} s", 1.0 / log.step
+                words = _WORDS["torque" if kind == "spike" and name == "tau" else kind].format(
+                    when=f"{len(same)} times, first {first}" if many else first,
+                    size=f"{'up to ' * many}{abs(size):.3g} {unit}",
+                    value=f"{size:.3g} {unit}",
+                    rows=f"{size:.0f} rows: sampled at {rate / max(size, 1.0):.3g} Hz, not "
+                    f"{rate:.4g} Hz",
                 )
-                line = f"{column}: {words}"
+                done, score = _DONE.get(kind, "not used"), repairs.get(f"{column} {kind}", np.nan)
+                if done == "not used":
+                    done = f"{samples} sample{'s' * (samples > 1)} ({percent(samples / rows)} of "
+                    done += "the rows) not used"
+                is_mended = kind in ALWAYS or score < CONFIRMED
+                if not is_mended:
+                    done, samples = "used as logged", 0
+                if np.isfinite(score):
+                    done += f", held-out error x {score:.2f}"
+                line = f"{column}: {words}; {done}"
+                if is_mended and kind in _ADVICE:
+                    line += f"; {_ADVICE[kind]}"
                 when = _when(same, log.step)
-                told.append(Damage(column, joint.name, kind, *when, samples, size, unit, line))
+                seen = Damage(column, joint.name, kind, *when, samples, abs(size), unit, line)
+                told.append(dataclasses.replace(seen, is_mended=is_mended))
     return tuple(told)
+
+
+def repairs_named(log: Log, spec: ModuleSpec, names: Collection[str]) -> set[tuple[str, int, str]]:
+    """`Repairs` by names as "q2 zero"."""
+    return {
+        (name, j, kind)
+        for name in _PER
+        for j in range(len(spec.joints))
+        for kind in get_args(Kind)
+        if f"{column_of(log, spec, name, j)} {kind}" in names
+    }
+
+
+def confirmed(repairs: Mapping[str, float]) -> frozenset[str]:
+    """Those that a fit confirmed."""
+    return frozenset(name for name, score in repairs.items() if score < CONFIRMED)
+
+
+CONFIRMED = 0.95
+"""Held-out error of a fit to a mended log over that to the log as it is, below which it is mended:
+false claims have 0.997 and more."""
 
 
 def _when(found: Sequence[Defect], step: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -504,22 +611,27 @@ def _recorded_again(log: Log, rows: int, found: Sequence[Defect]) -> Damage:
     return Damage("all channels", "", "repeated", *when, count, rate, "Hz", line)
 
 
-_PER = {"q": "", "qd": "/s", "qdd": "/s^2"}
+_PER = {"q": "", "tau": "", "qd": "/s", "qdd": "/s^2"}
 _WORDS: Mapping[str, str] = {
-    "wrap": "leaps by whole turns of 2 pi rad {when}; counted on from the longest stretch between "
-    "two leaps: only what does not repeat with every turn, as a spring or a cable, is not served "
-    "by that; log positions that do not wrap",
-    "spike": "leaps by {size} and back {when}, which no joint can; {unused}; check the encoder and "
-    "its cable",
-    "torque": "a spike of {size} {when}, far above the noise, which no other joint feels; "
-    "{unused}; check the wiring of that channel",
-    "frozen": "repeats an old value while the joint moves, {when}; {unused}; the logger or the bus "
-    "was late: log fewer columns, or slower",
-    "clipped": "stays at an end of its range, {size}, {when}, though the joint moves on: the "
-    "position is clipped; {unused}; check the range of the sensor and of the logger",
-    "zero": "leaps by {size} {when} and goes on from there: the encoder found another zero; joined "
-    "to the longest stretch between two leaps, whose zero is kept; if another is right, use that "
-    "part alone, as in {part}",
-    "lost": "leaps along its motion by {size} {when}: rows are missing there while the clock ran "
-    "on; no filter runs across; log the true time of each row",
+    "wrap": "wraps by 2 pi rad, {when}",
+    "spike": "jumps by {size} and back, {when}",
+    "torque": "spike of {size}, {when}, that no other joint shows",
+    "frozen": "repeats one value while the joint moves, {when}",
+    "clipped": "stays at {value} at the end of its range without slowing down before, {when}",
+    "zero": "jumps by {size} {when} and goes on from there",
+    "lost": "jumps along its motion by {size}, {when}",
+    "held": "holds each value for {rows}",
+}
+_DONE: Mapping[str, str] = {
+    "wrap": "unwrapped",
+    "zero": "joined to the longest part",
+    "lost": "no filter runs across",
+    "held": "interpolated between new values",
+}
+_ADVICE: Mapping[str, str] = {
+    "spike": "check the sensor and its cable",
+    "frozen": "check the bus and the logger",
+    "clipped": "check the ranges of sensor and logger",
+    "zero": "check the encoder",
+    "lost": "log the true time of each row",
 }

@@ -1,7 +1,7 @@
 """From logs to segments of filtered motion, with every automatic choice made and recorded."""
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,9 +10,10 @@ import numpy as np
 from modeler.core.brief import Brief
 from modeler.core.errors import DataError, LoopError
 from modeler.core.manifest import JointSpec, ModuleSpec
-from modeler.logs import Positions
+from modeler.logs import Positions, is_derivative
+from modeler.numerics.held import COARSE
 from modeler.numerics.least_squares import weighted_median
-from modeler.numerics.spectra import MotionSpectrum, motion_spectrum
+from modeler.numerics.spectra import MotionSpectrum, coherence, motion_spectrum
 from modeler.observation.consistency import Consistency, consistency, quieter, without_late
 from modeler.observation.log import Log
 from modeler.observation.motion import CAUSES, HIGHEST, OPEN, Segment, edge_of, segment_of
@@ -24,7 +25,7 @@ from modeler.observation.motion_noise import (
     motion_noise,
     ringing,
 )
-from modeler.observation.outliers import ChannelScales, Defects, defects
+from modeler.observation.outliers import ChannelScales, Defects, confirmed, defects, repairs_named
 from modeler.observation.report import Bands
 from modeler.observation.segments import Piece, SplitReport, split
 from modeler.observation.settings import ChosenProcessing, Processing
@@ -32,6 +33,9 @@ from modeler.runtime import CompiledModel
 
 LARGEST = 1e12
 """Positions, velocities, accelerations and torques above are damage, not measurements."""
+
+ANSWERS = 0.5
+"""Coherence of a torque with a position that rings."""
 
 PARALLEL_BANDS = 4.0
 LEAST_PARALLEL = 5.0  # Hz
@@ -49,6 +53,7 @@ class PreparedLog(Brief):
         rings: sentences on joints that ring.
         defects: values that no robot can have made.
         usual: what is usual in its channels.
+        repairs: those of its defects that a fit tried, and their held-out errors.
     """
 
     pieces: tuple[Piece, ...]
@@ -58,6 +63,7 @@ class PreparedLog(Brief):
     rings: tuple[str, ...]
     defects: Defects
     usual: ChannelScales
+    repairs: Mapping[str, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,22 +140,33 @@ class LogRepair(Brief):
     spec: ModuleSpec
 
     @cached_property
-    def mended(self) -> list[tuple[Log, Defects, ChannelScales]]:
-        """What `defects` makes of each."""
-        return [defects(log, self.spec) for log in self.logs]
+    def _mended(self) -> "dict[tuple[int, frozenset[str]], tuple[Log, Defects, ChannelScales]]":
+        return {}
+
+    def mended(self, run: int, processing: Processing) -> tuple[Log, Defects, ChannelScales]:
+        """What `defects` makes of a log, with the repairs that a fit confirmed."""
+        log, spec = self.logs[run], self.spec
+        key = run, confirmed(processing.repairs_of(log.name))
+        if key not in self._mended:
+            some = repairs_named(log, spec, key[1])
+            self._mended[key] = defects(log, spec, repairs=some)
+        return self._mended[key]
 
     def cut(self, processing: Processing) -> "CutLogs":
         """The logs in pieces; what is known of them as long as nothing is filtered."""
         used = tuple(_speeds_used(log, processing) for log in self.logs)
-        if (processing.keep_damaged, used) not in self._cut:
-            logs = self.logs if processing.keep_damaged else [log for log, _, _ in self.mended]
+        key = processing.keep_damaged, used, confirmed(processing.repairs or {})
+        if key not in self._cut:
+            logs = self.logs
+            if not processing.keep_damaged:
+                logs = [self.mended(run, processing)[0] for run in range(len(logs))]
             every = enumerate(zip(logs, used, strict=True))
             cut = [split(log, run, own) for run, (log, own) in every]
-            self._cut[processing.keep_damaged, used] = CutLogs(self.spec, logs, cut)
-        return self._cut[processing.keep_damaged, used]
+            self._cut[key] = CutLogs(self.spec, logs, cut)
+        return self._cut[key]
 
     @cached_property
-    def _cut(self) -> "dict[tuple[bool, tuple[bool, ...]], CutLogs]":
+    def _cut(self) -> "dict[tuple[bool, tuple[bool, ...], frozenset[str]], CutLogs]":
         return {}
 
 
@@ -204,7 +221,7 @@ def prepare(
         DataError: no logs, a log of another robot, a value that cannot be, nothing long enough to
             differentiate, or a logged derivative that is none.
     """
-    _check(spec, logs, processing)
+    check_logs(spec, logs, processing)
     mending = mending or LogRepair(logs, spec)
     seen = mending.cut(processing)
     logs, pieces = seen.logs, seen.pieces
@@ -220,15 +237,16 @@ def prepare(
     rated = [piece for piece in pieces if piece.qd is not None]
     noisy = processing.derivatives == "auto" and quieter(rated, chosen.position_cutoff)
     steps, prepared = [joint.step for joint in positions.joints], []
-    for run, (log, (own, cuts), (_, damage, usual)) in enumerate(
-        zip(logs, seen.cut, mending.mended, strict=True)
-    ):
+    for run, (log, (own, cuts)) in enumerate(zip(logs, seen.cut, strict=True)):
+        _, damage, usual = mending.mended(run, processing)
         found, check, source = _derived(log, own, chosen, noisy)
         # what is left of rows that repeat comes unevenly, as it was stamped
         own_spectra = [s for p, s in zip(pieces, seen.spectra, strict=True) if p.run == run]
-        rings = [] if usual.repeats else what_rings(own_spectra, steps)
+        rings = [] if usual.repeats else what_rings(own_spectra, steps, own)
+        rings = [ring for ring in rings if usual.held["q"][ring.joint] == 1]
         said = tuple(ring.sentence(spec.joints[ring.joint].name) for ring in rings)
-        prepared.append(PreparedLog(found, cuts, source, check, said, damage, usual))
+        repairs = processing.repairs_of(log.name)
+        prepared.append(PreparedLog(found, cuts, source, check, said, damage, usual, repairs))
     pieces = [piece for log in prepared for piece in log.pieces]
     given = all(piece.qd is not None for piece in pieces)
     noise = motion_noise(spec.joints, pieces, seen.bands) if given else positions
@@ -254,15 +272,22 @@ def _derived(
     keep, check = processing.keep_contradicted, None
     if _speeds_used(log, processing):
         check = consistency(log, pieces, processing.parallel_cutoff, refuse=not keep)
-    late = check is not None and check.harmful and processing.derivatives == "auto"
-    if check is not None and not noisy and (keep or not late):
+    auto = processing.derivatives == "auto" and not keep
+    wrong = [
+        name for name, q, qd in zip(log.joints, log.q.T, log.qd.T, strict=True)
+        if not is_derivative(q, qd, log.time)
+    ] if auto and check is not None and log.qd is not None else []  # fmt: skip
+    late = check is not None and check.harmful and auto
+    if check is not None and not noisy and not late and not wrong:
         source = "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
         return pieces if keep else believed(pieces, check), check, source
     pieces, source = tuple(map(without_speeds, pieces)), "qd and qdd by differentiating q"
     if check is not None and late:
         check, why = without_late(check, pieces), ", as logged derivatives come late"
     else:
-        check, why = None, ", whose noise is less than that of the logged qd" if check else ""
+        why = ", whose noise is less than that of the logged qd" if check else ""
+        why = f", as logged qd{wrong[0]} does not follow q{wrong[0]}" if wrong else why
+        check = None
     return pieces, check, source + why
 
 
@@ -278,7 +303,12 @@ def believed(pieces: Sequence[Piece], check: Consistency) -> tuple[Piece, ...]:
     )
 
 
-def _check(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> None:
+def check_logs(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> None:
+    """Refuse what is no log of this robot.
+
+    Raises:
+        DataError: no logs, of another robot, impossible values, or none of logged speeds.
+    """
     if not logs:
         raise DataError("no logs; give at least one")
     names = tuple(joint.name for joint in spec.joints)
@@ -416,25 +446,29 @@ def spectra_of(pieces: Sequence[Piece]) -> list[MotionSpectrum]:
 
 
 def what_rings(
-    spectra: Sequence[MotionSpectrum], steps: Sequence[float] | None = None
+    spectra: Sequence[MotionSpectrum], steps: Sequence[float], pieces: Sequence[Piece]
 ) -> list[Ringing]:
     """Joints that ring in the longest of some pieces, by more than the steps of their encoders.
 
-    A joint that passes count after count shows lines too, but none that are as large as a count.
+    A joint that passes count after count shows lines too, but none that are as large as a few
+    counts; and torque answers to a controller that oscillates.
 
     Args:
         spectra: of the positions of the pieces.
-        steps: (J,) resolution of each joint, rad or m; None: not known.
+        steps: (J,) resolution of each joint, rad or m; 0: none.
+        pieces: of the log.
     """
     if not spectra:
         return []
-    longest = max(spectra, key=lambda own: len(own.frequency))
+    longest, piece = max(zip(spectra, pieces, strict=True), key=lambda own: len(own[0].frequency))
     speed = longest.above * longest.frequency[:, None] ** 2
     found = []
     for j, own in enumerate(speed.T):
         ring, first = ringing(longest.frequency, own, j)
         size = float(np.sqrt(longest.above[first:, j].sum()))
-        if ring is not None and size > (0.0 if steps is None else steps[j]):
+        if ring is None or size <= COARSE * steps[j]:
+            continue
+        if coherence(piece.q[:, j], piece.tau[:, j], ring.frequency * piece.step) > ANSWERS:
             found.append(ring)
     return found
 

@@ -108,7 +108,7 @@ def log_of(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
         DataError: as `read_log` does, but for what only a whole log can tell.
     """
     time = _time(table)
-    notes: list[str] = [*table.notes]
+    told: list[str] = [*table.told, *table.notes, *_untold_speeds(table, spec)]
     positions = []
     for joint in spec.joints:
         if f"q{joint.name}" not in table and not joint.actuated:
@@ -120,23 +120,22 @@ def log_of(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
         positions.append(table.measured(f"q{joint.name}"))
     none = np.full(table.rows, np.nan), "not read", 0.0
     torques = [_torque(table, joint, spec) if measured else none for joint in spec.joints]
-    notes += _duty_doubts(table, spec)
     return Log(
         name=table.path.name,
         joints=tuple(joint.name for joint in spec.joints),
         time=time,
         q=np.column_stack(positions),
         tau=np.column_stack([values for values, _, _ in torques]),
-        qd=_optional(table, "qd", spec, notes),
-        qdd=_optional(table, "qdd", spec, notes),
-        commanded=_optional(table, "qc", spec, notes),
+        qd=_optional(table, "qd", spec, told),
+        qdd=_optional(table, "qdd", spec, told),
+        commanded=_optional(table, "qc", spec, told),
         segment=_segment(table),
-        extra=_extra(table, spec, notes),
+        extra=_extra(table, spec, told),
         torque_source=tuple(source for _, source, _ in torques),
-        notes=tuple(notes),
+        notes=tuple(_duty_doubts(table, spec)),
         induced=tuple(k for *_, k in torques) if any(k for *_, k in torques) else (),
         path=str(table.path),
-        told=(*table.told, *_untold_speeds(table, spec)),
+        told=tuple(told),
     )
 
 
@@ -261,16 +260,14 @@ def _untold_speeds(table: LogTable, spec: ModuleSpec) -> list[str]:
     ] if names else []  # fmt: skip
 
 
-def _optional(
-    table: LogTable, prefix: str, spec: ModuleSpec, notes: list[str]
-) -> np.ndarray | None:
+def _optional(table: LogTable, prefix: str, spec: ModuleSpec, told: list[str]) -> np.ndarray | None:
     names = [f"{prefix}{joint.name}" for joint in spec.joints]
     there = [name for name in names if name in table]
     if len(there) == len(names):
         return np.column_stack([table.measured(name) for name in names])
     if there:
         absent = [name for name in names if name not in table]
-        notes.append(
+        told.append(
             f"{', '.join(map(table.called, absent))} missing, so the logged {prefix} of the other "
             "joints is not used"
         )
@@ -294,20 +291,20 @@ def _used_names(spec: ModuleSpec) -> set[str]:
     return by_duty | {f"{prefix}{joint.name}" for prefix in prefixes for joint in spec.joints}
 
 
-def _extra(table: LogTable, spec: ModuleSpec, notes: list[str]) -> dict[str, np.ndarray]:
+def _extra(table: LogTable, spec: ModuleSpec, told: list[str]) -> dict[str, np.ndarray]:
     known = _used_names(spec) | {"time", "segment"}
     # A current beside a torque is a measurement of its own: temperature and gain effects want it.
     known -= {f"current{joint.name}" for joint in spec.joints if f"tau{joint.name}" in table}
     others = [name for name in table.names if name not in known]
     text = [name for name in others if not table.is_numeric(name)]
     if text:
-        notes.append(f"{', '.join(text)} not numeric, left out")
+        told.append(f"{', '.join(text)} not numeric, left out")
     found = {name: table.measured(name) for name in others if name not in text}
-    return found | _temperatures(table, found, notes)
+    return found | _temperatures(table, found, told)
 
 
 def _temperatures(
-    table: LogTable, extra: dict[str, np.ndarray], notes: list[str]
+    table: LogTable, extra: dict[str, np.ndarray], told: list[str]
 ) -> dict[str, np.ndarray]:
     """Temperatures, which are slow: between logged values they are taken from a straight line."""
     found = {}
@@ -323,7 +320,7 @@ def _temperatures(
             )
         time = table.numbers("time")
         found[name] = np.interp(time, time[logged], values[logged])
-        notes.append(
+        told.append(
             f"{name} has no value in {int((~logged).sum())} of {len(values)} rows: taken between "
             "the others"
         )
@@ -429,7 +426,8 @@ class FileSource:
         self.rows, self.exact = blocks.rows, isinstance(blocks, ParquetBlocks)
         self._blocks, self._spec = blocks, spec
         table = self._table(blocks.window(0.0, _FIRST))
-        self._notes = log_of(table, spec).notes
+        whole = log_of(table, spec)
+        self._notes, self._how = whole.notes, whole.told
         self._names = needed(table, spec)
 
     def blocks(self, size: int) -> Iterator[Log]:
@@ -468,7 +466,7 @@ class FileSource:
                 values = np.full(len(values), last[name])
             last[name] = float(values[np.isfinite(values)][-1])
             found[name] = values
-        return dataclasses.replace(log, notes=self._notes, extra=found)
+        return dataclasses.replace(log, notes=self._notes, told=self._how, extra=found)
 
 
 class MemorySource:

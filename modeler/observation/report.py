@@ -1,6 +1,6 @@
 """What happened to the rows of the logs, in numbers and in words."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from modeler.core.brief import Brief
@@ -90,7 +90,7 @@ class LogReport(Brief):
             text.append(f"  {column}: {count} rows without a value; bridged, not used for the fit")
         for joint, count in self.saturated.items():
             text.append(f"  joint {joint}: torque stuck at its limit in {count} rows")
-        text += [f"  {damage.line}" for damage in self.damages]
+        text += [f"  {line}" for line in joined_lines(self.damages)]
         if self.contradicted:
             text.append(f"  {self.contradicted} samples with impossible derivatives, all joints:")
         text += [f"  {found.line()}" for found in self.contradictions]
@@ -104,7 +104,7 @@ class LogReport(Brief):
             "why the logger left them out"
             for column, count in self.missing.items()
         ]
-        found += [damage.line for damage in self.damages]
+        found += joined_lines([damage for damage in self.damages if damage.is_mended])
         found += [
             f"the torque of joint {joint} is clipped in {count} of {self.rows} rows; they are not "
             "used, but drive slower or with less load"
@@ -123,6 +123,7 @@ class LogReport(Brief):
         found = [
             Mark(one.kind, one.column, start, start + lasts, one.line)
             for one in self.damages
+            if one.is_mended
             for start, lasts in zip(one.times, one.lasts, strict=True)
         ]
         loops = "the loops cannot be closed here; not used, but check positions and geometry"
@@ -138,6 +139,14 @@ class LogReport(Brief):
             f"{'first ' if count > 1 else ''}at {self.open_times[0]:.6g} s; not used, but check "
             "positions and geometry there"
         ]
+
+
+def joined_lines(damages: Sequence[Damage]) -> list[str]:
+    """Their lines; of channels of which the same is said, one."""
+    found: dict[str, list[str]] = {}
+    for one in damages:
+        found.setdefault(one.line.removeprefix(f"{one.column}: "), []).append(one.column)
+    return [f"{', '.join(columns)}: {rest}" for rest, columns in found.items()]
 
 
 @dataclass(frozen=True)
@@ -169,6 +178,11 @@ class JointReport(Brief):
             return f"joint {self.name}: {self._why_none()}"
         if self.speed_floor is None:
             return f"joint {self.name}: {self.used} rows"
+        if self.speed_floor == float("inf"):
+            return (
+                f"joint {self.name}: {self.used} rows; it never moves: its friction is not "
+                "identifiable"
+            )
         return (
             f"joint {self.name}: {self.used} rows; {percent(self.slow)} of the samples masked "
             f"below {self.speed_floor:.3g} {self.unit}, where the sign of the speed is "
@@ -180,8 +194,6 @@ class JointReport(Brief):
         slow = round(self.slow * (self.samples - sum(self.lost.values())))
         cause = max(self.lost, key=lambda name: self.lost[name], default="")
         if slow >= self.lost.get(cause, 0):
-            if self.speed_floor in (None, float("inf")):
-                return "never moves, so its friction cannot be told and none of its rows is used"
             return (
                 f"0 rows; {percent(self.slow)} of the samples masked below "
                 f"{self.speed_floor:.3g} {self.unit}: it hardly moves, or the time column is not "
@@ -265,10 +277,10 @@ class DataReport(Presented):
             lines.append(f"rows with a torque at its limit are {used}")
         if any(log.damages for log in self.logs):
             lines.append(
-                "values that no robot can have made are used as logged"
+                "all values are used as logged"
                 if self.processing.keep_damaged
-                else "values that no robot can have made are mended or left out, as told above; "
-                "--keep-damaged takes them as logged"
+                else "values are mended or left out only where a fit predicts left-out rows better "
+                "with it; --keep-damaged uses all as logged"
             )
         if any(log.contradicted for log in self.logs):
             used = "used" if self.processing.keep_contradicted else "not used"

@@ -1,16 +1,21 @@
 """Pieces of a log on a uniform time grid: filters never run across a gap."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.numerics.held import noise_of, rows_held
+from modeler.numerics.noise import lattice_step
 from modeler.observation.log import Log
 
 JITTER = 0.01
 """Time stamps off the uniform grid by more than this share of a step are resampled."""
 
 _NEAR = 0.75  # of a step: a grid point farther than this from any measured row is a bridge
+_USUAL = 0.95  # quantile of the steps of an uneven clock ...
+_HALF = 0.51  # ... of which a grid point in the middle of one is no farther
 SHORT = 3
 """A bridge of up to so many samples is a cubic, as smooth as the motion beside it."""
 
@@ -18,6 +23,8 @@ _LEAST = 4  # samples; the second difference and its neighbours
 
 LEAST_RUN = 5
 QUANTA = 3.0
+MOVES = 10.0
+"""Standard deviations of a position's noise that a joint moves while its torque is at a limit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,6 +45,7 @@ class Piece:
         resampled: True if the rows were moved to the grid.
         commanded: (n, joints) positions, or None.
         induced: (joints,) as of the log.
+        q_step, qd_step: (joints,) steps of resolution as logged; resampling hides them.
     """
 
     run: int
@@ -55,6 +63,8 @@ class Piece:
     resampled: bool
     commanded: np.ndarray | None = None
     induced: tuple[float, ...] = ()
+    q_step: tuple[float, ...] = ()
+    qd_step: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +107,7 @@ def split(
     rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
     ends = [None] * log.tau.shape[1] if extremes is None else extremes
     clipped = np.column_stack(
-        [saturated(tau, end) for tau, end in zip(log.tau.T, ends, strict=True)]
+        [saturated(*own) for own in zip(log.tau.T, log.q.T, ends, strict=True)]
     )
     steps, stamps = np.diff(log.time[rows]), np.diff(log.time)
     cut = gap = steps > log.gap
@@ -112,7 +122,10 @@ def split(
         jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
         short=log.time[np.concatenate([rows[:0], *(g for g in groups if len(g) < _LEAST)])],
     )
-    return tuple(_piece(log, run, group, clipped, logged_motion) for group in kept), report
+    q_step = tuple(map(lattice_step, log.q.T))
+    qd_step = () if log.qd is None else tuple(map(lattice_step, log.qd.T))
+    pieces = (_piece(log, run, group, clipped, logged_motion) for group in kept)
+    return tuple(dataclasses.replace(own, q_step=q_step, qd_step=qd_step) for own in pieces), report
 
 
 def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool) -> Piece:
@@ -125,8 +138,10 @@ def _piece(log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_mot
     if not uniform:
         near = np.searchsorted(measured, time).clip(1, len(measured) - 1)
         near -= time - measured[near - 1] < measured[near] - time
-    # Rows that a recorder did not repeat come when they come: what lies between them is no bridge.
-    beside = max(_NEAR * step, 0.5 * (log.robot_steps or (0.0, 0.0))[1])
+    # Where rows come when they come, what lies between two is no bridge.
+    steps = np.diff(measured)
+    usual = float(np.quantile(steps, _USUAL)) if len(steps) else 0.0
+    beside = max(_NEAR * step, 0.5 * (log.robot_steps or (0.0, 0.0))[1], _HALF * usual)
     bridged = np.abs(time - measured[near]) > beside
     short = bridged & ~longer_runs(bridged, SHORT)
 
@@ -206,16 +221,20 @@ def _bridge(
     return values, valid
 
 
-def saturated(values: np.ndarray, extremes: tuple[float, float] | None = None) -> np.ndarray:
+def saturated(
+    values: np.ndarray, position: np.ndarray, extremes: tuple[float, float] | None = None
+) -> np.ndarray:
     """Samples at which a torque is clipped; (n,) bool.
 
     A run counts when the torque is exactly its largest or smallest value of the whole log for at
     least 5 samples in a row, and leaps into or out of that run by more than 3 steps of its own
     resolution. A clean quantised signal rounds its crest one step at a time and is not caught;
-    a torque at rest, which is constant all along, has no leap and is not caught either.
+    a torque at rest, which is constant all along, has no leap and is not caught either, and the
+    joint moves in one run at least. A torque that is held is sampled more slowly.
 
     Args:
         values: (n,) torque of one joint, NaN where missing.
+        position: (n,) of the joint.
         extremes: smallest and largest value of the log elsewhere, of which these are a part.
     """
     found = np.zeros(len(values), dtype=bool)
@@ -233,11 +252,16 @@ def saturated(values: np.ndarray, extremes: tuple[float, float] | None = None) -
         for start, stop in runs(values == end)
         if stop - start >= LEAST_RUN
     ]
-    if not found_runs:
+    least = MOVES * noise_of(position[np.isfinite(position)]) if found_runs else 0.0
+    moved = {
+        end for end, (start, stop) in found_runs
+        if abs(position[stop - 1] - position[start]) > least
+    }  # fmt: skip
+    if not moved or rows_held(values) >= LEAST_RUN:
         return found
-    gaps = np.diff(np.unique(values[np.isfinite(values)]))
-    # Differences at the level of rounding (a product with a drive gain) are no resolution.
-    resolution = float(np.min(gaps[gaps > 1e-9 * (high - low)]))
+    found_runs = [(end, run) for end, run in found_runs if end in moved]
+    step = lattice_step(values)
+    resolution = step if step < 0.1 * (high - low) else 0.0  # else it knows a few values alone
     for extreme, (start, stop) in found_runs:
         beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
         leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)

@@ -31,6 +31,8 @@ class Processing(Brief):
             and do not refuse columns that are wrong throughout.
         keep_damaged: use values that no robot can have made (leaps, spikes, repeated positions) as
             they were logged.
+        repairs: held-out error of a fit to a mended log over that to the log as it is, by log,
+            column and kind of the defect; None: not tried yet.
         delay: s by which torques are logged before the motion that they belong to; they are moved
             later by it.
         edge: seconds left out at both ends of a differentiated piece; None: 2.5 periods of
@@ -51,6 +53,7 @@ class Processing(Brief):
     keep_damaged: bool = False
     delay: float = 0.0
     chosen: tuple[str, ...] = ()
+    repairs: Mapping[str, float] | None = None
 
     def __post_init__(self) -> None:
         for name in ("position_cutoff", "parallel_cutoff", "edge", "low_speed"):
@@ -70,10 +73,20 @@ class Processing(Brief):
                 f"speed_floors is {self.speed_floors}; expected a speed by joint, as in "
                 '{"1": 0.1}'
             )
+        if not isinstance(self.repairs, Mapping | None):
+            raise DataError(f"repairs is {self.repairs}; expected a ratio by column and defect")
         if self.derivatives not in get_args(Derivatives):
             raise DataError(
                 f'derivatives is "{self.derivatives}"; expected {", ".join(get_args(Derivatives))}'
             )
+
+    def repairs_of(self, log: str) -> dict[str, float]:
+        """Those of a log, by column and kind of the defect; a channel is held in all alike."""
+        return {
+            key.rpartition(": ")[2]: score
+            for key, score in (self.repairs or {}).items()
+            if key.startswith(f"{log}: ") or key.endswith(" held")
+        }
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for a model file."""

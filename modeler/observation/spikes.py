@@ -10,9 +10,9 @@ from modeler.numerics.noise import (
     REACH,
     departures,
     floor_here,
+    lattice_step,
     lone,
     nearby,
-    resolution,
     threshold,
 )
 
@@ -36,7 +36,7 @@ _RARELY = 0.95  # quantile of the changes of the speed over that time
 _STARTS = 2.0  # times the changes just before: something began
 _SLOW = 0.05  # of the top speed: at a reversal and at rest, friction makes peaks of its own
 
-Kind = Literal["wrap", "spike", "frozen", "zero", "lost", "clipped", "repeated"]
+Kind = Literal["wrap", "spike", "frozen", "zero", "lost", "clipped", "repeated", "held"]
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,8 @@ class Defect:
     Attributes:
         kind: "wrap" (by whole turns), "spike" (there and back), "frozen" (a value repeated while
             the joint moved), "zero" (for good), "lost" (rows are missing, and the clock ran on),
-            "clipped" (at an end of the range), "repeated" (rows that were recorded again).
+            "clipped" (at an end of the range), "repeated" (rows that were recorded again), "held"
+            (each value for `size` rows).
         start: first sample after it; of a spike or frozen values the first bad one.
         stop: sample after the last bad one; `start` if none is bad.
         size: in the channel's unit, with its sign; of a spike the largest departure.
@@ -96,7 +97,7 @@ def _floor(channel: Sequence[np.ndarray], departed: Sequence[np.ndarray]) -> flo
     """Departure below which no value of a whole channel is a spike."""
     whole = np.concatenate(channel)
     low, high = np.quantile(whole, [0.01, 0.99])
-    lonely = threshold(np.concatenate(departed), resolution(whole), RARE)
+    lonely = threshold(np.concatenate(departed), lattice_step(whole), RARE)
     return max(lonely, SHARE * float(high - low))
 
 

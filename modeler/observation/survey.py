@@ -12,13 +12,14 @@ from modeler.numerics.filters import spacing
 from modeler.observation.chunk import Chunk, margin
 from modeler.observation.consistency import consistency
 from modeler.observation.log import FINGER, LONG, Log, fingerprint, fingerprint_of, fingers
-from modeler.observation.low_speed import FrictionShaft, shafts, top_speeds
+from modeler.observation.low_speed import REST_TRAVEL, FrictionShaft, at_rest, shafts, top_speeds
 from modeler.observation.motion import Segment, segment_of
 from modeler.observation.observation import Observation, observed
 from modeler.observation.observe import lowered
-from modeler.observation.outliers import ChannelScales, defects
+from modeler.observation.outliers import ChannelScales, confirmed, defects, repairs_named
 from modeler.observation.prepare import PreparedLog, believed, check_size, closed, prepare
 from modeler.observation.read import Ranges, Source, cut, joined, windows_joined
+from modeler.observation.repairs import with_repairs
 from modeler.observation.report import DataReport, LogReport
 from modeler.observation.segments import Piece, split
 from modeler.observation.settings import ChosenProcessing, Processing
@@ -61,6 +62,7 @@ class LogChoices:
 
     Attributes:
         run: index of the log.
+        name: of the log.
         processing: of all logs.
         decimation: samples per row.
         logged: logged velocities are used.
@@ -73,6 +75,7 @@ class LogChoices:
     """
 
     run: int
+    name: str
     processing: ChosenProcessing
     decimation: int
     logged: bool
@@ -141,6 +144,7 @@ def survey(
     logs = [windows_joined(own) if own else None for own in windows]
     seen = [log for log in logs if log is not None]
     try:
+        processing = with_repairs(model, seen, processing)
         prepared = prepare(model.spec, seen, processing)
         observation = observed(model, seen, lowered(model, prepared, processing))
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
@@ -162,6 +166,7 @@ def survey(
         every.append(
             LogChoices(
                 run=k,
+                name=source.name,
                 processing=chosen,
                 decimation=spacing(
                     (*fresh, log.step)[0], chosen.parallel_cutoff, chosen.decimation
@@ -253,7 +258,9 @@ def rows_of_chunk(
     """
     spec, processing = model.spec, chosen.processing
     check_size(chunk.log, spec)
-    mended, found, _ = defects(chunk.log, spec, chosen.usual)
+    names = confirmed(processing.repairs_of(chosen.name))
+    repairs = repairs_named(chunk.log, spec, names)
+    mended, found, _ = defects(chunk.log, spec, chosen.usual, repairs)
     log = chunk.log if processing.keep_damaged else mended
     pieces, cuts = split(log, chosen.run, chosen.logged, chosen.extremes)
     check = None
@@ -263,7 +270,8 @@ def rows_of_chunk(
             pieces = believed(pieces, check)
     filtered = [segment_of(piece, processing) for piece in pieces]
     both = [closed(model, segment) for segment in filtered if segment is not None]
-    segments = [segment for segment, _ in both]
+    still = [part for part in chosen.shafts if processing.speed_floors[part.name] == float("inf")]
+    segments = at_rest([segment for segment, _ in both], still, [part.name for part in still])
     stretches = tuple(
         stretch(s, chosen.shafts, processing, _centres(s, chunk, chosen)) for s in segments
     )
@@ -338,7 +346,7 @@ def _awake(segments: Sequence[Segment], chosen: LogChoices) -> dict[str, float]:
     """Top speeds of the shafts that move, and were taken to stand still."""
     floors, moving = chosen.processing.speed_floors, [s for s in segments if s.whole.any()]
     still = [part for part in chosen.shafts if floors[part.name] == float("inf")]
-    tops = top_speeds(still, moving) if moving else []
+    tops = top_speeds(still, moving, least=REST_TRAVEL) if moving else []
     return {part.name: top for part, top in zip(still, tops, strict=False) if top > 0.0}
 
 

@@ -207,7 +207,7 @@ def log_report(
         notes=log.notes + prepared.rings + (prepared.check.notes if prepared.check else ()),
         contradictions=tuple(contradictions),
         **counts,
-        damages=damages(log, counts["rows"], spec, defects),
+        damages=damages(log, counts["rows"], spec, defects, prepared.repairs),
         content=log.content,
         span=log.span,
         torque_source=log.torque_source,

@@ -213,10 +213,10 @@ def test_the_commands_print_and_write_the_doubts(arm, capsys, command):
     assert main([str(word) for word in (*words, "--json", arm / "out.json")]) == 0
     out = capsys.readouterr().out
     content = json.loads((arm / "out.json").read_text())
-    for said in ("joint 2: its position looks like degrees", "tau1: a spike of "):
-        assert said in out
-        assert any(said in line for line in content["doubts"])
-    assert any(line.startswith("bad.parquet: tau1: a spike") for line in content["doubts"])
+    said = "joint 2: its position looks like degrees"
+    assert said in out and any(said in line for line in content["doubts"])
+    confirmed = any(line.startswith("bad.parquet: tau1: spike") for line in content["doubts"])
+    assert confirmed == (command == "fit")  # compare mends nothing that the fit did not try
 
 
 @pytest.mark.parametrize("mistake", ["late", "turns", "sign"])
@@ -256,7 +256,7 @@ def test_sound_logs_leave_the_doubts_empty(arm, capsys):
 def test_damaged_values_are_used_when_asked_for(arm, capsys):
     words = ["fit", "demo-arm", arm / "bad.parquet", "--out", arm / "b.json", "--keep-damaged"]
     assert main([str(word) for word in words]) == 0
-    assert "values that no robot can have made are used as logged" in capsys.readouterr().out
+    assert "all values are used as logged" in capsys.readouterr().out
 
 
 def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(runs, monkeypatch):

@@ -153,13 +153,15 @@ def test_rows_are_masked_where_a_coupled_shaft_stands_still():
     assert seen.report.processing.speed_floors["2+3"] == float("inf")
 
 
-def test_a_joint_that_never_moves_is_said_and_unused():
+def test_a_joint_that_never_moves_keeps_its_rows_and_has_no_friction():
     model = planar_arm()
     t, q, qd, qdd = motion(2)
     q[:, 1], qd[:, 1], qdd[:, 1] = 0.3, 0.0, 0.0
     seen = observe(model, [Log("a", ("1", "2"), t, q, np.ones_like(q), qd, qdd)])
-    assert seen.used[:, 0].any() and not seen.used[:, 1].any()
-    assert any("joint 2: never moves" in line for line in seen.report.lines())
+    assert seen.used[:, 0].any() and seen.used[:, 1].all()
+    assert any("rows; it never moves: its friction is" in line for line in seen.report.lines())
+    friction = [k for k, name in enumerate(seen.names) if name.startswith("F") and name[-1] == "2"]
+    assert friction and not seen.columns[..., friction].any()
     frictionless = planar_arm(friction=False)
     seen = observe(frictionless, [Log("a", ("1", "2"), t, q, np.ones_like(q), qd, qdd)])
     assert seen.used.all()
@@ -187,7 +189,7 @@ def test_what_cannot_be_observed_is_refused():
     with pytest.raises(DataError, match="no logged velocities qd1"):
         observe(model, [log], Processing(derivatives="log"))
     still = dataclasses.replace(log, q=np.zeros_like(log.q))
-    with pytest.raises(DataError, match="no usable row is left: joint 1: never moves"):
+    with pytest.raises(DataError, match="run: no joint moves; expected a motion"):
         observe(model, [still])
     short = dataclasses.replace(log, time=log.time[:30], q=log.q[:30], tau=log.tau[:30])
     with pytest.raises(DataError, match=r"0\.\d+ s without a gap; expected more than 2 s"):

@@ -28,18 +28,27 @@ def test_clipping_is_caught_and_clean_signals_are_not():
     noise = np.random.default_rng(0).normal(0, 0.01, t.shape)
     sine = np.sin(2 * np.pi * t)
     clipped = np.clip(1.5 * sine + noise, -1.0, 1.0)
-    caught = saturated(clipped)
+    caught = saturated(clipped, t)
     assert caught.sum() > 0.9 * np.sum(np.abs(1.5 * sine) > 1.05)
     assert np.all(np.abs(clipped[caught]) == 1.0)
-    one_sided = saturated(np.minimum(1.5 * sine, 1.0))
+    one_sided = saturated(np.minimum(1.5 * sine, 1.0), t)
     assert one_sided.any() and not one_sided[sine < 0].any()
     for resolution in (1e-4, 1e-3, 1e-2, 0.1):  # crests of 3 to 200 equal samples
         for scale in (1.0, 1.0 / 3.0):
             rounded = np.round(sine / resolution) * resolution * scale
-            assert not saturated(rounded).any()
-            assert not saturated(np.round((sine + noise) / resolution) * resolution).any()
-    assert not saturated(np.full(100, 3.0)).any()
-    assert not saturated(np.array([np.nan] * 50)).any()
+            assert not saturated(rounded, t).any()
+            assert not saturated(np.round((sine + noise) / resolution) * resolution, t).any()
+    assert not saturated(np.full(100, 3.0), t[:100]).any()
+    assert not saturated(np.array([np.nan] * 50), t[:50]).any()
+
+
+def test_a_held_torque_and_that_of_a_joint_at_rest_are_not_at_a_limit():
+    t = np.arange(4000) / 1000.0
+    held = np.repeat(np.sin(2 * np.pi * t)[::20], 20)
+    assert not saturated(held, t).any()
+    random = np.random.default_rng(1)
+    torque = np.where(t < 2.0, np.sin(9.0 * t) + 0.01 * random.normal(size=4000), 3.0)
+    assert not saturated(torque, np.minimum(t, 2.0)).any()
 
 
 def test_pieces_end_at_gaps_and_segment_changes():
@@ -164,6 +173,12 @@ def test_the_motion_band_is_that_of_the_fastest_joint_and_noise_does_not_move_it
     assert band_of(split(log, 0, False)[0][0]) == pytest.approx(3.0, abs=0.15)
 
 
+def rings_of(log):
+    """Joints of a log that ring."""
+    pieces, _ = split(log, 0, False)
+    return what_rings(spectra_of(pieces), [0.0] * len(log.joints), pieces)
+
+
 def ringing_log(share, hertz, of=0.3):
     """Two joints; the second also rings with that share of its velocity's energy."""
     time = np.arange(20000) * 1e-3
@@ -176,7 +191,7 @@ def ringing_log(share, hertz, of=0.3):
 @pytest.mark.parametrize("share", [0.02, 0.17, 0.97])
 def test_what_rings_far_above_the_motion_is_no_motion(share):
     piece = split(ringing_log(share, 93.0), 0, False)[0][0]
-    (found,) = what_rings(spectra_of([piece]))
+    (found,) = rings_of(ringing_log(share, 93.0))
     assert found.joint == 1
     assert found.frequency == pytest.approx(93.0, abs=0.1)
     assert found.share == pytest.approx(share, rel=0.02)
@@ -186,13 +201,14 @@ def test_what_rings_far_above_the_motion_is_no_motion(share):
 
 @pytest.mark.parametrize(("share", "hertz"), [(0.001, 93.0), (0.5, 20.0)])
 def test_little_energy_or_a_frequency_near_the_motion_is_no_ringing(share, hertz):
-    assert what_rings(spectra_of(split(ringing_log(share, hertz), 0, False)[0])) == []
+    assert rings_of(ringing_log(share, hertz)) == []
 
 
 def test_a_robot_that_only_shakes_moves():
     time = np.arange(20000) * 1e-3
-    piece = split(log_of(time, np.sin(2 * np.pi * 60.0 * time)[:, None]), 0, False)[0][0]
-    assert what_rings(spectra_of([piece])) == []
+    log = log_of(time, np.sin(2 * np.pi * 60.0 * time)[:, None])
+    piece = split(log, 0, False)[0][0]
+    assert rings_of(log) == []
     assert band_of(piece) == pytest.approx(60.0, abs=0.5)
 
 
