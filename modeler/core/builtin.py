@@ -40,7 +40,7 @@ EFFECTS = (
     "external_force", "elasticity", "backlash", "motor_ripple", "joint_ripple",
     "encoder_eccentricity", "encoder_offset", "time_delay", "drive_gain", "drift",
 )  # fmt: skip
-"""Ids of the catalogue, in its order."""
+"""Ids of the catalogue that a simulated machine may hide, in its order."""
 
 
 def builtin_names() -> tuple[str, ...]:

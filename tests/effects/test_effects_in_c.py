@@ -96,7 +96,7 @@ def test_every_id_of_the_contract_is_there() -> None:
         link_inertia base_tilt external_force elasticity backlash motor_ripple joint_ripple
         encoder_offset encoder_eccentricity time_delay drive_gain drift coupled_inertia
     """
-    assert {effect.id for effect in CATALOGUE} == set(wanted.split())
+    assert {effect.id for effect in CATALOGUE} == {*wanted.split(), "torque_lag"}
 
 
 def test_an_encoders_error_moves_links_and_rotor() -> None:
