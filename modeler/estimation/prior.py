@@ -355,5 +355,6 @@ def describe_unused_prior(spec: ModuleSpec, what: str, use: str) -> tuple[str, .
             "method weighted"
         )
     share = spec.inertial_uncertainty
-    said = f"{what} does not use inertial = {share:g} of [parameters.uncertainty]{use}"
-    return () if share is None else (said,)
+    if share is None:
+        return ()
+    return (f"{what} does not use inertial = {share:g} of [parameters.uncertainty]{use}",)
