@@ -489,7 +489,9 @@ def load(place: str | Path) -> Any:
 def holds_model(place: str | Path) -> bool:
     """True of a model file, by its ending or because it begins as JSON does; False of a robot."""
     try:
-        begins = Path(place).is_file() and read_file(Path(place)).lstrip()[:1] == b"{"
+        text = read_file(Path(place)) if Path(place).is_file() else b""
     except OSError:
-        begins = False  # the robot's reader says why
-    return begins or Path(place).suffix.lower() == ".json"
+        text = b""  # the robot's reader says why
+    if text.lstrip()[:1] == b"{":
+        return True
+    return Path(place).suffix.lower() == ".json" and b"mdh" not in text

@@ -241,7 +241,7 @@ REFUSED: dict[str, tuple[Any, str]] = {
     "logs": (lambda m: md.identify("demo-arm", 3), "identify: got 3 as logs; expected"),
     "robot": (lambda m: md.identify(3, "x.csv"), "identify: got 3 as robot; expected a robot"),
     "held out": (
-        lambda m: md.identify("demo-arm", m[0], m[0]), "--holdout mon.parquet: shares rows"),
+        lambda m: md.identify("demo-arm", m[0], m[0]), "holdout mon.parquet: shares rows"),
     "predict": (lambda m: m[1].predict(3.0), "predict: got 3.0 as log; expected a text or a path"),
     "joint": (lambda m: m[1].add("spring", 9), "no joint 9|joint 9"),
     "effect": (lambda m: m[1].add("sprin"), "sprin"),

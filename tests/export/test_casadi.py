@@ -182,5 +182,5 @@ def test_what_is_not_there_is_said() -> None:
     found = export(loaded, to="casadi")
     assert "forward_dynamics" in found.functions
     assert not any("forward_dynamics" in note for note in found.notes)
-    with pytest.raises(ModelerError, match=r"--like arm\.urdf: is for robot files, and --to says"):
+    with pytest.raises(ModelerError, match=r"like arm\.urdf: is for robot files, and to says"):
         export(loaded, to="casadi", like="arm.urdf")

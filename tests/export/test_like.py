@@ -255,7 +255,7 @@ def test_only_changed_numbers_are_listed(tmp_path, capsys) -> None:
     ("a.xml", b'armature="0.05"', b'springdamper="1 1"', "springdamper makes damping"),
     ("a.xml", b'gear="2"', b'gear="2" armature="0.1"', "actuators state armature or damping"),
     ("a.txt", MJCF, b"<x/>", r"expected <robot> \(URDF\)"),
-    ("a.urdf", MJCF, URDF, "URDF, and --to or the ending of --out says mjcf"),
+    ("a.urdf", MJCF, URDF, "URDF, and to or the ending of out says mjcf"),
 ])  # fmt: skip
 def test_what_cannot_be_replaced_is_refused(tmp_path, name, old, new, word) -> None:
     robot = read_robot(written(tmp_path, "arm.xml", MJCF))
@@ -270,7 +270,7 @@ def test_what_cannot_be_replaced_is_refused(tmp_path, name, old, new, word) -> N
 
 def test_no_file_is_called_what_it_is_not(tmp_path) -> None:
     robot, place = read_robot(written(tmp_path, "arm.xml", MJCF)), tmp_path / "arm.xml"
-    with pytest.raises(DataError, match="MJCF, and --to or the ending of --out says urdf"):
+    with pytest.raises(DataError, match="MJCF, and to or the ending of out says urdf"):
         export(robot, tmp_path / "better.urdf", like=place)
     assert not (tmp_path / "better.urdf").exists()
 
@@ -289,7 +289,7 @@ def test_a_body_of_an_included_file_is_refused(tmp_path) -> None:
 def test_nothing_is_written_over_unasked(tmp_path) -> None:
     place = written(tmp_path, "arm.urdf", URDF)
     robot = changed(read_robot(place), np.random.default_rng())
-    with pytest.raises(ModelerError, match="--force"):
+    with pytest.raises(ModelerError, match="with force"):
         export(robot, place, like=place)
     export(robot, tmp_path / "new.urdf", like=place)
     with pytest.raises(DataError, match="cannot be read"):

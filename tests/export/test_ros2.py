@@ -253,5 +253,5 @@ def test_what_is_refused(tmp_path) -> None:
             export(robot, tmp_path / "p", to=to)
         with pytest.raises(ModelerError, match="wrist: a robot without values; write"):
             export(load("wrist"), tmp_path / "p", to=to)
-        with pytest.raises(ModelerError, match=f"arm.urdf: is for robot files, and --to says {to}"):
+        with pytest.raises(ModelerError, match=f"arm.urdf: is for robot files, and to says {to}"):
             export(robot, tmp_path / "p", to=to, like="arm.urdf")
