@@ -11,7 +11,7 @@ from modeler.core.errors import DataError
 from modeler.robot import Limits, Robot
 
 if TYPE_CHECKING:
-    from modeler.simulation.trajectory import Reference
+    from modeler.simulation.trajectory import MOST_SAMPLES, Reference
 
 
 _MOST = {
@@ -19,7 +19,6 @@ _MOST = {
     "linear_resolution": 1.0, "torque_noise": 100.0, "process_noise": 100.0,
 }  # fmt: skip
 """What may be 0 and more, up to this."""
-MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
 _FORM = "EFFECT, EFFECT@JOINT or EFFECT@JOINT:name=value,..., as in stribeck@2:extra=3"
 
 
