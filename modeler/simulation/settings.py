@@ -6,12 +6,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from modeler.core.brief import Brief
-from modeler.core.builtin import MOTIONS
+from modeler.core.builtin import MOST_SAMPLES, MOTIONS
 from modeler.core.errors import DataError
 from modeler.robot import Limits, Robot
 
 if TYPE_CHECKING:
-    from modeler.simulation.trajectory import MOST_SAMPLES, Reference
+    from modeler.simulation.trajectory import Reference
 
 
 _MOST = {

@@ -12,12 +12,12 @@ import pyarrow.csv as pacsv
 import pyarrow.parquet as pq
 from scipy.interpolate import BPoly, make_interp_spline
 
+from modeler.core.builtin import MOST_SAMPLES
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import check_unpacked, read_file
 from modeler.robot import Limits, Robot
 from modeler.simulation.portable_math import sine_and_cosine, ten_digits
 
-MOST_SAMPLES = 20_000_000  # 5.5 hours at 1 kHz; gigabytes of states already
 _MARGIN = 0.92  # of the limits: the joints overshoot the command a little
 _SPEEDS = (1.0, 0.6, 0.25, 1.0, 0.4, 0.1)  # of the top speed, taken in turn
 _LONGEST = 1.4  # s, of one move: slow moves are short ones

@@ -47,6 +47,8 @@ def find_wrong_lines(lines: list[str], truth: Truth) -> list[str]:
         command, _, said = line.partition(": ")
         if command == "log" and re.match(r"^(?:q|qd|qc|tau)\d+ ", said):
             wrong += _wrong_row(said, truth, line)
+        elif "gaps" in truth.ways and "clock time" in said:
+            continue
         elif not HARMLESS.search(said) and any(re.search(fault, said) for fault in FAULTS):
             wrong.append(line)
     return wrong
@@ -56,7 +58,7 @@ def _wrong_row(said: str, truth: Truth, line: str) -> list[str]:
     """A row of the table of channels: its resolution, if one is stated, is right."""
     cells = said.split()
     step = truth.steps.get(cells[0])
-    stated = next((cell for cell in cells[4:5] if re.fullmatch(r"[\d.e-]+", cell)), None)
+    stated = next((cell for cell in cells[4:5] if re.fullmatch(r"[\d.][\d.e-]*", cell)), None)
     if step and stated and not 0.5 < float(stated) / step < 2.1:
         return [line]
     return [line] if any(re.search(fault, said) for fault in FAULTS[:6]) else []
