@@ -39,14 +39,12 @@ class Outcome:
         status: of the process; 0 done, `INTERRUPTED` cancelled.
         error: the line that says why it is not 0; "" where it is.
         lines: of its stdout.
-        notes: lines that it told beside, without the error.
         seconds: that it took.
     """
 
     status: int
     error: str
     lines: tuple[str, ...]
-    notes: tuple[str, ...]
     seconds: float
 
     @property
@@ -170,9 +168,7 @@ class Running:
 
     def _ended(self, status: int, error: str) -> Outcome:
         self.share, self.doing = 1.0, error or "done"
-        notes = [found[1] for line in self._told if (found := _TOLD.fullmatch(line))]
-        notes = [note for note in notes if note != error]
-        return Outcome(status, error, tuple(self.lines), tuple(notes), self.seconds)
+        return Outcome(status, error, tuple(self.lines), self.seconds)
 
     async def _hear(self, stream: asyncio.StreamReader) -> None:
         async for line in _lines(stream):

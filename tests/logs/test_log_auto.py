@@ -217,7 +217,7 @@ def test_a_mistake_in_these_tables_is_one_line(text, line):
 
 
 def test_words_of_a_mapping_are_told(case):
-    with pytest.raises(DataError, match=r"--map automatic: expected .*, or auto"):
+    with pytest.raises(DataError, match=r"mapping automatic: expected .*, or auto"):
         read_logs(case.compiled, [], ["automatic"])
     assert load("emps").fit == {}
 

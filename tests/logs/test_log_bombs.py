@@ -11,7 +11,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from modeler.core.errors import DataError
+from modeler.core.errors import DataError, FitWarning
 from modeler.logs.columns import Wanted
 from modeler.logs.readers import read_columns
 from modeler.numerics.spectra import lap, longest_stretch
@@ -171,7 +171,8 @@ def test_a_pause_of_days_costs_nothing(case, tmp_path):
     time = case.table["time"].copy()
     time[len(time) // 2 :] += 1e8
     path = csv(tmp_path / "run.csv", {**case.table, "time": time})
-    model = identify("demo-arm", [f"{path}@:2"])
+    with pytest.warns(FitWarning, match="is not valid"):  # of two seconds
+        model = identify("demo-arm", [f"{path}@:2"])
     assert model.compare([f"{path}@2:"]).to_json()["samples"] > 0
     assert model.missing([f"{path}@2:"]) is not None
 

@@ -166,7 +166,7 @@ def test_episodes_are_segments(times, case, tmp_path):
     (log,) = read_logs(case.compiled, [path], ["auto", *rate, "topic=data/demo_9"])
     assert log.q == pytest.approx(joined(case.table, "q")[600:1100])
     if not times:
-        with pytest.raises(DataError, match=r"no column time; .*--map rate=HZ"):
+        with pytest.raises(DataError, match=r"no column time; .*mapping rate=HZ"):
             read_logs(case.compiled, [path], ["auto"])
 
 

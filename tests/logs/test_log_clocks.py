@@ -129,7 +129,10 @@ def test_a_coarse_log_is_told_and_its_rate_works(step, case, tmp_path):
     rate = 1.0 / float(np.median(np.diff(case.table["time"])))
     table = {**case.table, "time": step * np.floor(case.table["time"] / step + 1e-9)}
     path = csv(tmp_path / "coarse.csv", table)
-    told = rf"times are rounded to {step:g} s and repeat; rows are even: give --map rate={rate:g}$"
+    told = rf"times are rounded to {step:g} s and repeat; rows are even: give mapping rate="
+    told += f"{rate:g}$"
+        rf"times are rounded to {step:g} s and repeat; rows are even: give mapping rate={rate:g}$"
+    )
     for mapping in ((), ["auto"]):
         with pytest.raises(DataError, match=told):
             case.fitted(path, mapping)

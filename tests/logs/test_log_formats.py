@@ -49,7 +49,7 @@ def test_an_array_may_be_chosen_by_its_group(case, tmp_path):
 def test_what_is_no_column_is_told(case, tmp_path):
     path = writers.mat(tmp_path / "run.mat", case.table)
     (log,) = read_logs(case.compiled, [path], under("data.", MAPPING))
-    assert "pose (4 x 4) left out: no columns of" in log.notes[0]
+    assert "pose (4 x 4) left out: no columns of" in " ".join(log.told)
 
 
 def test_units_that_a_file_states_are_used_and_told(case, tmp_path):
@@ -68,14 +68,15 @@ def test_other_topics_hold_their_last_message(case, tmp_path):
     assert np.isnan(heat[:50]).all()
     assert heat[50:150] == pytest.approx(np.full(100, 70.0))  # row 50 has its stamp
     (log,) = read_logs(case.compiled, [path], mapping)
-    joined = [note for note in log.notes if note.startswith("/motor/heat joined to that clock")]
+    joined = [line for line in log.told if line.startswith("/motor/heat joined to that clock")]
     assert len(joined) == 1 and "at most 0.099 s old" in joined[0]
-    assert log.notes[0].startswith("rows are the messages of /joint_states")
+    assert any(line.startswith("rows are the messages of /joint_states") for line in log.told)
+    assert log.notes == ()
 
 
 def test_of_several_topics_one_is_chosen(case, tmp_path):
     path = writers.bag(tmp_path / "run", case.table, extra_topic="/other/joint_states")
-    with pytest.raises(DataError, match=r"2 topics may hold the motion: .*--map topic=/"):
+    with pytest.raises(DataError, match=r"2 topics may hold the motion: .*mapping topic=/"):
         read_logs(case.compiled, [path], ROS)
     (log,) = read_logs(case.compiled, [path], {**ROS, "topic": "/joint_states"})
     assert log.tau[:, 0] == pytest.approx(case.table["tau1"], rel=1e-14)

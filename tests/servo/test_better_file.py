@@ -53,7 +53,13 @@ def test_a_spoilt_file_comes_back_better(tmp_path, monkeypatch, capsys, seed):
     logs = ["log0.parquet", "log1.parquet"]
     assert main(["fit", "arm.urdf", *logs, "--map", "auto", "--out", "arm.model.json"]) == 0
     told = capsys.readouterr()
-    assert "\nValid for torque prediction: " in told.out, seed
+    # MuJoCo's friction bends near rest: halves of the motion may differ by more than their noise.
+    valid = re.search(
+        r"\nValid for torque prediction(: | on similar motions only: )"
+        r"cross-validated error at most ([\d.]+) % on every joint\.(.*)", told.out
+    )  # fmt: skip
+    assert valid and float(valid[2]) < 0.5, (seed, told.out)
+    assert valid[1] == ": " or "rows of little and of much" in valid[3], (seed, valid[3])
     assert "added to the joints: rotor_inertia, offset, of which the file says nothing" in told.err
     assert main(["export", "arm.model.json", "--to", "mjcf", "--like", "arm.xml",
                  "--out", "better.xml"]) == 0  # fmt: skip

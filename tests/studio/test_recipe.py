@@ -147,7 +147,7 @@ def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
     (tmp_path / "steps.sh").write_text(recipe.script(retold(worked)), encoding="utf-8")
     fresh = tmp_path / "fresh"
     fresh.mkdir()
-    environment = os.environ | {"MODELER": f"{sys.executable} -m modeler.cli"}
+    environment = os.environ | {"MODELER": f"{sys.executable} -m modeler"}
     subprocess.run(["sh", "../steps.sh"], cwd=fresh, env=environment, check=True)
     check_same(worked, fresh)
     there, here = (

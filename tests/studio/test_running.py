@@ -16,6 +16,12 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="NOT CHECKED: process
 
 LONG = ("simulate", "demo-arm", "--duration", "3000", "--out")
 
+URDF = """<robot name="arm"><link name="base"/><link name="upper"><inertial><mass value="2"/>
+<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="turn" type="continuous"><parent link="base"/><child link="upper"/>
+<axis xyz="0 1 0"/></joint></robot>
+"""
+
 
 def run(folder: Path, *words: str) -> tuple[Outcome, list[tuple[float | None, str]]]:
     """The end of a command, and all that was told before."""
@@ -71,9 +77,10 @@ def test_an_error_is_the_line_that_the_command_prints(tmp_path, words, status, t
 
 
 def test_notes_are_no_errors(tmp_path: Path) -> None:
-    outcome, _ = run(tmp_path, "robots", "--show", "wrist")
-    assert outcome.status == 0 and outcome.notes == ("--show may be left out now",)
-    assert any("wrist" in line for line in outcome.lines)
+    (tmp_path / "arm.urdf").write_text(URDF)
+    outcome, _ = run(tmp_path, "robots", "arm.urdf")  # which tells on stderr what it assumed
+    assert outcome.status == 0 and outcome.error == ""
+    assert any("[mdh]" in line for line in outcome.lines)
 
 
 def test_a_fault_of_the_program_says_how_to_report_it(tmp_path: Path, monkeypatch) -> None:

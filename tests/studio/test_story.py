@@ -157,7 +157,7 @@ def the_script_of_the_demonstration_makes_the_same(studio, seat, tmp_path):
     name, content = downloaded(seat, "Shell script")
     assert name == "steps.sh" and content.startswith(b"#!/bin/sh")
     (tmp_path / name).write_bytes(content)
-    environment = os.environ | {"MODELER": f"{sys.executable} -m modeler.cli"}
+    environment = os.environ | {"MODELER": f"{sys.executable} -m modeler"}
     fresh = tmp_path / "fresh"
     fresh.mkdir()
     subprocess.run(["sh", f"../{name}"], cwd=fresh, env=environment, check=True)
