@@ -336,7 +336,7 @@ def _check_nyquist(logs: Sequence[Log], pieces: Sequence[Piece], processing: Pro
             raise DataError(
                 f"{log.name}: position filter (--cutoff) of {given:g} Hz on a log "
                 f"sampled at {rate:.4g} Hz; expected less than its Nyquist frequency of "
-                f"{0.5 * rate:.4g} Hz; give `modeler fit` a lower --cutoff, or sample faster"
+                f"{0.5 * rate:.4g} Hz; give a lower --cutoff, or sample faster"
                 + "".join(f"; {log.name}: {note}" for note in log.notes)
             )
 

@@ -180,7 +180,8 @@ def test_the_full_rate_is_that_of_the_rows(machine: Machine) -> None:
 @pytest.mark.parametrize("cutoff", [200.0, 350.0])
 def test_a_cutoff_above_nyquist_is_refused(machine: Machine, cutoff: float) -> None:
     log = machine.log("a.csv", wandering(np.arange(0.0, 10.0, 1.0 / RATE)), 2)
-    refused = rf"a.csv: .*--cutoff\) of {cutoff:g} Hz .* 400 Hz; expected less than its Nyquist"
+    refused = rf"a.csv: .*position_cutoff\) of {cutoff:g} Hz .* 400 Hz; expected less than"
+    refused += " its Nyquist"
     with pytest.raises(DataError, match=refused):
         observe(machine.compiled, [log], Processing(position_cutoff=cutoff))
     observe(machine.compiled, [log], Processing(position_cutoff=199.0))

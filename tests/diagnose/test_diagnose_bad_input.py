@@ -93,7 +93,7 @@ def test_without_held_out_motion_the_answer_says_what_that_costs(arm: Path, run:
     status, out, _ = run("diagnose", arm / "m.json", arm / "train.parquet")
     assert status == 0
     assert "no held-out logs: errors are cross-validated within the logs, which flatters" in out
-    assert "(cross-validated, up to" in out
+    assert "(cross-validated error, up to" in out
 
 
 def degrees(*joints: int) -> Callable[[Table], Table]:

@@ -131,8 +131,6 @@ def test_a_coarse_log_is_told_and_its_rate_works(step, case, tmp_path):
     path = csv(tmp_path / "coarse.csv", table)
     told = rf"times are rounded to {step:g} s and repeat; rows are even: give mapping rate="
     told += f"{rate:g}$"
-        rf"times are rounded to {step:g} s and repeat; rows are even: give mapping rate={rate:g}$"
-    )
     for mapping in ((), ["auto"]):
         with pytest.raises(DataError, match=told):
             case.fitted(path, mapping)
