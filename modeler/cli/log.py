@@ -126,7 +126,7 @@ def _heard(compiled: CompiledModel, place: str, mapping: LogMap, seen: LogInspec
     verdict = result.verdict
     lines = [*observation.report.logs[0].notes, *(f.line for f in found if not f.unseen)]
     if verdict is not None and not verdict.usable:
-        lines += [*verdict.doubts, f"a fit of {observation.robot} is {verdict.line}"]
+        lines += [*verdict.doubts, f"a fit of {observation.robot}: {verdict.line}"]
     elif result.relative_error > _POOR:
         lines.append(f"a fit of {observation.robot} leaves {percent(result.relative_error)} of the "
                      "torque unexplained")  # fmt: skip

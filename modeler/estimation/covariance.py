@@ -232,7 +232,7 @@ class Halves:
             return []
         column, joint, signal, apart = self.worst
         why = (
-            "by more than noise: an effect is missing, and `modeler diagnose` names it"
+            "by more than noise: what the model leaves out counts; `modeler diagnose` looks for it"
             if apart > _FAR
             else "and most of the residual lasts from row to row: noise that remembers, or an "
             "effect that is missing; `modeler diagnose` tells which"

@@ -72,7 +72,7 @@ def test_a_model_where_a_robot_is_expected_and_the_other_way(place, capsys, tmp_
         (file, f"is a robot; expected a model: make one with `modeler fit {file} "),
         ("two-link", "expected a model, which `modeler fit --out` writes, no robot"),
     ):
-        status, _, err = run(capsys, "compare", robot, log)
+        status, _, err = run(capsys, "diagnose", robot, log)
         assert status == 1 and len(err.splitlines()) == 1
         assert f"{robot}: " in err and told in err
 

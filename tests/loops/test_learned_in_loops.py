@@ -15,6 +15,6 @@ def test_a_law_of_the_load_is_refused_in_loops(tmp_path: Path) -> None:
     words = ["--duration", "6", "--rate", "100", "--seed", "1", "--out", str(log)]
     assert main(["simulate", "five-bar", *words]) == 0
     model = api.identify(api.load("five-bar"), [log])
-    told = "--of load: five-bar has loops, and there a law reads the q, v and a of its joint"
+    told = "of load: five-bar has loops, and there a law reads the q, v and a of its joint"
     with pytest.raises(DataError, match=told):
         api.add(model, "learned", [log], joint="11", law=LawAsked(("load",)))
