@@ -230,6 +230,9 @@ def _no_tilt(state: State, pick: Candidate, parameters: Mapping[str, float]) -> 
 AS_WELL = 1.1
 """Ratio of two squared residuals below which the data do not tell two filters apart."""
 
+EITHER = "describes it as well"
+"""Ends the objection to a filter that these data do not tell from a delay."""
+
 
 def _no_lag(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """A torque that is only late, or of which a part alone is filtered.
@@ -247,8 +250,8 @@ def _no_lag(state: State, pick: Candidate, parameters: Mapping[str, float]) -> s
 
     (filtered, _), (late, half) = least(1.0), least(2.0)
     if late < AS_WELL * filtered:
-        how = "as well" if filtered < AS_WELL * late else "better"
-        return f"a pure delay of {2e3 * half:.2g} ms describes it {how}"
+        how = EITHER if filtered < AS_WELL * late else "describes it better"
+        return f"a pure delay of {2e3 * half:.2g} ms {how}"
     if filtered > AS_WELL * problem.squares(pick, np.array([share])):
         return f"a filter that only {percent(share)} of the torque passes describes it better"
     return ""

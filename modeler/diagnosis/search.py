@@ -26,7 +26,7 @@ from modeler.diagnosis.judge import (
     leading,
     tried,
 )
-from modeler.diagnosis.plausible import DRIVES, drives, objection
+from modeler.diagnosis.plausible import DRIVES, EITHER, drives, objection
 from modeler.diagnosis.profile import explained_by, values_of
 from modeler.diagnosis.state import SearchData, State, state_of, together, visible
 from modeler.effects import Effect, Needs, Shape
@@ -433,9 +433,10 @@ def put_in(state: State, best: Judged, veto: Veto | None) -> tuple[Judged, State
     pick, values = later.picks[-1], later.values[-1]
     named = values_of(later, pick, values, np.zeros(len(values)))
     why = objection(later, pick, named.value | dict(pick.shapes))
-    lags = pick.joint is None and Needs.LAG in pick.effect.needs
-    short = lags and float(values[0]) * pick.shapes["tau"] < SHORT
-    if why and (short or Needs.TILT in pick.effect.needs):
+    lags = Needs.LAG in pick.effect.needs
+    short = lags and pick.joint is None and float(values[0]) * pick.shapes["tau"] < SHORT
+    # A lag of no certain kind would take the place of what rounds torques too.
+    if why and (short or why.endswith(EITHER) or Needs.TILT in pick.effect.needs):
         return dataclasses.replace(best, why=why), None
     return dataclasses.replace(best, why=why) if why else best, later
 

@@ -84,6 +84,16 @@ def test_a_pure_delay_is_no_filter(case: Case) -> None:
     assert (whole.effects[0].effect, whole.effects[0].joint) == ("time_delay", None)
 
 
+def test_what_is_a_delay_or_a_filter_takes_no_place(case: Case) -> None:
+    """Too short for these data to tell: it is told, and is in no model that judges others."""
+    for how in (low_passed, late):
+        found = case.found(changed(how, 1, 0.004))
+        assert not stated_friction(found) and not found.addable
+        assert all(step.pick.effect.id != "torque_lag" for step in found.search.steps)
+        assert any("(torque_lag), joint 2" in line and "describes it as well" in line
+                   for line in found.sentences)  # fmt: skip
+
+
 def test_less_than_half_a_sample_is_no_effect(case: Case) -> None:
     step = float(np.median(np.diff(case.train.time)))
     found = case.found(changed(low_passed, 0, 0.5 * CONVENTION * step))

@@ -272,6 +272,7 @@ def test_text_of_a_tree():
     uses = {use.effect: use for use in robot.effects}
     assert {name: use.joints for name, use in uses.items()} == {
         "rotor_inertia": ("1", "2"), "viscous": ("1", "2"), "coulomb": ("1", "2"), "spring": ("2",),
+        "offset": ("1", "2"),
     }  # fmt: skip
     assert uses["spring"].shaped[0].shapes == {"q0": 0.1, "h": 0.0}
     assert robot.uncertainty == {"inertial": 0.3}
