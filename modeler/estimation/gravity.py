@@ -10,7 +10,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from modeler.estimation.nearest_body import Machine, machine_of
 from modeler.observation import ThinnedRows
@@ -28,6 +27,7 @@ NEAR = 0.05
 _STEP = 1e-5  # rad or m of differences
 _EARTH = 9.81  # m/s^2
 _SCAN = (-2.0, -1.0, -0.5, 0.0, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 4.0)  # factors
+_FINER = 5  # scans, each within two steps of the one before: factors to 0.002
 _ROUND = (0.0, 0.5, 2.0, -1.0)  # preferred where they do as well
 _AS_WELL = 0.5  # of the sum of logarithms of the errors
 _STARTS = 3  # axes from which a direction is sought
@@ -65,16 +65,16 @@ class Gravity:
         """
         found: list[np.ndarray] = []
         if self.stated.any():
-            scores = [left(x * self.stated) for x in _SCAN]
-            best = int(np.argmin(scores))
-            span = _SCAN[max(0, best - 1)], _SCAN[min(len(_SCAN) - 1, best + 1)]
-            own = minimize_scalar(
-                lambda x: left(x * self.stated), bounds=span, method="bounded",
-                options={"xatol": 1e-3},
-            )  # fmt: skip
-            enough = min(float(own.fun), scores[best]) + _AS_WELL
+            scan = list(_SCAN)
+            for _ in range(_FINER):
+                scores = [left(x * self.stated) for x in scan]
+                best = int(np.argmin(scores))
+                least, least_score = scan[best], scores[best]
+                span = scan[max(0, best - 1)], scan[min(len(scan) - 1, best + 1)]
+                scan = [float(x) for x in np.linspace(*span, 9)]
+            enough = least_score + _AS_WELL
             rounded = [x for x in _ROUND if left(x * self.stated) <= enough]
-            factor = rounded[0] if rounded else float(own.x)
+            factor = rounded[0] if rounded else least
             if factor == 0.0 or min(abs(factor), abs(factor - 1.0)) > NEAR:
                 found.append(factor * self.stated)
         if turned and len(self.stated) == 3:
