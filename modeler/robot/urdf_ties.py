@@ -88,7 +88,7 @@ def _coupled(root: Spot, joints: Joints, tell: Tell) -> Iterator[tuple[Spot, str
         line.needed("ratio", "1")
         if one is None or two is None or one is two or one.parent != two.parent:
             raise spot.place.error(
-                "expected two links whose joints stand on one and the same link; or write a mimic tag"
+                "expected two links whose joints stand on one link; or write a mimic tag"
             )
         yield line, two.name, one.name
 

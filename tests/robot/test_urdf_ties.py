@@ -155,7 +155,7 @@ def test_couplings_are_relations(text: str, offset: str) -> None:
         (urdf(*TREE, PLUGIN.replace("-1.5", "fast")), 'got "fast"; expected a number'),
         (
             urdf(*TREE, COUPLING.replace('link="a"', 'link="c"')),
-            "expected two links whose joints stand on one and the same link",
+            "expected two links whose joints stand on one link",
         ),
         (urdf(*TREE, COUPLING.replace("ratio", "gear")), "ratio is missing"),
         (urdf(*TREE, '<joint_constraint name="t"/>'), "<joint_constraint> ties joints in a way"),
