@@ -217,6 +217,14 @@ def test_the_text_is_the_same_each_time_and_names_no_place_of_this_machine(name)
         assert emit(model, base_parameters(model)).files == emitted.files
 
 
+@pytest.mark.parametrize("precision", ["double", "single"])
+@pytest.mark.parametrize("name", ["five-bar", "orthoglide-2003-similar-legs"])
+def test_no_line_of_the_self_check_of_loops_is_too_long(name, precision):
+    made = module(name)
+    text = emit(made.model, made.base, precision=precision).files["programs/self_check.c"]
+    assert not [line for line in text.splitlines() if len(line) > 100]
+
+
 def test_operation_counts_are_those_that_were_measured_as_reachable():
     """Base regressors without friction: as few operations as any tool's (SymEngine 498+688)."""
     spec = module("panda").emitted.spec

@@ -215,6 +215,7 @@ static void expect(const char *what, int holds)
 static int known_way(const modeler_closure *loops, const modeler_real *way, int most)
 {
     const modeler_work work = known_work(most);
+    const modeler_real *const limits = loops->limits;
     modeler_real u[UNKNOWNS], expected[UNKNOWNS];
     int status;
 
@@ -228,7 +229,8 @@ static int known_way(const modeler_closure *loops, const modeler_real *way, int 
     compare("closing", u, expected, 1, UNKNOWNS, 1e-12);
     expect("more evaluations than allowed", evaluations <= most);
     expect("rows exchanged where a pivot is small",
-           status != MODELER_CLOSED || known_kept.dense[known_kept.at] == (loops->limits[0] + loops->limits[1] + loops->limits[2] < 300));
+           status != MODELER_CLOSED || known_kept.dense[known_kept.at] ==
+                                           (limits[0] + limits[1] + limits[2] < 300));
     return status;
 }
 
@@ -237,8 +239,8 @@ static int known_steps(const modeler_closure *loops, int steps, modeler_real len
                        int soon)
 {
     const modeler_work work = known_work(MOST);
-    modeler_real way[4] = {1, MODELER_REAL(0.2), 1, MODELER_REAL(0.2)}, u[UNKNOWNS], expected[UNKNOWNS];
-    modeler_real x = 1, y = 0;
+    modeler_real way[4] = {1, MODELER_REAL(0.2), 1, MODELER_REAL(0.2)};
+    modeler_real u[UNKNOWNS], expected[UNKNOWNS], x = 1, y = 0;
 
     expect("a posture that is closed", known_way(loops, way, MOST) == MODELER_CLOSED);
     known_posture(way[0], way[1], u);
@@ -283,7 +285,8 @@ static void check_ways(int dense)
         expect("a small pivot", known_way(&one_small, near, MOST) == MODELER_CLOSED);
     }
     expect("a way that is free", known_way(&loops, near, MOST) == MODELER_CLOSED);
-    found[0] = needed = evaluations;
+    needed = evaluations;
+    found[0] = needed;
     for (int most = 0; most < needed; most++) {
         expect("a bound", known_way(&loops, near, most) == MODELER_UNFINISHED);
     }
@@ -313,7 +316,8 @@ static void check_ways(int dense)
         const int apart = found[k] - counts[k];
 
         if (apart < -2 || apart > 2) {
-            printf("closing loops: way %d takes %d evaluations, expected %d\n", k, found[k], counts[k]);
+            printf("closing loops: way %d takes %d evaluations, expected %d\n", k, found[k],
+                   counts[k]);
             failed = 1;
         }
     }
@@ -325,7 +329,8 @@ static void check_ways(int dense)
     known_posture(gap + 5e-5, MODELER_REAL(0.001), u);
     target[0] = u[0];
     target[1] = u[3];
-    expect("an axis that is nearly at a right angle", modeler_close(&loops, target, u, u, &work) == MODELER_CLOSED);
+    expect("an axis that is nearly at a right angle",
+           modeler_close(&loops, target, u, u, &work) == MODELER_CLOSED);
     memset(u, 0, sizeof(u));
     u[0] = gap;
     expect("a singular posture", modeler_close(&loops, near, u, u, &work) == MODELER_SINGULAR);
@@ -334,13 +339,15 @@ static void check_ways(int dense)
         const modeler_real before = u[k];
 
         u[k] = NAN;
-        expect("a start that is none", modeler_close(&loops, near, u, u, &work) == MODELER_NOT_FINITE);
+        expect("a start that is none",
+               modeler_close(&loops, near, u, u, &work) == MODELER_NOT_FINITE);
         u[k] = before;
     }
     for (int k = 0; k < GIVEN; k++) {
         memcpy(target, near, sizeof(target));
         target[k] = INFINITY;
-        expect("a target that is none", modeler_close(&loops, target, u, u, &work) == MODELER_NOT_FINITE);
+        expect("a target that is none",
+               modeler_close(&loops, target, u, u, &work) == MODELER_NOT_FINITE);
         expect("the next one", modeler_close_next(&loops, target, u, &work) == MODELER_NOT_FINITE);
     }
 }
@@ -363,8 +370,8 @@ static void check_motion(int dense)
            modeler_eliminated(&loops, &work, &values, &lu, &nonzeros) == (dense == 0));
     {
         const modeler_real a = u[0], b = u[3], r = u[1], p = u[4], v = speed[0], w = speed[1];
-        const modeler_real right[] = {1, 0, -r * a / p / p, 1 / p, b - 2 * r * r * a / p / p, a + 2 * r / p,
-                                      0, 1, a / p, 0};
+        const modeler_real right[] = {1, 0, -r * a / p / p, 1 / p, b - 2 * r * r * a / p / p,
+                                      a + 2 * r / p, 0, 1, a / p, 0};
         const modeler_real ps = a * v / p, rs = right[2] * v + w / p; /* speeds of p and r */
         const modeler_real ap = (v * p - a * ps) / p / p;             /* d/dt a/p */
         const modeler_real ra = (rs * a / p + r * ap) / p - r * a * ps / p / p / p;
@@ -372,10 +379,13 @@ static void check_motion(int dense)
                                       v + 2 * (rs - r * ps / p) / p, 0, 0, ap, 0};
 
         for (int k = 0; k < UNKNOWNS * GIVEN; k++) {
-            G[k] = rate[k] = NAN;
+            G[k] = NAN;
+            rate[k] = NAN;
         }
         for (int k = 0; k < UNKNOWNS; k++) {
-            ud[k] = gamma[k] = udd[k] = NAN;
+            ud[k] = NAN;
+            gamma[k] = NAN;
+            udd[k] = NAN;
         }
         for (int k = 0; k < GIVEN * GIVEN; k++) {
             forces[k] = NAN;
@@ -389,15 +399,17 @@ static void check_motion(int dense)
         for (int k = 0; k < UNKNOWNS; k++) {
             ud[k] -= right[k * GIVEN] * v + right[k * GIVEN + 1] * w;
             gamma[k] -= rates[k * GIVEN] * v + rates[k * GIVEN + 1] * w;
-            udd[k] -= right[k * GIVEN] * pull[0] + right[k * GIVEN + 1] * pull[1] + rates[k * GIVEN] * v +
-                      rates[k * GIVEN + 1] * w;
-            expect("speeds and accelerations", modeler_fabs(ud[k]) + modeler_fabs(gamma[k]) + modeler_fabs(udd[k]) <
-                                                   1e-11);
+            udd[k] -= right[k * GIVEN] * pull[0] + right[k * GIVEN + 1] * pull[1] +
+                      rates[k * GIVEN] * v + rates[k * GIVEN + 1] * w;
+            expect("speeds and accelerations",
+                   modeler_fabs(ud[k]) + modeler_fabs(gamma[k]) + modeler_fabs(udd[k]) <
+                       1e-11);
         }
         memset(square, 0, sizeof(square));
         for (int k = 0; k < UNKNOWNS * GIVEN * GIVEN; k++) {
             square[k / GIVEN % GIVEN * GIVEN + k % GIVEN] +=
-                right[k / GIVEN / GIVEN * GIVEN + k / GIVEN % GIVEN] * rates[k / GIVEN / GIVEN * GIVEN + k % GIVEN];
+                right[k / GIVEN / GIVEN * GIVEN + k / GIVEN % GIVEN] *
+                rates[k / GIVEN / GIVEN * GIVEN + k % GIVEN];
         }
         modeler_project(&loops, G, rate, GIVEN, forces);
         compare("forces", forces, square, 1, GIVEN * GIVEN, 1e-12);
@@ -416,11 +428,14 @@ static void check_motion(int dense)
     }
 }
 
-/* What the elimination gives, put into its equations: J at one posture, K at another. */
+/* What the elimination gives, put into its equations:
+ * J at one posture, K at another. */
 static void check_elimination(const modeler_real *J, const modeler_real *K)
 {
     enum { S = 9, Z = 27 };
     const modeler_closure *const loops = &orthoglide_2012_loops;
+    const modeler_real *const scale = loops->scale;
+    const int *const solved = loops->solved_places;
     static modeler_real lu[25], G[27], right[S], x[S], A[S * S], B[Z], sum;
     static modeler_real whole[12 * 3];
     modeler_real added = 0;
@@ -459,23 +474,23 @@ static void check_elimination(const modeler_real *J, const modeler_real *K)
     for (int j = 0; j < S; j++) { /* column by column */
         memset(right, 0, sizeof(right));
         for (int k = 0; k < Z; k++) {
-            if (loops->column[k] == loops->solved_places[j]) {
+            if (loops->column[k] == solved[j]) {
                 right[loops->row[k]] = J[k];
             }
         }
         orthoglide_2012_tree_solve(lu, right, x);
         for (int i = 0; i < S; i++) {
-            expect("J^-1 J = 1", modeler_fabs(x[i] - (i == j)) * loops->scale[loops->solved_places[j]] <=
-                                     1e-8 * loops->scale[loops->solved_places[i]]);
+            expect("J^-1 J = 1", modeler_fabs(x[i] - (i == j)) * scale[solved[j]] <=
+                                     1e-8 * scale[solved[i]]);
         }
         for (int k = 0; k < Z; k++) {
-            if (loops->column[k] == loops->solved_places[j]) {
+            if (loops->column[k] == solved[j]) {
                 right[loops->row[k]] = K[k] - J[k];
             }
         }
         orthoglide_2012_tree_solve(lu, right, x);
         for (int i = 0; i < S; i++) {
-            A[i * S + j] = x[i] * loops->scale[loops->solved_places[j]] / loops->scale[loops->solved_places[i]];
+            A[i * S + j] = x[i] * scale[solved[j]] / scale[solved[i]];
             added += A[i * S + j] * A[i * S + j];
         }
     }
@@ -505,16 +520,19 @@ static void check_elimination(const modeler_real *J, const modeler_real *K)
         for (int i = 0; i < S && given == 0; i++) {
             expect("a bound of each entry",
                    x[i] >= 0.999999999 * modeler_fabs(A[i]) *
-                               loops->scale[column] / loops->scale[loops->solved_places[i]]);
+                               scale[column] / scale[solved[i]]);
         }
     }
 }
 
-/* What the elimination of the platform's coordinates gives, put into its equations: J at one posture, K at another. */
+/* What the elimination of the platform's coordinates gives, put into its equations:
+ * J at one posture, K at another. */
 static void check_platform_elimination(const modeler_real *J, const modeler_real *K)
 {
     enum { S = 9, Z = 27 };
     const modeler_closure *const loops = &orthoglide_2012_platform_loops;
+    const modeler_real *const scale = loops->scale;
+    const int *const solved = loops->solved_places;
     static modeler_real lu[18], G[18], right[S], x[S], A[S * S], B[Z], sum;
     static modeler_real whole[12 * 3];
     modeler_real added = 0;
@@ -553,23 +571,23 @@ static void check_platform_elimination(const modeler_real *J, const modeler_real
     for (int j = 0; j < S; j++) { /* column by column */
         memset(right, 0, sizeof(right));
         for (int k = 0; k < Z; k++) {
-            if (loops->column[k] == loops->solved_places[j]) {
+            if (loops->column[k] == solved[j]) {
                 right[loops->row[k]] = J[k];
             }
         }
         orthoglide_2012_tree_platform_solve(lu, right, x);
         for (int i = 0; i < S; i++) {
-            expect("J^-1 J = 1", modeler_fabs(x[i] - (i == j)) * loops->scale[loops->solved_places[j]] <=
-                                     1e-8 * loops->scale[loops->solved_places[i]]);
+            expect("J^-1 J = 1", modeler_fabs(x[i] - (i == j)) * scale[solved[j]] <=
+                                     1e-8 * scale[solved[i]]);
         }
         for (int k = 0; k < Z; k++) {
-            if (loops->column[k] == loops->solved_places[j]) {
+            if (loops->column[k] == solved[j]) {
                 right[loops->row[k]] = K[k] - J[k];
             }
         }
         orthoglide_2012_tree_platform_solve(lu, right, x);
         for (int i = 0; i < S; i++) {
-            A[i * S + j] = x[i] * loops->scale[loops->solved_places[j]] / loops->scale[loops->solved_places[i]];
+            A[i * S + j] = x[i] * scale[solved[j]] / scale[solved[i]];
             added += A[i * S + j] * A[i * S + j];
         }
     }
@@ -599,7 +617,7 @@ static void check_platform_elimination(const modeler_real *J, const modeler_real
         for (int i = 0; i < S && given == 0; i++) {
             expect("a bound of each entry",
                    x[i] >= 0.999999999 * modeler_fabs(A[i]) *
-                               loops->scale[column] / loops->scale[loops->solved_places[i]]);
+                               scale[column] / scale[solved[i]]);
         }
     }
 }
@@ -910,15 +928,21 @@ static void check_postures(void)
     static struct orthoglide_2012_posture sparse, dense;
     static struct orthoglide_2012_state state, other;
     static const double none[9] = {0};
+    const double *const home = orthoglide_2012_home;
     static double phi[N * C], rows[U * C], torques[N];
 
     for (int i = 0; i < STATES; i++) {
         {
-            modeler_closure loops = orthoglide_2012_loops;
+            const modeler_closure *const own = &orthoglide_2012_loops;
+            modeler_closure loops = *own;
 
             loops.limits = none;
-            expect("a stored state", orthoglide_2012_posed(&orthoglide_2012_loops, q + i * N, orthoglide_2012_home, &sparse) == MODELER_CLOSED);
-            expect("a state with rows exchanged", orthoglide_2012_posed(&loops, q + i * N, orthoglide_2012_home, &dense) == MODELER_CLOSED);
+            expect("a stored state",
+                   orthoglide_2012_posed(own, q + i * N, home, &sparse) ==
+                       MODELER_CLOSED);
+            expect("a state with rows exchanged",
+                   orthoglide_2012_posed(&loops, q + i * N, home, &dense) ==
+                       MODELER_CLOSED);
             orthoglide_2012_moved(&loops, qd + i * N, &sparse);
             orthoglide_2012_moved(&loops, qd + i * N, &dense);
             compare("postures, rows exchanged", dense.u, sparse.u, 1, U, TOLERANCE);
@@ -927,22 +951,33 @@ static void check_postures(void)
             other.at = dense;
         }
         {
-            modeler_closure loops = orthoglide_2012_platform_loops;
+            const modeler_closure *const own = &orthoglide_2012_platform_loops;
+            modeler_closure loops = *own;
 
             loops.limits = none;
-            expect("a stored state", orthoglide_2012_posed(&orthoglide_2012_platform_loops, x + i * N, orthoglide_2012_home, &sparse) == MODELER_CLOSED);
-            expect("a state with rows exchanged", orthoglide_2012_posed(&loops, x + i * N, orthoglide_2012_home, &dense) == MODELER_CLOSED);
+            expect("a stored state",
+                   orthoglide_2012_posed(own, x + i * N, home, &sparse) ==
+                       MODELER_CLOSED);
+            expect("a state with rows exchanged",
+                   orthoglide_2012_posed(&loops, x + i * N, home, &dense) ==
+                       MODELER_CLOSED);
             orthoglide_2012_moved(&loops, qd + i * N, &sparse);
             orthoglide_2012_moved(&loops, qd + i * N, &dense);
             compare("postures, rows exchanged", dense.u, sparse.u, 1, U, TOLERANCE);
             compare("coupling, rows exchanged", dense.G, sparse.G, 1, U * 3, TOLERANCE);
             compare("drift, rows exchanged", dense.gamma, sparse.gamma, 1, U, TOLERANCE);
         }
-        expect("a stored state", orthoglide_2012_state(q + i * N, qd + i * N, NULL, &state) == MODELER_CLOSED);
-        expect("a state that is kept", orthoglide_2012_state(q + i * N, qd + i * N, other.at.u, &other) == MODELER_CLOSED);
+        expect("a stored state",
+               orthoglide_2012_state(q + i * N, qd + i * N, NULL, &state) ==
+                   MODELER_CLOSED);
+        expect("a state that is kept",
+               orthoglide_2012_state(q + i * N, qd + i * N, other.at.u, &other) ==
+                   MODELER_CLOSED);
         expect("rows exchanged", other.at.kept.dense[other.at.kept.at] != 0);
-        expect("rates", orthoglide_2012_coupling_rate_at(&state, NULL) == MODELER_CLOSED);
-        expect("rates, rows exchanged", orthoglide_2012_coupling_rate_at(&other, NULL) == MODELER_CLOSED);
+        expect("rates",
+               orthoglide_2012_coupling_rate_at(&state, NULL) == MODELER_CLOSED);
+        expect("rates, rows exchanged",
+               orthoglide_2012_coupling_rate_at(&other, NULL) == MODELER_CLOSED);
         compare("rate, rows exchanged", other.rate, state.rate, 1, U * 3, TOLERANCE);
         dense = other.at;
         for (int k = 0; k < U * C; k++) {
@@ -951,7 +986,9 @@ static void check_postures(void)
         for (int k = 0; k < N * C; k++) {
             phi[k] = NAN;
         }
-        expect("rows of a regressor", orthoglide_2012_tree_next(q + i * N, qd + i * N, qdd + i * N, 1, &dense, rows, phi) == MODELER_CLOSED);
+        expect("rows of a regressor",
+               orthoglide_2012_tree_next(q + i * N, qd + i * N, qdd + i * N, 1,
+                   &dense, rows, phi) == MODELER_CLOSED);
         for (int j = 0; j < N; j++) {
             torques[j] = 0;
             for (int k = 0; k < C; k++) {
@@ -967,15 +1004,20 @@ static void check_postures(void)
     }
     for (int i = 0; i <= STEPS; i++) { /* back to the first state */
         for (int j = 0; j < N; j++) {
-            at[j] = i < STEPS ? q[N + j] + (double)i / STEPS * (q[j] - q[N + j]) : q[j];
+            at[j] = i < STEPS ? q[N + j] + (double)i / (double)STEPS * (q[j] - q[N + j]) : q[j];
         }
-        expect("a path", orthoglide_2012_state_with_bound(at, qd + 0, state.at.u, 50, &state) == MODELER_CLOSED);
+        expect("a path",
+               orthoglide_2012_state_with_bound(at, qd + 0, state.at.u, 50,
+                   &state) == MODELER_CLOSED);
     }
-    expect("its end", orthoglide_2012_state(q, qd + 0, NULL, &other) == MODELER_CLOSED);
+    expect("its end",
+           orthoglide_2012_state(q, qd + 0, NULL, &other) == MODELER_CLOSED);
     compare("a path", state.at.u, other.at.u, 1, U, TOLERANCE);
     compare("a path's coupling", state.at.G, other.at.G, 1, U * 3, TOLERANCE);
     at[0] = NAN;
-    expect("a cycle that fails", orthoglide_2012_state(at, qd + 0, state.at.u, &state) == MODELER_NOT_FINITE);
+    expect("a cycle that fails",
+           orthoglide_2012_state(at, qd + 0, state.at.u, &state) ==
+               MODELER_NOT_FINITE);
     compare("the last posture", state.at.u, other.at.u, 1, U, TOLERANCE);
     check_elimination(values[0] + 9, values[1] + 9);
     check_platform_elimination(values[0] + 9, values[1] + 9);
@@ -983,8 +1025,10 @@ static void check_postures(void)
 
 /* Many samples side by side against the same one after another, wherever the results begin; memory
  * around them must stay as it is. */
-enum { MANY = 37, GUARD = 24, SIGNALS = 0, LONG = N * C, SPARE = 64 };
-static double Q[MANY * N], QD[MANY * N], QDD[MANY * N], one[MANY * N * C], results[3 * GUARD + (MANY * N + 3) * C];
+enum { MANY = 37, GUARD = 24, SPARE = 64, SIGNALS = 0 };
+enum { LONG = N * C };
+static double Q[MANY * N], QD[MANY * N], QDD[MANY * N], one[MANY * N * C];
+static double results[3 * GUARD + (MANY * N + 3) * C];
 static int told[MANY], closed[MANY], singles;
 
 static int counted_next(const double *at, const double *speed, const double *acceleration, int next,
@@ -995,9 +1039,12 @@ static int counted_next(const double *at, const double *speed, const double *acc
 }
 
 /* W by rows, W by columns, of so many samples, from a place on. */
-static void compare_tile(int kind, int samples, int phase, unsigned char *work, const modeler_closure *loops)
+static void compare_tile(int kind, int samples, int phase, unsigned char *work,
+                         const modeler_closure *loops)
 {
-    const struct orthoglide_2012_single counted = {loops, orthoglide_2012_posed, counted_next, modeler_eliminated};
+    const struct orthoglide_2012_single counted = {
+        loops, orthoglide_2012_posed, counted_next, modeler_eliminated
+    };
     modeler_tiled own = *orthoglide_2012_tiled();
     const modeler_tiled *const robot = &own;
     const size_t room = modeler_tile_work(robot), rows = kind == 1 ? (size_t)(samples * N + 3) : 0;
@@ -1021,10 +1068,14 @@ static void compare_tile(int kind, int samples, int phase, unsigned char *work, 
             largest = fmax(largest, fabs(right[k]));
         }
         for (int k = 0; k < length; k++) {
-            double *const given = W + (kind == 1 ? (size_t)(k % C) * rows + (size_t)(i * N + k / C) : (size_t)(i * length + k));
+            const size_t place = kind == 1 ? (size_t)(k % C) * rows + (size_t)(i * N + k / C)
+                                           : (size_t)(i * length + k);
+            double *const given = W + place;
 
             touched |= told[i] != closed[i] ||
-                       (told[i] == 0 ? !(fabs(*given - right[k]) <= 1e-11 * largest) : !isnan(*given));
+                       (told[i] == 0
+                            ? !(fabs(*given - right[k]) <= 1e-11 * largest)
+                            : !isnan(*given));
             *given = -7;
         }
     }
@@ -1035,7 +1086,8 @@ static void compare_tile(int kind, int samples, int phase, unsigned char *work, 
         touched |= work[room + (size_t)i] != 0x5a;
     }
     if (touched != 0 && !failed) {
-        printf("tiles: %d samples, kind %d, place %d: not what single samples give\n", samples, kind, phase);
+        printf("tiles: %d samples, kind %d, place %d: not what single samples give\n", samples,
+               kind, phase);
     }
     failed |= touched;
 }
@@ -1043,7 +1095,8 @@ static void compare_tile(int kind, int samples, int phase, unsigned char *work, 
 static void compare_tiles(void)
 {
     static const int counts[] = {1, 7, 8, 9, MANY};
-    unsigned char *const work = (unsigned char *)malloc(modeler_tile_work(orthoglide_2012_tiled()) + SPARE);
+    const size_t room = modeler_tile_work(orthoglide_2012_tiled());
+    unsigned char *const work = (unsigned char *)malloc(room + SPARE);
 
     if (work == NULL) {
         failed = 1;
@@ -1051,7 +1104,8 @@ static void compare_tiles(void)
     }
     for (int way = 0; way < 4; way++) {
         for (int i = 0; i < MANY * N; i++) {
-            /* Slowly; from the first state to the second; so far that steps are taken; not closed. */
+            /* Slowly; from the first state to the second; so far that steps are taken; and not
+             * closed. */
             static const double steps[] = {1e-4, 0, 2e-2, 1e-4};
 
             Q[i] = q[i % N] + steps[way] * (double)(i / N % 9);
@@ -1069,7 +1123,8 @@ static void compare_tiles(void)
         }
         orthoglide_2012_observation(MANY, Q, QD, QDD, one, told);
         for (int k = 0; k < 2 * 5 * 8; k++) {
-            compare_tile(k / 40, counts[k / 8 % 5], k % 8, work, &orthoglide_2012_loops);
+            compare_tile(k / 40, counts[k / 8 % 5], k % 8, work,
+                         &orthoglide_2012_loops);
             expect("samples side by side", way > 0 || singles < 3);
         }
     }
@@ -1100,7 +1155,8 @@ static void compare_sines(void)
         modeler_sincos(angle, given, given + 1);
         compare("modeler_sincos", given, expected, 1, 2, 1e-15);
     }
-    for (int i = -60000; i <= 60000 && !failed; i += 997) { /* where a sine is small, its digits count */
+    /* Where a sine is small, its digits count. */
+    for (int i = -60000; i <= 60000 && !failed; i += 997) {
         const double angle = 1.5707963267948966 * i, expected[] = {sin(angle), cos(angle)};
         double given[2];
 
@@ -1135,7 +1191,8 @@ static void check_solutions(void)
     failed |= modeler_factor(A, 3) != MODELER_SINGULAR;
     memcpy(A, matrix, sizeof(A));
     A[8] = NAN;
-    failed |= modeler_factor(A, 3) != MODELER_NOT_FINITE || modeler_finite(A, 9) || !modeler_finite(matrix, 9);
+    failed |= modeler_factor(A, 3) != MODELER_NOT_FINITE || modeler_finite(A, 9) ||
+              !modeler_finite(matrix, 9);
 }
 
 int main(void)
@@ -1357,7 +1414,8 @@ int main(void)
     empty();
     orthoglide_2012_observation(STATES, q, qd, qdd, out, status);
     multiply(out, C, beta);
-    compare("orthoglide_2012_observation", product, at_inverse_dynamics, STATES, N, TOLERANCE);
+    compare("orthoglide_2012_observation", product,
+            at_inverse_dynamics, STATES, N, TOLERANCE);
     add_up(at_inertia_matrix, at_coriolis, at_gravity,
            at_friction);
     compare("orthoglide_2012_inertia_matrix and others", product,

@@ -231,8 +231,10 @@ static void multiply_nonzeros(const double *values, const double *parameters)
 
 /* Many samples side by side against the same one after another, wherever the results begin; memory
  * around them must stay as it is. */
-enum { MANY = 37, GUARD = 24, SIGNALS = 0, LONG = ORTHOGLIDE_LEG_TREE_NONZEROS, SPARE = 64 };
-static double Q[MANY * N], QD[MANY * N], QDD[MANY * N], one[MANY * N * C], results[3 * GUARD + (MANY * N + 3) * C];
+enum { MANY = 37, GUARD = 24, SPARE = 64, SIGNALS = 0 };
+enum { LONG = ORTHOGLIDE_LEG_TREE_NONZEROS };
+static double Q[MANY * N], QD[MANY * N], QDD[MANY * N], one[MANY * N * C];
+static double results[3 * GUARD + (MANY * N + 3) * C];
 static double S[MANY * SIGNALS + 1], entries[MANY * LONG];
 
 /* W by rows, W by columns, nonzeros, of so many samples, from a place on. */
@@ -264,7 +266,9 @@ static void compare_tile(int kind, int samples, int phase, unsigned char *work)
             largest = fmax(largest, fabs(right[k]));
         }
         for (int k = 0; k < length; k++) {
-            double *const given = W + (kind == 1 ? (size_t)(k % C) * rows + (size_t)(i * N + k / C) : (size_t)(i * length + k));
+            const size_t place = kind == 1 ? (size_t)(k % C) * rows + (size_t)(i * N + k / C)
+                                           : (size_t)(i * length + k);
+            double *const given = W + place;
 
             touched |= !(fabs(*given - right[k]) <= ROUNDINGS * largest);
             *given = -7;
@@ -277,7 +281,8 @@ static void compare_tile(int kind, int samples, int phase, unsigned char *work)
         touched |= work[room + (size_t)i] != 0x5a;
     }
     if (touched != 0 && !failed) {
-        printf("tiles: %d samples, kind %d, place %d: not what single samples give\n", samples, kind, phase);
+        printf("tiles: %d samples, kind %d, place %d: not what single samples give\n", samples,
+               kind, phase);
     }
     failed |= touched;
 }
@@ -285,7 +290,8 @@ static void compare_tile(int kind, int samples, int phase, unsigned char *work)
 static void compare_tiles(void)
 {
     static const int counts[] = {1, 7, 8, 9, MANY};
-    unsigned char *const work = (unsigned char *)malloc(modeler_tile_work(orthoglide_leg_tree_tiled()) + SPARE);
+    const size_t room = modeler_tile_work(orthoglide_leg_tree_tiled());
+    unsigned char *const work = (unsigned char *)malloc(room + SPARE);
     const modeler_input inputs[] = { {Q, N}, {QD, N}, {QDD, N}, {S, SIGNALS} };
 
     if (work == NULL) {
@@ -317,7 +323,8 @@ static void compare_sines(void)
         modeler_sincos(angle, given, given + 1);
         compare("modeler_sincos", given, expected, 1, 2, 1e-15);
     }
-    for (int i = -60000; i <= 60000 && !failed; i += 997) { /* where a sine is small, its digits count */
+    /* Where a sine is small, its digits count. */
+    for (int i = -60000; i <= 60000 && !failed; i += 997) {
         const double angle = 1.5707963267948966 * i, expected[] = {sin(angle), cos(angle)};
         double given[2];
 
@@ -460,7 +467,8 @@ int main(void)
     empty();
     orthoglide_leg_tree_observation(STATES, q, qd, qdd, out);
     multiply(out, C, beta);
-    compare("orthoglide_leg_tree_observation", product, at_inverse_dynamics, STATES, N, TOLERANCE);
+    compare("orthoglide_leg_tree_observation", product,
+            at_inverse_dynamics, STATES, N, TOLERANCE);
     add_up(at_inertia_matrix, at_coriolis, at_gravity,
            at_friction);
     compare("orthoglide_leg_tree_inertia_matrix and others", product,
