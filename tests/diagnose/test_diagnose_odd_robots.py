@@ -74,4 +74,4 @@ def test_a_diagnosis_ends_in_sentences(name: str, tmp_path: Path, run: Run) -> N
         for words in asked:
             status, out, err = run("diagnose", tmp_path / "m.json", *words)
             assert (status, err) == (0, "") or (status == 1 and err.count("\n") == 1), err
-            assert status or "cross-validated" in out or "held out" in out
+            assert status or "cross-validated error" in out or "held-out error" in out
