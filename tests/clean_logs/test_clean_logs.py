@@ -1,0 +1,42 @@
+"""Nothing that is printed of a machine without a fault is wrong."""
+
+import numpy as np
+import pytest
+
+from tests.clean_logs.judge import find_wrong_lines, print_all
+from tests.clean_logs.machines import PAIRS, Truth, make_machine
+
+DAILY = (107, 103)  # sticks and held, held and single: what once was called clipped and ringing
+SLOW = [pytest.param(seed, marks=pytest.mark.slow) for seed in range(200, 200 + len(PAIRS))]
+
+
+@pytest.mark.parametrize("seed", [*DAILY, *SLOW])
+def test_no_line_is_wrong(seed, tmp_path):
+    truth = make_machine(seed, tmp_path)
+    lines = print_all(tmp_path)
+    assert any(line.startswith("compare: all ") for line in lines), lines
+    assert find_wrong_lines(lines, truth) == []
+    for channel in truth.held:
+        assert any(channel in line and "holds each value" in line for line in lines), channel
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "log: doubt: a.parquet: q4: stays at an end of its range: the position is clipped",
+        "fit: joint 1 rings at 100 Hz, look at the controller's gains",
+        "compare: Joint 3: measured is 0.88 times predicted; the prediction is off by a factor",
+        "log: q1  -  -1.2  1.3  6.28e-07  -",
+        "fit: Traceback (most recent call last):",
+    ],
+)
+def test_the_judge_sees_a_wrong_line(line):
+    truth = Truth(("gaps", "held"), steps={"q1": 6.28e-6})
+    assert find_wrong_lines([line], truth) == [line]
+
+
+def test_the_same_seed_is_the_same_machine(tmp_path):
+    for name in ("a", "b"):
+        make_machine(3, tmp_path / name, ("gaps", "uneven"))
+    one, two = (np.fromfile(tmp_path / x / "train.parquet", np.uint8) for x in ("a", "b"))
+    assert np.array_equal(one, two)
