@@ -122,6 +122,7 @@ def rows_held(values: np.ndarray) -> int:
         return 1
     usual = float(np.median(runs))
     alike = np.mean(np.abs(runs - usual) <= max(1.0, 0.3 * usual)) > ALIKE
+    alike = alike and np.mean(runs < 0.7 * usual) < SHORT
     return round(usual) if alike and usual >= 2.0 else 1
 
 
@@ -159,6 +160,9 @@ SWITCHED = 0.3
 
 ALIKE = 0.7
 """... of which this share is as long as the others."""
+
+SHORT = 0.15
+"""Share of runs that are shorter, at most: differences of an encoder's counts change at any row."""
 
 
 @dataclass(frozen=True)
