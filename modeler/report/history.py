@@ -274,7 +274,7 @@ def joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Pic
     )
     drawn = {own.style for panel in panels for own in panel.series if isinstance(own, Bars)}
     for style, what in ((BETTER, "fall"), (WORSE, "rise")):
-        said += f"; {style.named}: a significant {what}" * (style in drawn)
+        said += f"; {style.named}: a clear {what}" * (style in drawn)
     return Picture(
         name="waterfall_joints",
         title="Error of every joint after every effect",
@@ -285,16 +285,16 @@ def joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Pic
 
 
 def _joint(history: Sequence[Addition], name: str, unit: str) -> Panel:
-    """Bars of one joint: not significantly changed, lower, higher."""
+    """Bars of one joint: no clear change, lower, higher."""
     steps = [step for step in history if name in step.joints]
     names = tuple(_broken(step) for step in steps)
     errors = np.array([100.0 * step.joints[name][1] for step in steps])
     surely = np.array([name in step.changed for step in steps])
     rises = np.array([step.joints[name][1] > step.joints[name][0] for step in steps])
     kinds = (
-        ("not significant", SAME, ~surely),
-        ("significantly lower", BETTER, surely & ~rises),
-        ("significantly higher", WORSE, surely & rises),
+        ("no clear change", SAME, ~surely),
+        ("clearly lower", BETTER, surely & ~rises),
+        ("clearly higher", WORSE, surely & rises),
     )
     series = [
         _bars(label, names, np.where(own, errors, np.nan), style)

@@ -239,7 +239,7 @@ HELD = [
          ("exchanged|swapped|unexplained|cannot show",)),
         ("time in ms", put(time=lambda v: 1000 * v), ("second|Hz",)),
         ("a turn too much", put(q1=at(HALF, SAMPLES, lambda v: v + 2 * np.pi)), ("q1",
-            "jump|turn|leap")),
+            "jump|turn|wrap|leap")),
         ("a spike of 0.5 rad", put(q1=at(700, 701, lambda v: v + 0.5)), ("q1", "spike|jump|leap")),
         ("a torque spike", put(tau1=at(700, 701, 500.0)), ("tau1|joint 1", "spike|jump|leap")),
         ("torque never changes", put(tau2=np.full(SAMPLES, 3.0)), ("joint 2",)),

@@ -81,7 +81,7 @@ DAMAGED = [
     row("model: a built-in robot", "refused", "compare two-link b.csv", "two-link"),
     row("model: of another robot than the log", "told", "compare e.json d.csv", "unexplained"),
     row("model: of a robot with other joints", "refused", "compare m.json e.csv", "e.csv", "q2"),
-    row("model: logs before it", "refused", "compare b.csv m.json", "b.csv", "not a model file"),
+    row("model: logs before it", "refused", "compare b.csv m.json", "b.csv", "not TOML"),
     row("model: twice, no log", "refused", "compare m.json m.json", "m.json", ".csv"),
 ]  # fmt: skip
 

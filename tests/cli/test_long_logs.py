@@ -134,7 +134,7 @@ def test_where_only_the_whole_log_will_do_it_is_read_whole(place, chunked, tmp_p
     assert main(words) == 0
     told = capsys.readouterr()
     assert "counts from another zero from 25 s on" in told.err
-    assert "read as a whole instead" in told.err and "the encoder found another zero" in told.out
+    assert "read as a whole instead" in told.err and "q1: jumps by 0.4 ra" in told.out
     monkeypatch.setattr(observation, "MOST_WHOLE", 5000)
     assert main(words) == 1
     assert "fit its parts, as in moved.parquet@:25" in capsys.readouterr().err

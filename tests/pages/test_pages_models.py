@@ -224,9 +224,9 @@ def test_a_joint_that_got_worse_has_another_colour(made: Made) -> None:
         for panel in row
     }
     assert found == {
-        "Joint 1": {"significantly higher": WORSE},
-        "Joint 2": {"significantly lower": BETTER},
-        "Joint 3": {"not significant": SAME},
+        "Joint 1": {"clearly higher": WORSE},
+        "Joint 2": {"clearly lower": BETTER},
+        "Joint 3": {"no clear change": SAME},
     }
     assert len({own.color for own in (SAME, BETTER, WORSE)}) == 3
     assert_all_named(picture)

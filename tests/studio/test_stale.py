@@ -22,7 +22,7 @@ class Slow:
 
     async def wait(self, told) -> Outcome:
         self.hub.workspace.save(dataclasses.replace(self.hub.project, current=1))
-        return Outcome(0, "", (), (), 0.0)
+        return Outcome(0, "", (), 0.0)
 
 
 def test_a_step_is_about_the_model_that_it_began_with(tmp_path: Path, monkeypatch) -> None:
