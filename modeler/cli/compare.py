@@ -14,6 +14,7 @@ from modeler.api.workflow import are_long, read_logs, recompile
 from modeler.cli.console import Json, draw_page, draw_pictures, note, progress, say_lines, working
 from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.places import LogFile
+from modeler.core.builtin import LOG_ENDINGS
 from modeler.core.errors import DataError
 from modeler.core.estimators import titled
 from modeler.estimation import (
@@ -56,9 +57,9 @@ def run_compare(args: argparse.Namespace) -> Json:
         all(validation.looks_like_noise(item) for item in comparison.joints) and not model.warning
     )
     folder = Path(args.model).parent
-    fitted = dict.fromkeys(log.place(folder) or "FITTED_LOG" for log in model.logs)
+    fitted = dict.fromkeys(place for log in model.logs if (place := log.place(folder)))
     following = (
-        after_compare(args.model, [*fitted], args.logs, held, noise)
+        after_compare(args.model, [*fitted], args.logs, held and bool(fitted), noise)
         if model.logs
         else after_stated(args.model, args.logs, args.map)
     )
@@ -158,6 +159,9 @@ def _opened(args: argparse.Namespace, place: str) -> IdentifiedModel | Robot:
                 f"--{option.replace('_', '-')}: {place} is a robot; expected a model file of "
                 "`modeler fit`; leave the option out"
             )
+    if Path(place).suffix.lower() in LOG_ENDINGS:
+        raise DataError(f"{place}: not a model file, and no robot; write MODEL or ROBOT first, "
+                        "logs next")  # fmt: skip
     return read_robot_with_notes(place)
 
 

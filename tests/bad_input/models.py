@@ -73,15 +73,15 @@ DAMAGED = [
           "bad.json"),
     model("NaN among its numbers", "refused", set_at(*VALUE, to=float("nan")), "bad.json"),
     model("a lone surrogate", "ends", text(lambda t: t.replace("two-link", "\\ud800", 1)), ""),
-    model("a robot file", "refused", lambda r: r["robot_text"], "bad.json", "is a robot"),
+    model("a robot file", "told", lambda r: r["robot_text"], "values that the robot file"),
     row("model: a log", "refused", "compare a.csv b.csv", "a.csv", "not a model file"),
     row("model: Parquet", "refused", "compare c.parquet b.csv", "c.parquet", "not a model file"),
     row("model: none", "refused", "compare nowhere.json b.csv", "nowhere.json"),
     row("model: a folder", "refused", "compare c_code b.csv", "c_code", "folder|directory"),
-    row("model: a built-in robot", "refused", "compare two-link b.csv", "two-link"),
+    row("model: a built-in robot", "told", "compare two-link b.csv", "values that the robot file"),
     row("model: of another robot than the log", "told", "compare e.json d.csv", "unexplained"),
     row("model: of a robot with other joints", "refused", "compare m.json e.csv", "e.csv", "q2"),
-    row("model: logs before it", "refused", "compare b.csv m.json", "b.csv", "not TOML"),
+    row("model: logs before it", "refused", "compare b.csv m.json", "b.csv", "not a model file"),
     row("model: twice, no log", "refused", "compare m.json m.json", "m.json", ".csv"),
 ]  # fmt: skip
 
