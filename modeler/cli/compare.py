@@ -46,7 +46,7 @@ def run_compare(args: argparse.Namespace) -> Json:
     with progress("predicting") as bar:
         comparison, lines, found = judged(model, args.logs, compiled, args.map, bar)
     doubts = [fault.line for fault in found]
-    told = [line for line in lines if line.startswith((_TRAINING, "long logs: "))]
+    told = [line for line in lines if line.startswith((_TRAINING, "long logs: ", "note: "))]
     beside = _without_load(args, model, compiled)
     loads = [] if beside is None else ["", *validation.contest_lines(beside)]
     said = [] if model.logs else model.fit.sentences
@@ -85,6 +85,7 @@ def judged(
         f"{model.fit.error_told()}"
     ] if model.logs else [*model.fit.sentences]  # fmt: skip
     lines += [*model.warning, *_training(model, observation), *observation.report.lines()]
+    lines += observation.report.notes()
     found = log_findings(compiled, observation, model)
     lines += [fault.line for fault in found if fault.certain]
     return comparison, lines, found

@@ -193,7 +193,9 @@ def doubts(
             "shock, or a spike of the measurement; left out of everything"
         )
     lines += [*_moved(model, found.start.data), *data_lines(found.start)]
+    lines += found.start.data.observation.report.notes()
     if other is not None:
+        lines += other.observation.report.notes()
         lines += [*_without_temperature(found.start, other), *_fitted_before(model, other)]
     return tuple(lines)
 

@@ -268,6 +268,15 @@ class DataReport(Presented):
         """What is wrong with the measurements of all logs, one sentence each."""
         return [line for log in self.logs for line in log.doubts()]
 
+    def notes(self) -> list[str]:
+        """What looks like a defect of a log and is used as logged, one sentence each."""
+        return [
+            f"note: {log.name}: {damage.line}"
+            for log in self.logs
+            for damage in log.damages
+            if not damage.is_mended
+        ]
+
     def lines(self) -> list[str]:
         """Lines of text for people."""
         lines = [line for log in self.logs for line in log.lines()]
