@@ -214,7 +214,7 @@ PARQUET = [
     _row_parquet("numbers as text", "ends",
                  _put("tau1", lambda v: pa.array([str(x) for x in v])), "tau1"),
     _row_parquet("time as durations", "ends",
-                 _put("time", lambda v: pa.array((v * 1e9).astype("timedelta64[ns]"))), "usable"),
+                 _put("time", lambda v: pa.array((v * 1e9).astype("timedelta64[ns]"))), "Valid for torque prediction"),
     _row_parquet("integer microseconds for time", "told",
                  _put("time", lambda v: pa.array((v * 1e6).astype(np.int64))), "second"),
     _row_parquet("nulls for NaN", "works",
