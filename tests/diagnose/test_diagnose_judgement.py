@@ -276,8 +276,9 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
 def test_what_an_effect_explains_is_no_matter_of_the_channel(
     monkeypatch: pytest.MonkeyPatch, left: float, certain: bool, told: int
 ) -> None:
+    data = SimpleNamespace(observation=SimpleNamespace(report=SimpleNamespace(notes=list)))
     start, end = (
-        SimpleNamespace(residual=[np.full(10, size)], data=None, picks=()) for size in (1.0, left)
+        SimpleNamespace(residual=[np.full(10, size)], data=data, picks=()) for size in (1.0, left)
     )
     for name in ("_late", "_moved", "data_lines"):
         monkeypatch.setattr(doubts, name, lambda *a: [])
