@@ -160,8 +160,10 @@ class LogRepair(Brief):
             logs = self.logs
             if not processing.keep_damaged:
                 logs = [self.mended(run, processing)[0] for run in range(len(logs))]
-            every = enumerate(zip(logs, used, strict=True))
-            cut = [split(log, run, own) for run, (log, own) in every]
+            cut = [
+                split(log, run, own, logged=self.logs[run].tau)
+                for run, (log, own) in enumerate(zip(logs, used, strict=True))
+            ]
             self._cut[key] = CutLogs(self.spec, logs, cut)
         return self._cut[key]
 

@@ -23,6 +23,8 @@ _LEAST = 4  # samples; the second difference and its neighbours
 
 LEAST_RUN = 5
 QUANTA = 3.0
+SWITCHES = 3
+"""Values of a drive that knows full torque, none, and full torque back: a step is its limit."""
 MOVES = 10.0
 """Standard deviations of a position's noise that a joint moves while its torque is at a limit."""
 
@@ -89,6 +91,7 @@ def split(
     run: int,
     logged_motion: bool,
     extremes: Sequence[tuple[float, float] | None] | None = None,
+    logged: np.ndarray | None = None,
 ) -> tuple[tuple[Piece, ...], SplitReport]:
     """The uniform pieces of a log.
 
@@ -102,12 +105,18 @@ def split(
         run: its index.
         logged_motion: logged velocities and accelerations are used.
         extremes: of each torque in the whole log, of which this is a part; None: it is all of it.
+        logged: (n, joints) torques before they were mended; None: they were not.
     """
     motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
     rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
     ends = [None] * log.tau.shape[1] if extremes is None else extremes
     clipped = np.column_stack(
-        [saturated(*own) for own in zip(log.tau.T, log.q.T, ends, strict=True)]
+        [
+            saturated(*own)
+            for own in zip(
+                log.tau.T, log.q.T, ends, (log.tau if logged is None else logged).T, strict=True
+            )
+        ]
     )
     steps, stamps = np.diff(log.time[rows]), np.diff(log.time)
     cut = gap = steps > log.gap
@@ -222,8 +231,9 @@ def _bridge(
 
 
 def saturated(
-    values: np.ndarray, position: np.ndarray, extremes: tuple[float, float] | None = None
-) -> np.ndarray:
+    values: np.ndarray, position: np.ndarray, extremes: tuple[float, float] | None = None,
+    logged: np.ndarray | None = None,
+) -> np.ndarray:  # fmt: skip
     """Samples at which a torque is clipped; (n,) bool.
 
     A run counts when the torque is exactly its largest or smallest value of the whole log for at
@@ -236,6 +246,7 @@ def saturated(
         values: (n,) torque of one joint, NaN where missing.
         position: (n,) of the joint.
         extremes: smallest and largest value of the log elsewhere, of which these are a part.
+        logged: (n,) the torque before it was mended: between held samples it is interpolated.
     """
     found = np.zeros(len(values), dtype=bool)
     if not len(values):
@@ -257,11 +268,11 @@ def saturated(
         end for end, (start, stop) in found_runs
         if abs(position[stop - 1] - position[start]) > least
     }  # fmt: skip
-    if not moved or rows_held(values) >= LEAST_RUN:
+    if not moved or rows_held(values if logged is None else logged) >= LEAST_RUN:
         return found
     found_runs = [(end, run) for end, run in found_runs if end in moved]
     step = lattice_step(values)
-    resolution = step if step < 0.1 * (high - low) else 0.0  # else it knows a few values alone
+    resolution = step if len(np.unique(values[np.isfinite(values)])) > SWITCHES else 0.0
     for extreme, (start, stop) in found_runs:
         beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
         leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)
