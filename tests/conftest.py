@@ -13,7 +13,9 @@ from hypothesis.internal.conjecture import providers
 from modeler.core.json import nulled
 from tests.further_robots import FurtherRobots
 from tests.robots import KINDS, OTHERS
-from tests.turns import resting, resting_robots, today, turns
+from tests.rotation import Rotation, today
+
+pytest_plugins = ["pytester"]
 
 # Hypothesis mixes the constants of whatever modules happen to be imported into its examples, and
 # which are depends on the tests that ran before in the process: examples shall be the same always.
@@ -31,17 +33,15 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
     parser.addoption(
         "--every", type=int, default=1, metavar="DAYS",
-        help="run each case that is marked in_turn on one day of so many",
+        help="run each case that repeats what others show in one run of so many; see tests/rotation.py",
     )  # fmt: skip
     parser.addoption(
-        "--day", type=int, default=today(), help="of the cases in turn; default: today"
+        "--day", type=int, default=today(), help="where no run is recorded yet; default: today"
     )
 
 
-def pytest_terminal_summary(terminalreporter: Any, config: pytest.Config) -> None:
-    if config.getoption("every") > 1:
-        line = f"of the cases in turn: --every {config.getoption('every')}"
-        terminalreporter.write_line(f"{line} --day {config.getoption('day')}")
+def pytest_configure(config: pytest.Config) -> None:
+    config.pluginmanager.register(Rotation(config, KINDS, OTHERS), "rotation")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -50,12 +50,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         keepers = {"compare_with_generated", "regenerate"}
         left = [item for item in items if not keepers & set(getattr(item, "fixturenames", ()))]
     else:
-        every, day = config.getoption("every"), config.getoption("day")
-        in_turn = turns(items)
-        rest = resting([item.nodeid for item in items], in_turn, every, day)
-        daily = [item for item in items if item.nodeid not in in_turn]
-        rest |= resting_robots(daily, KINDS, OTHERS, every, day)
-        left = [item for item in items if item.nodeid in rest]
+        chosen = set(config.pluginmanager.get_plugin("rotation").select(items))
+        left = [item for item in items if item not in chosen]
     if left:
         config.hook.pytest_deselected(items=left)
         gone = set(left)

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from modeler.core.builtin import builtin_names, builtin_text
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 ROBOTS = builtin_names()
 
@@ -47,4 +47,4 @@ OTHERS = tuple(name for name in ROBOTS if name not in KINDS)
 
 def kinds_first(names: Iterable[str]) -> list[Any]:
     """Names for parametrize: one robot of each kind always, the others long, in turn."""
-    return [name if name in KINDS else pytest.param(name, marks=IN_TURN) for name in names]
+    return [name if name in KINDS else pytest.param(name, marks=ROTATING) for name in names]

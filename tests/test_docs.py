@@ -24,7 +24,7 @@ from modeler.observation.settings import Processing
 from modeler.robot.conventions import COLUMNS
 from modeler.robot.read import _KEYS, robot_from_text
 from modeler.simulation.hidden import HIDDEN
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = sorted(
@@ -231,7 +231,7 @@ LONG = (
 
 
 @pytest.mark.parametrize(
-    "page", [pytest.param(page, marks=IN_TURN * (page in LONG)) for page in RUN]
+    "page", [pytest.param(page, marks=ROTATING * (page in LONG)) for page in RUN]
 )
 def test_a_reader_gets_what_the_page_shows(page, tmp_path, monkeypatch, regenerate):
     monkeypatch.chdir(tmp_path)

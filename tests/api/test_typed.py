@@ -12,7 +12,7 @@ import pytest
 from tests.repository import ROOT
 
 # A checker reads the whole package.
-pytestmark = [pytest.mark.slow, pytest.mark.in_turn("type checkers")]
+pytestmark = [pytest.mark.slow, pytest.mark.rotating("type checkers")]
 
 
 USES = """

@@ -10,7 +10,7 @@ from tests.bad_input.judge import disturbed, ending, faults
 from tests.bad_input.row import Result, Row, row as made
 from tests.bad_input.table import ROWS
 from tests.bad_input.yard import Ground, Yard
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +23,7 @@ def ground(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Ground]:
 def _marks(row: Row) -> list[pytest.MarkDecorator]:
     """All take turns, quick ones too: `make test` runs them all, with --every a share a day."""
     slow = row.process is not None and row.process.slow
-    return [pytest.mark.in_turn, *[pytest.mark.slow] * slow]
+    return [pytest.mark.rotating, *[pytest.mark.slow] * slow]
 
 
 @pytest.mark.parametrize("row", [pytest.param(row, id=row.id, marks=_marks(row)) for row in ROWS])
@@ -34,7 +34,7 @@ def test_a_bad_input_ends_as_it_must(row, ground, tmp_path):
 
 @pytest.mark.parametrize(
     ("count", "seed"),
-    [(25, 90210), *(pytest.param(150, seed, marks=IN_TURN) for seed in (7, 8, 9, 10))],
+    [(25, 90210), *(pytest.param(150, seed, marks=ROTATING) for seed in (7, 8, 9, 10))],
 )
 def test_mutants_of_every_format_end_in_one_line(count, seed, ground):
     """Always the same; `python -m tests.bad_input --mutants 500 --seed N` draws others."""

@@ -14,7 +14,7 @@ from modeler.robot.robot import EffectUse
 from tests.base.ranks import seen
 from tests.modules import module
 from tests.robots import ROBOTS
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 
 def derive(robot):
@@ -201,7 +201,7 @@ def random_table(rng: np.random.Generator):
 
 
 @pytest.mark.parametrize(
-    "seed", [*range(12), *(pytest.param(k, marks=IN_TURN) for k in range(12, 36))]
+    "seed", [*range(12), *(pytest.param(k, marks=ROTATING) for k in range(12, 36))]
 )
 def test_random_trees(seed):
     """The exact relations against the rank in floating point, on tables nobody thought of."""

@@ -7,7 +7,7 @@ import pytest
 from pyarrow import parquet
 
 from modeler.cli import main
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 
 def run(capsys, *argv):
@@ -20,7 +20,7 @@ def run(capsys, *argv):
     ("options", "rank", "friction", "offset"),
     [
         ([], 90, 0, 0),
-        pytest.param(["--effects", "viscous,coulomb"], 106, 16, 0, marks=IN_TURN),
+        pytest.param(["--effects", "viscous,coulomb"], 106, 16, 0, marks=ROTATING),
         (["--effects", "viscous,coulomb,asymmetric_viscous,offset"], 122, 24, 8),
         (["--cut-loops"], 96, 0, 0),
     ],

@@ -16,7 +16,7 @@ from modeler.api import compile_model, derive, generate, load
 from modeler.cli import main
 from modeler.estimation import stream
 from modeler.validation import compare_long
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 ROWS = 9000
 
@@ -267,7 +267,7 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
 """
 
 
-@in_turn("memory of long logs")
+@rotating_with("memory of long logs")
 def test_memory_does_not_grow_with_the_rows(place, tmp_path):
     """360 000 rows more of five columns: 14 MB as floats, and many times that read whole."""
     fitted(place, "run.parquet", "model")

@@ -15,7 +15,7 @@ from modeler.core.errors import DataError, RobotError
 from modeler.robot.conventions import CONVENTIONS as LETTERS
 from modeler.robot.read import read_robot
 from tests.modules import unoptimised
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 
 def run(capsys, *argv):
@@ -44,7 +44,7 @@ def test_a_template_derives_simulates_and_is_found_again(template, capsys, tmp_p
 
 
 @pytest.mark.parametrize(
-    "template", ["serial", "parallelogram", pytest.param("parallel", marks=IN_TURN)]
+    "template", ["serial", "parallelogram", pytest.param("parallel", marks=ROTATING)]
 )
 def test_simulated_logs_of_a_template_are_fitted(template, tmp_path):
     robot = new_robot(tmp_path / "arm.toml", template)

@@ -49,7 +49,7 @@ def test_what_is_not_asked_for_is_not_told(capsys) -> None:
     assert told(capsys) == []
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     "words", ["--progress lines", "--progress=lines -q", "-q --progress lines"]
 )

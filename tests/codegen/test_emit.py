@@ -28,7 +28,7 @@ from tests.codegen.fitted_library import fitted_of
 from tests.modules import STRICT, compiled, compiler, module, plain, states
 from tests.repository import ROOT
 from tests.robots import TREES
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 SAMPLES = 40
 CLOSE = {"rtol": 0, "atol": 1e-12}
@@ -113,7 +113,7 @@ def test_inertia_gravity_coriolis_and_friction_are_parts_of_the_torque(name):
     "name",
     [
         *("puma560", "five-bar"),
-        *(pytest.param(n, marks=IN_TURN) for n in ("sr400", "orthoglide-2003")),
+        *(pytest.param(n, marks=ROTATING) for n in ("sr400", "orthoglide-2003")),
     ],
 )
 def test_an_optimising_compiler_changes_roundings_only(name):

@@ -40,7 +40,7 @@ joint_ripple = [{joint = "1", m = 8.0}, {joint = "1", m = 9.0}]
 """Symbols that are called like macros and constants of the header; a joint with two ripples."""
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", ["slow-arm", "orthoglide-2003"])
 @pytest.mark.parametrize("cc", ["gcc", "clang", "g++", "clang++"])
 def test_every_file_compiles_as_c_and_as_cpp_without_a_warning(cc, name, tmp_path):

@@ -26,7 +26,7 @@ from tests.compiled.test_tiles import CHECK
 from tests.export.test_casadi import far
 from tests.learned import drawn, scipy_value, text_with
 from tests.modules import STRICT, Module, compiler, loaded
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 RNG = np.random.default_rng(20260)
 LAWS = {
@@ -166,7 +166,7 @@ def test_a_law_is_straight_line_code_without_calls(cc, tmp_path):
     assert not [word for word in words if word.startswith(("j", "call"))]
 
 
-@pytest.mark.parametrize("name", ["five-bar", pytest.param("orthoglide-2003", marks=IN_TURN)])
+@pytest.mark.parametrize("name", ["five-bar", pytest.param("orthoglide-2003", marks=ROTATING)])
 def test_robots_with_loops_have_laws_of_their_motors(name, monkeypatch):
     """Columns by scipy, one by one and in tiles; parts of the torque; casadi's G is the C's."""
     rng = np.random.default_rng(12)

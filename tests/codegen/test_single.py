@@ -21,7 +21,7 @@ from modeler.core.manifest import CLOSURE_RUNTIME, RUNTIME, Emitted, module_from
 from modeler.runtime.model import CompiledModel, load_folder
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.modules import STRICT, compiler, loaded, module, plain, states
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 FLOATS = ["-Wdouble-promotion", "-Wfloat-conversion"]
 
@@ -167,7 +167,10 @@ MORE = [("sr400-tree", 1e-6), ("wrist-coupled", 1e-6), ("sr400", 1e-6), ("orthog
 
 @pytest.mark.parametrize(
     ("name", "bound", "samples"),
-    [*((*kind, 50) for kind in KINDS), *(pytest.param(*kind, 300, marks=IN_TURN) for kind in MORE)],
+    [
+        *((*kind, 50) for kind in KINDS),
+        *(pytest.param(*kind, 300, marks=ROTATING) for kind in MORE),
+    ],
 )
 def test_it_computes_what_double_precision_computes(name, bound, samples):
     """With loops as well as the posture tells: near a singular one less."""

@@ -18,7 +18,7 @@ from modeler.runtime.model import CompiledModel, load, load_folder
 from tests.codegen.fitted_library import robot_module
 from tests.modules import STRICT, compiled, compiler, loaded, module, states, unoptimised
 from tests.robots import LOOPED, ROBOTS
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 WITHOUT_LOOPS = [name for name in ROBOTS if name not in LOOPED]
 BOUND = 64 * np.finfo(float).eps  # of the largest entry of the sample: roundings in other places
@@ -43,7 +43,7 @@ def assert_close(got: np.ndarray, expected: np.ndarray) -> None:
     "name",
     [
         "emps", "wrist", "scara",
-        *(pytest.param(n, marks=IN_TURN) for n in ("sr400-tree", "tx40", "dvrk-psm")),
+        *(pytest.param(n, marks=ROTATING) for n in ("sr400-tree", "tx40", "dvrk-psm")),
     ],
 )  # fmt: skip
 def test_a_tile_has_the_values_of_the_scalar_functions(name, monkeypatch):

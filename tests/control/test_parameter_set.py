@@ -104,7 +104,7 @@ def folder(tmp_path_factory):
     return where
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize(
     ("cc", "flags"),
     [("gcc", ["-fsanitize=thread"]), ("gcc", ["-fsanitize=address,undefined"]), ("clang", [])],

@@ -16,7 +16,7 @@ from modeler.codegen.package import write_emitted
 from modeler.core.manifest import Emitted
 from tests.codegen.fitted_library import Functions, motion, robot_module, with_values
 from tests.modules import compiler, module
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 FOLDERS = {
     "wrist": lambda: module("wrist").emitted,
@@ -182,7 +182,7 @@ def all_mutants(name: str) -> tuple[Emitted, list[Mutant]]:
     ("name", "count"),
     [
         *((name, 3) for name in ("slow-arm with values", "five-bar with values")),
-        *(pytest.param(name, 12, marks=IN_TURN) for name in FOLDERS),
+        *(pytest.param(name, 12, marks=ROTATING) for name in FOLDERS),
     ],
 )
 def test_the_check_of_a_folder_notices_a_wrong_sign_or_constant(name, count, tmp_path):

@@ -23,7 +23,7 @@ from modeler.diagnosis.add import add_effect
 from modeler.diagnosis.added_model import Logs
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.runtime.model import load as load_compiled
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 
@@ -73,14 +73,14 @@ def test_emps_has_friction_that_differs_between_the_directions() -> None:
     assert found.joints["1"].error_after < 0.031
 
 
-@in_turn("measured logs are diagnosed")
+@rotating_with("measured logs are diagnosed")
 def test_ur10e_rubs_with_its_load_on_joints_2_and_3() -> None:
     found = diagnose(fitted("ur10e", PARTS), PARTS, [*pieces(":1105", HELD_OUT[0]), HELD_OUT[1]])
     first = {(f.effect, f.joint) for f in found.effects[:2]}
     assert first == {("load_friction", "2"), ("load_friction", "3")}
 
 
-@in_turn("measured logs are diagnosed")
+@rotating_with("measured logs are diagnosed")
 def test_ur10e_the_errors_fall_as_effects_are_added(ur10e_model: IdentifiedModel) -> None:
     model = ur10e_model
     compiled = load_compiled(model.spec, model.sources)
@@ -92,14 +92,14 @@ def test_ur10e_the_errors_fall_as_effects_are_added(ur10e_model: IdentifiedModel
     assert errors["1"] < 0.07 and errors["2"] < 0.018 and errors["3"] < 0.016
 
 
-@in_turn("measured logs are diagnosed")
+@rotating_with("measured logs are diagnosed")
 def test_ur10e_a_load_is_found_first_with_its_mass(ur10e_model: IdentifiedModel) -> None:
     found = diagnose(ur10e_model, pieces(":1912", *ur10e("02_19_14harm50secLoad")))
     assert found.effects[0].effect == "payload"
     assert found.effects[0].parameters["mass"] == pytest.approx(2.805, rel=0.1)
 
 
-@in_turn("measured logs are diagnosed")
+@rotating_with("measured logs are diagnosed")
 def test_tx40_the_motor_of_joint_6_turns_joint_5_too(tmp_path: Path) -> None:
     """From a robot file that couples nothing; errors below those of the published model."""
     text = builtin_text("tx40")
@@ -117,7 +117,7 @@ def test_tx40_the_motor_of_joint_6_turns_joint_5_too(tmp_path: Path) -> None:
     assert after["2"] < 0.066 and after["3"] < 0.091 and after["4"] < 0.09 and after["5"] < 0.23
 
 
-@in_turn("measured logs are diagnosed")
+@rotating_with("measured logs are diagnosed")
 def test_odrive_the_orders_of_its_ripple() -> None:
     runs = logs("odrive_cogging", *(f"slow2__nocomp_{k}" for k in range(3)))
     model = fitted("odrive", runs[:2])
@@ -130,7 +130,7 @@ def test_odrive_the_orders_of_its_ripple() -> None:
     assert found.joints["1"].error_after < 0.2
 
 
-@in_turn("measured logs are diagnosed")
+@rotating_with("measured logs are diagnosed")
 def test_dvrk_the_spring_of_joint_4_and_friction_that_turns_gradually() -> None:
     """An instrument on cables behind two parallelograms.
 

@@ -14,7 +14,7 @@ from modeler import api
 pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco-core) is not installed")
 
 from tests.diagnose.mujoco_arm import ROWS, G, random_arm, random_body, robot_text, run, write
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 TRAIN, HOLDOUT = 12.0, 6.0  # s, of moves, and as much of a Fourier series
 USUAL = ("rotor_inertia", "viscous", "coulomb", "offset")
@@ -86,7 +86,7 @@ def diagnosed(folder, seed, effect=None, joint=None):
 
 
 @pytest.mark.parametrize(
-    "effect", [pytest.param(e, marks=IN_TURN) if WHERE[e][0] == 2 else e for e in WHERE]
+    "effect", [pytest.param(e, marks=ROTATING) if WHERE[e][0] == 2 else e for e in WHERE]
 )
 def test_what_the_file_lacks_is_named_first(tmp_path, effect):
     seed, joint = WHERE[effect]

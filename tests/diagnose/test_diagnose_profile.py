@@ -72,7 +72,7 @@ CASES = {
 
 
 @pytest.mark.slow
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize("effect", CASES)
 def test_the_truth_is_where_the_interval_says(arm, tmp_path, effect):
     hide, true_values = CASES[effect]

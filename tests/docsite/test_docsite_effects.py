@@ -19,7 +19,7 @@ from modeler.core.builtin import builtin_text
 from modeler.effects import CATALOGUE, Effect, effect_named
 from modeler.robot import robot_from_text, with_effects
 from modeler.simulation import HIDDEN
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 QUICK = ("stribeck", "payload")
 """A column and a body; the others take turns."""
@@ -60,7 +60,7 @@ def test_the_commands_of_every_effect_parse(effect: Effect) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(e.id, marks=() if e.id in QUICK else IN_TURN) for e in CATALOGUE]
+    "name", [pytest.param(e.id, marks=() if e.id in QUICK else ROTATING) for e in CATALOGUE]
 )
 def test_an_effect_has_its_page(name: str) -> None:
     effect, found = named(name), made(name)

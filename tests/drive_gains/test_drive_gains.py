@@ -19,7 +19,7 @@ from modeler.observation.observe import observe
 from modeler.robot.edit import with_drive_gains
 from modeler.robot.read import robot_from_text
 from tests.drive_gains.runs import Runs, runs_of
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 TRUE = np.array([1.2, 0.9, 25.0])  # N m per unit
 ROWS = 400  # of each drive
@@ -97,7 +97,7 @@ def test_a_column_that_others_reproduce_cannot_set_the_scale():
     assert estimated(W, V, joint) is None
 
 
-@in_turn("gains of drives")
+@rotating_with("gains of drives")
 def test_noisy_runs_of_an_arm_spread_as_the_sigmas_say(arm):
     gains, values = [], []
     for seed in range(25):
@@ -214,7 +214,7 @@ def test_logs_of_torques_have_no_gains(arm):
         check_currents([log], arm.compiled.spec.joints)
 
 
-@in_turn("gains of drives")
+@rotating_with("gains of drives")
 def test_a_real_arm_has_one_set_of_gains_and_a_load_that_was_turned(measured_folder):
     """UR10e: pairs of runs agree; both loaded runs together do not, until each has its own load."""
     folder = measured_folder / "ur10e"

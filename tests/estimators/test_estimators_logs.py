@@ -21,7 +21,7 @@ from modeler.robot.read import robot_from_text
 from tests.estimators.__main__ import main as suite
 from tests.estimators.coverage import CASES, Case, compiled, covered, measured, table
 from tests.estimators.measured import tried
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 SIMULATED = ("iv-direct", "didim")
 FOLLOWED = tuple(method for method in METHODS if method.startswith(SIMULATED))
@@ -49,7 +49,7 @@ def test_every_method_finds_the_values_of_a_well_measured_arm(observation, run, 
     assert json.loads(json.dumps(fit.to_json()))["method"] == method
 
 
-@in_turn("estimators on logs")
+@rotating_with("estimators on logs")
 def test_the_noise_of_a_coarse_encoder_bends_weighted_values_and_not_those_of_iv():
     """1500 counts a turn: over machines the weighted values lie to one side, by many sigmas."""
     found = covered(range(1, 7), "coarse", ["weighted", "iv"])
@@ -61,7 +61,7 @@ def test_the_noise_of_a_coarse_encoder_bends_weighted_values_and_not_those_of_iv
     assert "| weighted | " in text and "1500 counts" in text
 
 
-@in_turn("estimators on logs")
+@rotating_with("estimators on logs")
 def test_sensors_that_are_wrong_at_times_bend_didim_and_not_its_robust_steps():
     methods = ["robust", "didim", "didim-robust"]
     found = covered((11, 12), "bursts", methods)
@@ -263,7 +263,7 @@ def pieces(seed):
     )  # fmt: skip
 
 
-@in_turn("estimators on logs")
+@rotating_with("estimators on logs")
 def test_short_pieces_with_derivatives_of_their_own_are_followed_by_these():
     """Differentiating q again, and a controller that follows its noise: 4.0 % in the mean."""
     error = [
@@ -273,7 +273,7 @@ def test_short_pieces_with_derivatives_of_their_own_are_followed_by_these():
     assert np.mean(error) < 0.026
 
 
-@in_turn("estimators on logs")
+@rotating_with("estimators on logs")
 def test_didim_says_where_it_ends_worse_than_it_began(run, observation):
     """Commands that come late are not the ones that the robot followed."""
     log, _ = run
@@ -288,7 +288,7 @@ def test_didim_says_where_it_ends_worse_than_it_began(run, observation):
     assert not any("times the error" in said for said in honest.own)
 
 
-@in_turn("estimators on logs")
+@rotating_with("estimators on logs")
 def test_a_loop_that_loses_the_robot_later_is_given_up(monkeypatch):
     """An encoder so coarse that the values of a later step are those of no machine.
 
@@ -402,7 +402,7 @@ def test_the_suite_refuses_unknown_names():
             suite(argv)
 
 
-@in_turn("estimators on logs")
+@rotating_with("estimators on logs")
 def test_real_axis_and_every_method(measured_folder, capsys):
     """EMPS has published loops: 14 Hz of speed, 1.8 times that of position, nothing else."""
     assert suite(["measured", "--sets", "emps"]) == 0
@@ -411,7 +411,7 @@ def test_real_axis_and_every_method(measured_folder, capsys):
     assert out.count("no integral action and no feedforward") == len(FOLLOWED)
 
 
-@in_turn("estimators on logs")
+@rotating_with("estimators on logs")
 @pytest.mark.parametrize("name", ["kinova_gen3", "panda"])
 def test_real_arms_without_commands_are_simulated_as_well_as_fitted(measured_folder, name):
     """Pieces of half a second; and a wrist whose fitted inertia is negative."""

@@ -15,7 +15,7 @@ from modeler.excitation.search import Wish, excite, random_motion, task_of
 from modeler.robot.read import robot_from_text
 from modeler.simulation.closing import constraints_of, distances, followed, rates
 from tests.excite.robots_to_excite import limits_of, plausible, robot
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 
 def finely(motion: Exciting) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -89,7 +89,7 @@ def assert_not_faster(found, constraints, q, bounds):
 @pytest.mark.parametrize(
     ("name", "limits"),
     [
-        pytest.param("orthoglide-2012", (), marks=IN_TURN),
+        pytest.param("orthoglide-2012", (), marks=ROTATING),
         ("five-bar", ("1=-3,3,2,8", "2=-3,3,2,8")),
     ],
 )

@@ -305,7 +305,7 @@ def test_public_urdfs_stay_as_they_are(name) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @each_public_urdf()
 def test_every_public_urdf_stays_as_it_is(path) -> None:
     try:

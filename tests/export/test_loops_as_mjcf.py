@@ -7,7 +7,7 @@ import pytest
 
 from modeler.api import compile_model, derive, export, generate, load
 from modeler.robot import Robot, robot_from_text
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: no MuJoCo")
 
@@ -108,7 +108,7 @@ def lines_of(robot: Robot):
     [
         ("five-bar", 1e-11),
         *(
-            pytest.param(name, 1e-9, marks=IN_TURN)
+            pytest.param(name, 1e-9, marks=ROTATING)
             for name in ("orthoglide-2003", "stewart", "delta", "3rrr", "evra")
         ),
     ],

@@ -75,7 +75,7 @@ def test_a_fit_to_sound_channels_is_not_doubted(runs, name):
         assert all(found.unseen for found in log_findings(machine, observation))
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(runs, mistake):
     """Of two for each robot one is missed, in words that name the joint or the swap.

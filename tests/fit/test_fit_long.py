@@ -28,7 +28,7 @@ from modeler.observation.read import MemorySource, cut
 from modeler.observation.segments import split
 from modeler.observation.settings import Processing
 from modeler.observation.survey import FactsSoFar, WholeLogNeeded, survey
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 ROWS = 1024  # of a chunk
 ARM = planar_arm()
@@ -422,7 +422,7 @@ print("peak:", resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=sys.stde
 """
 
 
-@in_turn("memory of long logs")
+@rotating_with("memory of long logs")
 def test_memory_does_not_grow_with_the_log(tmp_path):
     """Peak memory of a fit of 300 000 and of 1 200 000 rows: within 30 MB; read, they are 48 MB."""
     peaks = []

@@ -24,7 +24,7 @@ from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from tests.measured_sets.sets import DATA
-from tests.turns import IN_TURN, in_turn
+from tests.rotation import ROTATING, rotating_with
 
 pytestmark = [
     pytest.mark.measured,
@@ -124,7 +124,7 @@ def results():
 
 
 @pytest.mark.parametrize(
-    "robot", [r if r in QUICK else pytest.param(r, marks=IN_TURN) for r in RUNS]
+    "robot", [r if r in QUICK else pytest.param(r, marks=ROTATING) for r in RUNS]
 )
 def test_held_out_errors_are_below_the_published_ones(results, robot):
     model, comparison = results(robot)
@@ -138,7 +138,7 @@ def test_held_out_errors_are_below_the_published_ones(results, robot):
     assert verdict.usable is (valid_for != "nothing")
 
 
-@in_turn("fits of measured logs")
+@rotating_with("fits of measured logs")
 @pytest.mark.parametrize(
     ("robot", "log", "words"),
     [
@@ -156,7 +156,7 @@ def test_other_measured_logs_make_no_model(robot, log, words):
     assert line.startswith("Not valid: ") and words in line
 
 
-@in_turn("fits of measured logs")
+@rotating_with("fits of measured logs")
 def test_every_exception_is_still_needed(results):
     for (robot, joint), limit in EXCEPTIONS.items():
         found = 100 * results(robot)[1].joints[joint - 1].relative_error
@@ -196,7 +196,7 @@ def test_tx40_published_values(results):
         assert found[name] == pytest.approx(value, rel=0.1), name
 
 
-@in_turn("fits of measured logs")
+@rotating_with("fits of measured logs")
 def test_the_readme_offsets_of_kinova_do_not_carry_over(results):
     """With the README's offsets on all joints, joint 1 is as bad as there: 28.8 % in the README."""
     run = RUNS["kinova_gen3"]

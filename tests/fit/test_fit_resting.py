@@ -9,10 +9,10 @@ from modeler.cli import main
 from modeler.core.errors import TWO_STEPS
 from modeler.core.estimators import ABOUT
 from tests.modules import compiled
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
-RESTING = [(1,), pytest.param((0, 1, 2), marks=pytest.mark.in_turn)]
+RESTING = [(1,), pytest.param((0, 1, 2), marks=pytest.mark.rotating)]
 
 
 def written(place, rest, seed, load=0.0, kind="tau"):
@@ -69,10 +69,10 @@ OTHERS = [
 ]  # fmt: skip
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize("rest", RESTING)
 @pytest.mark.parametrize(
-    "commands", [FITS, LOADED, OTHERS, pytest.param(BOTH, marks=IN_TURN)],
+    "commands", [FITS, LOADED, OTHERS, pytest.param(BOTH, marks=ROTATING)],
     ids=["fits", "loaded", "others", "currents"],
 )  # fmt: skip
 def test_a_result_or_one_clear_line(folder, rest, commands, capsys, monkeypatch):

@@ -9,7 +9,7 @@ from modeler.observation.low_speed import shafts
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.modules import compiled, module
 from tests.robots import ROBOTS
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 VAGUE = {"delta", "orthoglide-2003", "orthoglide-2012"}
 """Robots whose legs move so alike that sums of their parameters are known, not the values."""
@@ -25,7 +25,7 @@ KINDS = ("demo-arm", "emps", "five-bar", "wrist-coupled")
 
 @pytest.mark.parametrize(
     "name",
-    [n if n in KINDS else pytest.param(n, marks=IN_TURN)
+    [n if n in KINDS else pytest.param(n, marks=ROTATING)
      for n in ROBOTS if n not in ALIKE],
 )  # fmt: skip
 def test_a_good_log_of_a_built_in_robot_is_usable(name, tmp_path):

@@ -11,7 +11,7 @@ from modeler.fleet.naming import Named
 from modeler.fleet.result import Fleet, FleetFinding, fleet_lines, sentence
 from modeler.fleet.summary import SkippedLog
 from tests.fleet.machines import Planted, Scene, compiled, summaries
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 
 def fleet(scene: Scene, seed: int, robot: str = "two-link") -> Fleet:
@@ -22,14 +22,14 @@ def told(found: Fleet) -> list[tuple[str, str, str]]:
     return [(one.machine, one.quantity.parameter, one.shape) for one in found.findings]
 
 
-@in_turn("fleets that drift")
+@rotating_with("fleets that drift")
 def test_fleets_without_drift_are_quiet() -> None:
     """5 % of them may show anything at all: 4 and more of 16 have a chance of 1 %."""
     scene = Scene(machines=2, periods=3, noise=0.05)
     assert sum(bool(fleet(scene, seed).findings) for seed in range(300, 316)) <= 3
 
 
-@in_turn("fleets that drift")
+@rotating_with("fleets that drift")
 @pytest.mark.parametrize(("machines", "periods", "daily"), [(1, 8, 0.03)])
 def test_many_fleets_without_drift_are_quiet(machines: int, periods: int, daily: float) -> None:
     """Of other sizes, with friction that scatters from day to day: 5 and more of 20: 0.3 %."""
@@ -79,7 +79,7 @@ def test_a_load_is_no_gain(robot: str) -> None:
     assert "machine r3: load on the last link leaps up by 0." in sentence(one, "periods")
 
 
-@in_turn("fleets that drift")
+@rotating_with("fleets that drift")
 def test_a_gain_is_no_load_and_both_may_be_in_one_fleet() -> None:
     """Six joints: the load of r3 makes the scatter known, and r5's gain pretends to 0.04 kg."""
     plans = (Planted(4, "gain2", (0.0,) * 3 + (0.05,) * 3),

@@ -26,7 +26,7 @@ from tests.freerun.machines import (
     with_values,
     without_commands,
 )
-from tests.turns import IN_TURN, in_turn
+from tests.rotation import ROTATING, rotating_with
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +52,7 @@ def test_the_true_values_give_the_simulated_motion(arm_run) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "share"), [("ZZ1R", 1.1), pytest.param("Fs1", 1.3, marks=IN_TURN)]
+    ("name", "share"), [("ZZ1R", 1.1), pytest.param("Fs1", 1.3, marks=ROTATING)]
 )
 def test_a_wrong_value_is_seen(arm, arm_run, name: str, share: float) -> None:
     """10 % more of the inertia that joint 1 turns, or 30 % more dry friction on it."""
@@ -73,7 +73,7 @@ def five_bar():
     return true_model(robot_from_text(text, "five-bar that rubs"), 3.0)
 
 
-@in_turn("free runs")
+@rotating_with("free runs")
 def test_loops_are_run_too(five_bar) -> None:
     model, compiled, log = five_bar
     found = free_run(model, [without_commands(log)], compiled, FreeRunSettings(window=0.5))
@@ -121,7 +121,7 @@ def test_errors_of_an_upright_pendulum_grow_at_that_rate() -> None:
     assert (apart[1] - apart[0]) / 0.8 == pytest.approx(rate, rel=0.01)
 
 
-@in_turn("free runs")
+@rotating_with("free runs")
 def test_a_free_axis_is_neither_stable_nor_unstable() -> None:
     """A mass that only rubs: eigenvalues 0 and -b/m."""
     model, compiled, log = true_model("emps", 4.0)
@@ -226,7 +226,7 @@ def test_under_a_controller(arm_run) -> None:
     assert "under a controller (nearest to the log" in arm_run.summary()
 
 
-@in_turn("free runs")
+@rotating_with("free runs")
 def test_given_gains_are_used(arm) -> None:
     model, compiled, log = arm
     rows = {name: getattr(log, name)[:1000] for name in ("time", "q", "tau", "commanded")}

@@ -15,10 +15,10 @@ from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import load as load_compiled
 from tests.diagnose.conftest import Case, motion, on_joint, two
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 
-@in_turn("effects are added")
+@rotating_with("effects are added")
 def test_two_effects_added_one_after_the_other_and_undone(case: Case, tmp_path: Path) -> None:
     model, train, holdout = case.hidden(two)
     logs = Logs([train], [holdout])

@@ -17,7 +17,7 @@ from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import load as load_compiled
 from tests.diagnose.conftest import Case, motion, on_joint
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 DRAG, CENTRE, WIDTH = 4.0, 0.7, 0.2  # N m s/rad, rad, rad; the grid has neither value
 OWN = """
@@ -173,7 +173,7 @@ def test_nothing_is_named_where_nothing_is_hidden(own: Case) -> None:
     assert diagnosis.verdict == "nothing significant" and not diagnosis.effects
 
 
-@in_turn("effects are added")
+@rotating_with("effects are added")
 def test_one_that_reads_a_temperature_is_tried_where_one_is_logged(own: Case) -> None:
     def heat(log: Log) -> np.ndarray:
         return 30.0 + 20.0 * (1.0 - np.exp(-log.time / 12.0))

@@ -6,7 +6,7 @@ import pytest
 
 from modeler.estimation.model_file import load_model
 from tests.diagnose.conftest import Run, made
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 HIDDEN = ("five-bar", "--hide", "passive_friction@21", "--duration", "8", "--rate", "250")
 
@@ -21,7 +21,7 @@ def loops(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@in_turn("effects are added")
+@rotating_with("effects are added")
 def test_viscous_and_coulomb_one_after_the_other(loops: Path, run: Run, tmp_path: Path) -> None:
     logs = (loops / "train.parquet", "--holdout", loops / "other.parquet")
     one, two, robot = tmp_path / "1.json", tmp_path / "2.json", tmp_path / "r.toml"

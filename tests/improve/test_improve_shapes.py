@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 
 from modeler.cli import main
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 
-@in_turn("effects are added")
+@rotating_with("effects are added")
 def test_a_balancing_spring_is_not_mended_by_another(tmp_path: Path) -> None:
     """Of the shoulder's counterbalance; four effects more are missing, friction is known."""
     logs = [str(tmp_path / f"{seed}.parquet") for seed in (1, 2)]

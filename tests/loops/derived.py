@@ -10,10 +10,10 @@ from modeler.robot.read import read_robot, robot_from_text
 from modeler.runtime.model import CompiledModel
 from tests.loops.drawn_robots import DRAWN, drawn
 from tests.modules import loaded
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 LONG = ("swinging_four_bar", "watt", "stephenson", "rssr_universal", "rccc")
-WEIGHED = [pytest.param(kind, marks=IN_TURN) if kind in LONG else kind for kind in DRAWN]
+WEIGHED = [pytest.param(kind, marks=ROTATING) if kind in LONG else kind for kind in DRAWN]
 """All kinds that are drawn, some of them slow."""
 
 

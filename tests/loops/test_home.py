@@ -15,15 +15,15 @@ from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from tests.loops.texts import CRANK, PARALLELOGRAM
 from tests.robots import LOOPED
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 BUILT_IN = (
     "five-bar",
     "sr400",
     "delta",
-    *(pytest.param(n, marks=IN_TURN) for n in ("evra", "stewart")),
+    *(pytest.param(n, marks=ROTATING) for n in ("evra", "stewart")),
 )
-SHARED = ("twoloops", *(pytest.param(n, marks=IN_TURN) for n in ("excavator_bucket", "rccc")))
+SHARED = ("twoloops", *(pytest.param(n, marks=ROTATING) for n in ("excavator_bucket", "rccc")))
 CLOSED = 1e-9
 
 

@@ -16,10 +16,10 @@ from modeler.core.manifest import Emitted
 from tests.codegen.fitted_library import Functions, motion, with_values
 from tests.loops.derived import of_file
 from tests.modules import compiler, module
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 HERE = Path(__file__).resolve().parent
-ROBOTS = ["five-bar", "evra", pytest.param("stewart", marks=IN_TURN)]
+ROBOTS = ["five-bar", "evra", pytest.param("stewart", marks=ROTATING)]
 DONE, OPEN, SINGULAR, NOT_FINITE, UNFINISHED = range(5)
 
 

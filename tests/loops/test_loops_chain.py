@@ -11,7 +11,7 @@ from modeler.robot.read import read_robot
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.further_robots import FurtherRobots
 from tests.loops.chain import Chain, chain
-from tests.turns import IN_TURN, in_turn
+from tests.rotation import ROTATING, rotating_with
 
 
 def check(story: Chain) -> None:
@@ -21,13 +21,13 @@ def check(story: Chain) -> None:
     assert story.hidden not in story.left
 
 
-@pytest.mark.parametrize("robot", ["five-bar", pytest.param("orthoglide-2003", marks=IN_TURN)])
+@pytest.mark.parametrize("robot", ["five-bar", pytest.param("orthoglide-2003", marks=ROTATING)])
 def test_a_hidden_friction_is_named_and_added(robot: str, tmp_path: Path) -> None:
     check(chain(robot, tmp_path))
 
 
 @pytest.mark.parametrize(
-    "file", [pytest.param(name, marks=IN_TURN) for name in ("3rpr_passive", "excavator_sim")]
+    "file", [pytest.param(name, marks=ROTATING) for name in ("3rpr_passive", "excavator_sim")]
 )
 def test_on_robots_from_elsewhere(
     file: str, loop_robots_folder: FurtherRobots, tmp_path: Path
@@ -35,7 +35,7 @@ def test_on_robots_from_elsewhere(
     check(chain(str(loop_robots_folder / f"{file}.toml"), tmp_path))
 
 
-@in_turn("logs of robots with loops")
+@rotating_with("logs of robots with loops")
 def test_joints_without_motor_that_swing(tmp_path: Path) -> None:
     """Their rows are 0 = W beta; a diagnosis must not be driven to beta = 0 by them."""
     check(chain("orthoglide-leg", tmp_path))
@@ -47,7 +47,7 @@ def logged(robot: str, folder: Path, name: str, seed: int, *hidden: str) -> str:
     return str(folder / name)
 
 
-@in_turn("logs of robots with loops")
+@rotating_with("logs of robots with loops")
 def test_a_spring_is_added(tmp_path: Path) -> None:
     """It reads the position of its joint, which the C of a robot with loops gives to effects."""
     hidden = ("--hide", "spring@12")
@@ -63,7 +63,7 @@ def test_a_spring_is_added(tmp_path: Path) -> None:
     assert main(["compare", models[1], held_out]) == 0
 
 
-@in_turn("logs of robots with loops")
+@rotating_with("logs of robots with loops")
 def test_a_load_on_the_platform_is_called_a_load(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -80,7 +80,7 @@ def test_a_load_on_the_platform_is_called_a_load(
     assert "payload" not in said.partition("cannot show:")[2].partition("\n")[0]
 
 
-@pytest.mark.parametrize("robot", ["five-bar", pytest.param("delta", marks=IN_TURN)])
+@pytest.mark.parametrize("robot", ["five-bar", pytest.param("delta", marks=ROTATING)])
 def test_friction_that_is_drawn_for_a_passive_joint_is_felt(robot: str) -> None:
     """By some motor as a share of its torque that a diagnosis can see, by none as most of it."""
     source = read_robot(robot)

@@ -11,11 +11,11 @@ from modeler.core.errors import LoopError
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.loops.test_loops_outside import physical
 from tests.modules import loaded, module
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 ROBOTS = [
     "five-bar",
-    *(pytest.param(n, marks=IN_TURN) for n in ("3rrr", "delta", "orthoglide-2003", "stewart")),
+    *(pytest.param(n, marks=ROTATING) for n in ("3rrr", "delta", "orthoglide-2003", "stewart")),
     *(pytest.param(n, marks=pytest.mark.slow) for n in ("orthoglide-2012", "evra")),
 ]
 H = 1e-5  # s, of central differences
@@ -116,7 +116,7 @@ def test_accelerations_and_frames(name):
     close(x.call("twist"), own, 1e-10)
 
 
-@pytest.mark.parametrize("name", ["five-bar", pytest.param("delta", marks=IN_TURN)])
+@pytest.mark.parametrize("name", ["five-bar", pytest.param("delta", marks=ROTATING)])
 def test_single_precision_gives_what_double_precision_gives(name):
     one, two = Motion(name, precision="single", seed=33), Motion(name, seed=33)
     tau = two.call("inverse_dynamics")

@@ -14,7 +14,7 @@ from modeler.robot.read import robot_from_text
 from modeler.simulation import SimulationSettings, simulate, write_log
 
 # `test_methods.py` reproduces them too.
-pytestmark = [pytest.mark.slow, pytest.mark.in_turn("identifications of papers")]
+pytestmark = [pytest.mark.slow, pytest.mark.rotating("identifications of papers")]
 
 NAME = "orthoglide-2003-similar-legs"
 RUNS, SECONDS, RATE = 10, 4.0, 400.0

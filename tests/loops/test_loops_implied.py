@@ -25,7 +25,7 @@ from tests.loops.own_dynamics import closed_home, reached
 from tests.loops.table_kinematics import Table
 from tests.loops.texts import FOUR_BAR, OFFSET, PANTOGRAPH
 from tests.modules import module
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 # file -> inertial base parameters and all, by an independent program; kind of proof
 FILES = {
@@ -81,7 +81,7 @@ def spectrum(model, u, seed=4):
     "name",
     [
         "five-bar", "sr400", "delta", "orthoglide-2012",
-        *(pytest.param(n, marks=IN_TURN) for n in ("3rrr", "evra", "stewart")),
+        *(pytest.param(n, marks=ROTATING) for n in ("3rrr", "evra", "stewart")),
     ],
 )  # fmt: skip
 def test_relations_and_rank_hold_over_wide_postures(name):
@@ -89,7 +89,7 @@ def test_relations_and_rank_hold_over_wide_postures(name):
 
 
 @pytest.mark.parametrize(
-    "name", [n if n in QUICK else pytest.param(n, marks=IN_TURN) for n in FILES]
+    "name", [n if n in QUICK else pytest.param(n, marks=ROTATING) for n in FILES]
 )
 def test_further_robots(name, loop_robots_folder):
     """Counts, proof, all printed forms, and the laws."""
@@ -132,7 +132,7 @@ def test_relations_around_loops_are_exact_in_letters(name):
 
 @pytest.mark.parametrize(
     "name",
-    ["five-bar", "sr400", *WRITTEN, *(pytest.param(n, marks=IN_TURN) for n in ("delta", "evra"))],
+    ["five-bar", "sr400", *WRITTEN, *(pytest.param(n, marks=ROTATING) for n in ("delta", "evra"))],
 )
 def test_nothing_false_is_found_at_other_lengths(name):
     """Values changed at random: what still closes obeys the laws; relations in letters stay."""

@@ -28,12 +28,12 @@ from tests.loops.table_kinematics import Table
 from tests.loops.texts import RHOMBUS
 from tests.modules import loaded, module, plain
 from tests.robots import LOOPED
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 SAME = ("orthoglide-2003-similar-legs",)  # the same loops as another's
 QUICK = ("five-bar", "3rrr", "delta", "sr400", "offset_parallelogram", "rccc_wide", "twoloops")
 BUILT_IN, OUTSIDE = (
-    [name if name in QUICK else pytest.param(name, marks=IN_TURN) for name in names]
+    [name if name in QUICK else pytest.param(name, marks=ROTATING) for name in names]
     for names in (
         [name for name in LOOPED if name not in SAME],
         ["3rpr_sim", "excavator_bucket", "offset_parallelogram", "rccc_wide", "twoloops"],

@@ -15,7 +15,7 @@ from modeler.simulation.closing import constraints_of, followed
 from modeler.simulation.rigid import body_from_standard
 from tests.elementary_motions import placed
 from tests.modules import module, plain
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 mujoco = pytest.importorskip("mujoco", reason="MuJoCo (PyPI: mujoco-core) is not installed")
 
@@ -24,7 +24,7 @@ STIFF = f'solref="{2 * STEP:g} 1" solimp="0.99999 0.99999 0.001 0.5 2"'
 LIGHT = 1e-6  # kg and kg m2 of rows without a body: MuJoCo wants some
 ROBOTS = [
     "five-bar", "sr400", "orthoglide-2003",
-    *(pytest.param(name, marks=IN_TURN) for name in ("3rrr", "delta", "stewart", "evra")),
+    *(pytest.param(name, marks=ROTATING) for name in ("3rrr", "delta", "stewart", "evra")),
 ]  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from modeler.simulation.rigid import Body, standard_from_body
 from tests.elementary_motions import placed
 from tests.loops.closed_states import closed
 from tests.modules import module, plain
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 
 class Outside:
@@ -136,7 +136,7 @@ def physical(name: str) -> np.ndarray:
     "name",
     [
         "five-bar", "orthoglide-2012", "stewart",
-        *(pytest.param(name, marks=IN_TURN) for name in ("3rrr", "delta", "evra")),
+        *(pytest.param(name, marks=ROTATING) for name in ("3rrr", "delta", "evra")),
     ],
 )  # fmt: skip
 def test_pinocchio_accelerates_as_the_inverse_dynamics_says(name):
@@ -167,7 +167,7 @@ def test_pinocchio_accelerates_as_the_inverse_dynamics_says(name):
     "name",
     [
         "five-bar", "sr400", "orthoglide-2003",
-        *(pytest.param(name, marks=IN_TURN) for name in ("3rrr", "stewart", "evra")),
+        *(pytest.param(name, marks=ROTATING) for name in ("3rrr", "stewart", "evra")),
     ],
 )  # fmt: skip
 def test_simulated_torques_are_those_of_the_model(name):

@@ -13,7 +13,7 @@ from modeler.robot.read import read_robot, robot_from_text
 from tests.base.ranks import seen
 from tests.modules import module
 from tests.robots import TIED
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 # facts of the papers, each computed there by two independent methods:
 # standard parameters, base parameters, without effect
@@ -66,7 +66,7 @@ ORDER = (r"^priority = .*$", 'priority = ["*6"]')
         ([NO_PASSIVE, LEGS, OFFSETS, ORDER], 23),
         ([ALL, ORDER], 19),
         *(
-            pytest.param(*variant, marks=IN_TURN)
+            pytest.param(*variant, marks=ROTATING)
             for variant in (
                 ([NO_PASSIVE, OFFSETS], 43), ([OFFSETS], 55), ([NO_PASSIVE, LEGS, ORDER], 21),
                 ([LEGS, ORDER], 25), ([LEGS, OFFSETS, ORDER], 27), ([NO_PASSIVE, ALL, ORDER], 15),
@@ -143,7 +143,7 @@ def test_coefficients_may_be_sums_and_quotients():
     assert sympy.simplify(terms["M4"] - expected) == 0
 
 
-@pytest.mark.parametrize("name", ["sr400", pytest.param("orthoglide-2012", marks=IN_TURN)])
+@pytest.mark.parametrize("name", ["sr400", pytest.param("orthoglide-2012", marks=ROTATING)])
 def test_loops_at_other_lengths_keep_their_rank(name):
     """The relations are symbols: true at any lengths, not only those of the file."""
     robot = read_robot(name)

@@ -13,10 +13,10 @@ import pytest
 from modeler.codegen.package import write_emitted
 from modeler.core.manifest import ModuleSpec
 from tests.modules import STRICT, compiler, module
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 MORE = ("delta", "orthoglide-2003", "stewart", "evra")
-ROBOTS = ["five-bar", *(pytest.param(name, marks=IN_TURN) for name in MORE)]
+ROBOTS = ["five-bar", *(pytest.param(name, marks=ROTATING) for name in MORE)]
 
 COUNTING = """
 #include <stddef.h>
@@ -102,7 +102,7 @@ def motion(spec: ModuleSpec, t: np.ndarray, seed: int) -> tuple[np.ndarray, ...]
     return q, size * w * np.cos(angle), -size * w**2 * np.sin(angle)
 
 
-@pytest.mark.parametrize("name", ["five-bar", pytest.param("delta", marks=IN_TURN)])
+@pytest.mark.parametrize("name", ["five-bar", pytest.param("delta", marks=ROTATING)])
 def test_memory_of_zeros_is_no_state_and_a_first_cycle_that_fails_does_no_harm(name, robots):
     robot = robots(name)
     fresh = robot._replace(memory=ctypes.create_string_buffer(len(robot.memory)))
@@ -262,7 +262,7 @@ MICROCONTROLLER = ("-mcpu=cortex-m7", "-mfpu=fpv5-d16", "-mthumb", "-mfloat-abi=
 @pytest.mark.parametrize(
     "flags",
     [
-        pytest.param(flags, marks=IN_TURN)
+        pytest.param(flags, marks=ROTATING)
         for flags in (("gcc",), ("arm-none-eabi-gcc", *MICROCONTROLLER))
     ],
 )

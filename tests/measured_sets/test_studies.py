@@ -11,8 +11,8 @@ import pytest
 from modeler.cli.commands import parser
 from tests.measured_sets.sets import DATA
 from tests.repository import ROOT
+from tests.rotation import ROTATING
 from tests.test_docs import Block, Reader, blocks
-from tests.turns import IN_TURN
 
 PAGE = ROOT / "docs" / "studies" / "measured-sets.md"
 STUDIES = dict(
@@ -41,7 +41,7 @@ def test_a_study_names_its_source_and_its_commands_parse(title: str) -> None:
 
 
 @pytest.mark.measured
-@pytest.mark.parametrize("title", [pytest.param(title, marks=IN_TURN) for title in STUDIES])
+@pytest.mark.parametrize("title", [pytest.param(title, marks=ROTATING) for title in STUDIES])
 def test_a_study_prints_what_it_shows(title, tmp_path, monkeypatch, regenerate) -> None:
     folders = {name.split("/")[0] for name in re.findall(r"\w+/[\w.-]+\.parquet", STUDIES[title])}
     if absent := sorted(name for name in folders if not (DATA / name).is_dir()):

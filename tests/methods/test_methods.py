@@ -28,7 +28,7 @@ TITLES = {
     "hanssen-2000": ["Eq. (3)", "Persistent excitation", "Two steps", "Figure 2", "Physical"],
 }
 QUICK = "hanssen-2000"
-TURN = (pytest.mark.slow, pytest.mark.in_turn("identifications of papers"))
+TURN = (pytest.mark.slow, pytest.mark.rotating("identifications of papers"))
 
 
 def test_every_paper_has_its_method():

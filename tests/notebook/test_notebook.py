@@ -61,7 +61,7 @@ def test_the_notebooks_are_kept_without_outputs(name: str) -> None:
             assert cell["outputs"] == [] and cell["execution_count"] is None
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", NOTEBOOKS)
 def test_no_cell_fails_and_each_shows_what_it_says(name: str) -> None:
     shown = cells(name)

@@ -138,7 +138,7 @@ def damaged(random, defect, name):
     return log, log.joints[j], log.time[k]
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize("defect", DEFECTS)
 def test_defects_drawn_at_random_are_named_with_joint_and_time(defect):
     """Of 24 each at least 19, and nothing besides."""

@@ -11,7 +11,7 @@ from modeler.observation.observe import observe
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
 from tests.modules import compiled, module
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 RATE = 200.0
 
@@ -45,7 +45,7 @@ def observed(folder, name, seed, hidden=(), lagged=((), 0.0), **late):
     return observe(compiled(name), [log])
 
 
-@pytest.mark.parametrize("name", ["demo-arm", pytest.param("puma560", marks=IN_TURN)])
+@pytest.mark.parametrize("name", ["demo-arm", pytest.param("puma560", marks=ROTATING)])
 def test_whose_time_and_by_how_much(name, tmp_path):
     rng = np.random.default_rng([8, *name.encode()])
     c = compiled(name)
@@ -81,7 +81,7 @@ MORE = ("stribeck", "presliding", "load_friction", "asymmetric_viscous", "payloa
 @pytest.mark.parametrize(
     ("name", "hidden"),
     [("demo-arm", hidden) for hidden in EFFECTS]
-    + [pytest.param("ur10e", hidden, marks=IN_TURN) for hidden in EFFECTS[1::2] + MORE[::2]],
+    + [pytest.param("ur10e", hidden, marks=ROTATING) for hidden in EFFECTS[1::2] + MORE[::2]],
 )
 def test_physics_is_not_late(name, hidden, tmp_path):
     rng = np.random.default_rng([9, *name.encode(), *hidden.encode()])

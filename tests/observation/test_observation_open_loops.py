@@ -13,7 +13,7 @@ from modeler.observation.observe import observe
 from modeler.observation.prepare import nearest_closed
 from modeler.observation.settings import Processing
 from tests.modules import compiled
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 OUTWARD = np.array(
     [-1.0, 1.0]
@@ -103,7 +103,7 @@ def test_the_nearest_posture_that_closes_stands_in():
     assert nearest_closed(model, log.q[open_]) is None
 
 
-@pytest.mark.parametrize("further", [False, pytest.param(True, marks=IN_TURN)])
+@pytest.mark.parametrize("further", [False, pytest.param(True, marks=ROTATING)])
 def test_fit_compare_diagnose_and_free_run_go_through(further, tmp_path, capsys):
     log, open_ = log_of(0.955, noise=0.3)
     data, model = str(written(tmp_path / "run.csv", log)), str(tmp_path / "model.json")

@@ -28,7 +28,7 @@ from modeler.robot.read import robot_from_text
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.test_diagnose_effects import drift, motor_ripple, spring, stribeck
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 
 @cache
@@ -75,9 +75,9 @@ def series(panel: Panel, kind: type, label: str):
     return next(s for s in panel.series if isinstance(s, kind) and s.label.startswith(label))
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize(
-    "effect", [pytest.param(e, marks=IN_TURN * (e in ("drift", "presliding"))) for e in HIDDEN]
+    "effect", [pytest.param(e, marks=ROTATING * (e in ("drift", "presliding"))) for e in HIDDEN]
 )
 def test_the_picture_convinces(case: Case, effect: str) -> None:
     torque, label = HIDDEN[effect]

@@ -106,7 +106,7 @@ def torques(model, chi, q, qd, qdd):
     return (regressor_values(model, (q, qd, qdd)) @ chi).reshape(q.shape)
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize("part", range(10))
 def test_classical_tables_move_and_weigh_as_their_book_says(part):
     """Positions, torques, gravity and kinetic energy of 200 robots, by Pinocchio."""
@@ -146,7 +146,7 @@ def test_classical_tables_move_and_weigh_as_their_book_says(part):
             assert qd[k] @ inertia[k] @ qd[k] / 2 == pytest.approx(energy, rel=1e-11)
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize("part", range(4))
 def test_tables_of_khalil_come_back_from_craig_and_classical(part):
     """Written in the other notations by the test, 200 robots are the same joint by joint."""

@@ -249,7 +249,7 @@ def test_torques_of_the_c_are_mujocos(path):
     assert alike(c.inverse_dynamics(*states, beta), both.torques(states), 1e-9)
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @each_file
 def test_there_are_as_many_base_parameters_as_mujoco_feels(path):
     """Rank of MuJoCo's torques with one body at a time, of ten different sets of values."""

@@ -154,7 +154,7 @@ def read(path: Path, locked: tuple[str, ...] = ()) -> Robot:
     return dataclasses.replace(robot_from_text(text, path.name), effects=())
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @each_public_urdf()
 def test_torques_and_frames_of_every_public_robot(path: Path, tmp_path: Path):
     """tau to 1e-9 and the frame of every link to 1e-12, on the same numbers."""
@@ -177,7 +177,7 @@ def test_torques_and_frames_of_every_public_robot(path: Path, tmp_path: Path):
         np.testing.assert_allclose(pose, there.homogeneous, rtol=0, atol=1e-12, err_msg=link)
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", [*RANKED, *LOCKED])
 def test_base_parameters_are_as_many_as_the_rank(name: str, tmp_path: Path):
     """The rank of Pinocchio's regressor on random motion, joints that follow taken out by hand."""

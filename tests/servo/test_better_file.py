@@ -9,7 +9,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler.cli import main
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 from .arms import ARM7, followed, logged, mjcf, moved, spoilt, urdf
 
@@ -43,7 +43,7 @@ def rms(errors):
 
 @pytest.mark.parametrize(
     "seed",
-    [None, *(pytest.param(k, marks=IN_TURN) for k in (1000, 2000, 3000))],
+    [None, *(pytest.param(k, marks=ROTATING) for k in (1000, 2000, 3000))],
     ids=lambda seed: "fresh" if seed is None else str(seed),
 )
 def test_a_spoilt_file_comes_back_better(tmp_path, monkeypatch, capsys, seed):

@@ -11,7 +11,7 @@ from modeler.core.errors import DataError
 from modeler.estimation import identify
 from modeler.logs import EITHER
 from modeler.observation import observe
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 from .servos import Servo, mjcf_of, recorded, write_dataset
 
@@ -56,7 +56,7 @@ def in_sigmas(result):
     return {p.name: ((p.value - true) / p.sigma, p.sigma / true) for p, true in own}
 
 
-@pytest.mark.parametrize("fps", [30.0, pytest.param(50.0, marks=IN_TURN)])
+@pytest.mark.parametrize("fps", [30.0, pytest.param(50.0, marks=ROTATING)])
 def test_a_data_set_tells_armature_friction_and_damping(arm, tmp_path, fps):
     robot, servos = load("so101"), [TRUTH] * 6
     folder = write_dataset(tmp_path / "set", list(episodes(robot, servos, fps)), MOTORS, fps)

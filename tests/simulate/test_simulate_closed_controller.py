@@ -21,7 +21,7 @@ from modeler.simulation import (
 from modeler.simulation.closing import constraints_of, followed, rates, sampled
 from modeler.simulation.plant import build_plant, inner_states, tick_function
 from tests.robots import KINDS, TIED, kinds_first
-from tests.turns import IN_TURN
+from tests.rotation import ROTATING
 
 LOOPS = kinds_first(name for name in TIED if read_robot(name).loops)
 DRIVEN = SimulationSettings(
@@ -49,7 +49,7 @@ def test_the_plant_is_the_tree_with_multipliers(name: str) -> None:
     np.testing.assert_allclose(qdd, truth.qdd, rtol=0, atol=1e-9 * np.abs(qdd).max())
 
 
-@pytest.mark.parametrize("name", [*KINDS[-3:], pytest.param("delta", marks=IN_TURN)])
+@pytest.mark.parametrize("name", [*KINDS[-3:], pytest.param("delta", marks=ROTATING)])
 def test_the_motors_work_is_what_the_energy_gains(name: str) -> None:
     """Exact for torques held over each tick, but for the steps of the integration."""
     source = without_effects(name)
@@ -85,7 +85,7 @@ def test_loops_stay_closed(name: str) -> None:
     np.testing.assert_allclose(again, v, atol=1e-8)
 
 
-@pytest.mark.parametrize("name", ["five-bar", pytest.param("sr400", marks=IN_TURN)])
+@pytest.mark.parametrize("name", ["five-bar", pytest.param("sr400", marks=ROTATING)])
 def test_a_stiffer_controller_keeps_nearer_to_the_command(name: str) -> None:
     errors = []
     for bandwidth in (4.0, 8.0, 16.0):

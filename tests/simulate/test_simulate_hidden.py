@@ -390,7 +390,7 @@ def test_random_torques_on_the_machine(clean):
     assert np.abs(truth.q - log.qc).max() < 0.05
 
 
-@pytest.mark.in_turn
+@pytest.mark.rotating
 @pytest.mark.parametrize("name", SERIAL)
 def test_every_effect_is_drawn_seen_and_kept_under_control(name, monkeypatch):
     monkeypatch.setattr(native.shutil, "which", lambda name: None)  # compiling takes longer

@@ -15,8 +15,8 @@ from modeler.cli import main
 from modeler.core.builtin import builtin_text
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Stretch
+from tests.rotation import rotating_with
 from tests.studio.window import Served, Window, served
-from tests.turns import in_turn
 
 JOINTS = (1, 2, 3)
 
@@ -291,7 +291,7 @@ def test_what_cannot_be_read_is_told_in_place(
     assert [c for c in w.complaints if "400" not in c] == []
 
 
-@in_turn("screens of the studio")
+@rotating_with("screens of the studio")
 def test_logs_of_other_names_chosen_where_they_lie_are_each_taken_by_their_own_guess(
     window: Callable[..., Window], measured: dict[str, np.ndarray], tmp_path: Path
 ) -> None:
@@ -332,7 +332,7 @@ def test_logs_of_other_names_chosen_where_they_lie_are_each_taken_by_their_own_g
         assert w.complaints == []
 
 
-@in_turn("screens of the studio")
+@rotating_with("screens of the studio")
 def test_many_files_at_once_and_a_robot_to_start_from(
     window: Callable[..., Window], measured: dict[str, np.ndarray], tmp_path: Path
 ) -> None:

@@ -16,8 +16,8 @@ from modeler.robot import robot_from_text
 from modeler.robot.edit import with_parameters
 from modeler.studio.project import FOLDERS, Project, ProjectLog, Workspace
 from modeler.studio.tasks import LogPart, Step, Stretch, Task, command_line
+from tests.rotation import rotating_with
 from tests.studio.window import Served, Window, served
-from tests.turns import in_turn
 
 MONDAY, TUESDAY = (LogPart(f"logs/{day}.parquet") for day in ("monday", "tuesday"))
 FIT = Step(1, 0, Task("fit", (MONDAY,)))
@@ -181,7 +181,7 @@ def test_the_robot_plays_along_and_its_joints_are_clicked(look) -> None:
     assert own.complaints == []
 
 
-@in_turn("screens of the studio")
+@rotating_with("screens of the studio")
 def test_days_models_and_drift_are_compared(look, studio) -> None:
     own = look()
     page = own.page
@@ -207,7 +207,7 @@ def test_days_models_and_drift_are_compared(look, studio) -> None:
     assert own.complaints == []
 
 
-@in_turn("screens of the studio")
+@rotating_with("screens of the studio")
 def test_what_drifted_is_named_with_its_picture(window: Callable[..., Window], tmp_path) -> None:
     """Two machines on five days; from the third on, joint 2 of r2 rubs by half as much again."""
     robot = load("two-link")

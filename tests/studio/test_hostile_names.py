@@ -25,7 +25,7 @@ FOLDER = f"{TAG} '+{RUN}+' {TEMPLATE}"
 CLOSING = f"</title></script><script>{RUN}</script>"
 
 
-pytestmark = [pytest.mark.slow, pytest.mark.in_turn("screens of the studio")]
+pytestmark = [pytest.mark.slow, pytest.mark.rotating("screens of the studio")]
 
 
 @pytest.fixture(scope="module")

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.rotation import rotating_with
 from tests.studio.window import Served, Window, served
-from tests.turns import in_turn
 
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "studio"
 KEPT = {"robot": 900, "data": 1000, "fit": 900, "fails": 1400, "missing": 1250, "fall": 1150}
@@ -232,7 +232,7 @@ def test_an_arm_with_a_hidden_effect(tmp_path, window, regenerate: bool) -> None
     (DOCS / "story.png").write_bytes(story(DOCS))
 
 
-@in_turn("screens of the studio")
+@rotating_with("screens of the studio")
 def test_a_robot_with_loops(tmp_path, window) -> None:
     logs = simulated(tmp_path, "orthoglide-2003", "passive_friction@31:Fv=0.3,Fs=1.0")
     with served(tmp_path / "orthoglide") as studio:
@@ -242,7 +242,7 @@ def test_a_robot_with_loops(tmp_path, window) -> None:
         assert all_of(person, motion=False)[0] == "passive_friction@31"
 
 
-@in_turn("screens of the studio")
+@rotating_with("screens of the studio")
 @pytest.mark.measured
 def test_measured_logs(tmp_path, window, measured_folder: Path) -> None:
     folder = measured_folder / "emps"

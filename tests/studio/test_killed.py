@@ -22,8 +22,8 @@ from modeler.studio.places import folder_lock
 from modeler.studio.project import FILE, FOLDERS, Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub
 from modeler.studio.tasks import Stretch
+from tests.rotation import ROTATING
 from tests.studio.test_dropped import wait_until
-from tests.turns import IN_TURN
 
 # What windows do to a project, without windows: a fit, an effect more, back again, and so on.
 WORKING = """
@@ -94,7 +94,7 @@ def working_in(folder: Path) -> list[str]:
 
 
 @pytest.mark.skipif(not Path("/proc/self/cwd").exists(), reason="NOT CHECKED: needs /proc")
-@pytest.mark.parametrize("times", [1, pytest.param(10, marks=IN_TURN)])
+@pytest.mark.parametrize("times", [1, pytest.param(10, marks=ROTATING)])
 def test_killed_at_random_moments(begun: Path, tmp_path: Path, times: int) -> None:
     """Of one project, so that each studio goes on where the one before was killed."""
     folder = tmp_path / "project"

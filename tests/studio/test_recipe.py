@@ -20,7 +20,7 @@ from modeler.studio.missing_screen import tried
 from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub, Studio
 from modeler.studio.tasks import LogPart, Step, Stretch, Task, bookkeeping
-from tests.turns import in_turn
+from tests.rotation import rotating_with
 
 LOGS = (
     ProjectLog("logs/day one.csv", (Stretch(0.0, 4.0), Stretch(4.5)), out=(Stretch(2.0, 2.5),)),
@@ -158,7 +158,7 @@ def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
     assert before == {p: p.stat().st_mtime_ns for p in worked.folder.rglob("*") if p.is_file()}
 
 
-@in_turn("screens of the studio")
+@rotating_with("screens of the studio")
 def test_the_notebook_makes_the_same_in_an_empty_folder(worked, tmp_path):
     book = json.loads(recipe.notebook(retold(worked)))
     assert (book["nbformat"], book["nbformat_minor"]) == (4, 5)

@@ -18,8 +18,8 @@ from modeler.studio.commands import words_of
 from modeler.studio.motion_screen import questions
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Step, Task
+from tests.rotation import rotating_with
 from tests.studio.window import Window, served, until
-from tests.turns import in_turn
 
 GERMAN = "Achse\t\u03b8 [deg]\td [mm]\ta [mm]\t\u03b1 [deg]\n" + "\n".join([
     "1\t0\t290\t0\t-90", "2\t-90\t0\t270,5\t0", "3\t0\t0\t70,5\t-90",
@@ -232,7 +232,7 @@ def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_pat
         assert w.complaints == []
 
 
-@in_turn("screens of the studio")
+@rotating_with("screens of the studio")
 def test_the_next_motion_is_found_played_and_downloaded(window, tmp_path) -> None:
     folder = project(tmp_path / "arm", "demo-arm")
     with served(folder) as studio:

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from modeler.studio.commands import words_of
+from tests.rotation import rotating_with
 from tests.studio.window import Served, Window, served
-from tests.turns import in_turn
 
 COUNT = "window.clicks = 0; document.addEventListener('click', () => window.clicks++, true)"
 
@@ -203,7 +203,7 @@ def test_from_the_empty_page_to_what_is_taken_away(studio, seat, tmp_path):
     no_address_but_that_of_what_was_made(studio, seat)
 
 
-@in_turn("screens of the studio")
+@rotating_with("screens of the studio")
 def test_the_report_and_the_script_of_the_story(studio, seat, tmp_path):
     if not studio.project.current:
         five_clicks_to_a_named_effect(studio, seat)

@@ -11,8 +11,8 @@ from modeler.studio.motion_screen import changed_limits
 from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub, Studio
 from modeler.studio.tasks import Step, Stretch, Task
+from tests.rotation import rotating_with
 from tests.studio.window import served
-from tests.turns import in_turn
 
 
 def test_a_second_window_reads_until_it_takes_over(tmp_path: Path, window) -> None:
@@ -33,7 +33,7 @@ def test_a_second_window_reads_until_it_takes_over(tmp_path: Path, window) -> No
         first.page.get_by_role("button", name="Take over").wait_for(state="hidden")
 
 
-@in_turn("screens of the studio")
+@rotating_with("screens of the studio")
 def test_a_second_studio_reads_and_follows_and_takes_over_when_the_first_ends(
     tmp_path: Path, window
 ) -> None:
