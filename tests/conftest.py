@@ -32,8 +32,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--regenerate", action="store_true", help="rewrite generated/ instead of comparing with it"
     )
     parser.addoption(
-        "--every", type=int, default=1, metavar="DAYS",
-        help="run each case that repeats what others show in one run of so many; see tests/rotation.py",
+        "--every", type=int, default=1, metavar="RUNS",
+        help="run each case that repeats what others show once in so many runs",
     )  # fmt: skip
     parser.addoption(
         "--day", type=int, default=today(), help="where no run is recorded yet; default: today"

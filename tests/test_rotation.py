@@ -67,7 +67,9 @@ def test_a_case_that_failed_runs_until_it_passes() -> None:
 PROJECT = """
 import pytest
 
-@pytest.mark.parametrize("k", [0, *(pytest.param(k, marks=pytest.mark.rotating) for k in range(1, 9))])
+MORE = [pytest.param(k, marks=pytest.mark.rotating) for k in range(1, 9)]
+
+@pytest.mark.parametrize("k", [0, *MORE])
 def test_number(k):
     assert k != 5
 
