@@ -5,22 +5,25 @@ PYTHONS := python3.13 python3.12 python3.11 python3
 PYTHON ?=
 JOBS ?= 2
 TESTS ?=
-EVERY ?= 1
 BIN := .venv/bin
 PYTEST = OPENBLAS_NUM_THREADS=1 $(BIN)/python -m pytest -q -n $(JOBS) --dist worksteal
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test test-all lint docs regenerate clean
+test coverage: EVERY = 5
+test-all docs: EVERY = 1
+.PHONY: help demo test test-all coverage lint docs regenerate clean
 
 help:
 	@echo 'make demo         install, then a hidden effect found and added, on two built-in robots: pages in demo/'
-	@echo 'make test         install, then ruff, mypy and the tests (JOBS=2 processes; TESTS=tests/fit some)'
-	@echo 'make test-all     the same with the long tests: every robot, many seeds, mutated files'
-	@echo '                  (EVERY=3: of the cases that repeat what others show, today a third)'
+	@echo 'make test         install, then ruff, mypy and the tests (JOBS=2 processes; TESTS=tests/fit some);'
+	@echo '                  cases that repeat what others show run in one of EVERY=5 runs'
+	@echo 'make test-all     every test, the long ones too: all robots, many seeds, mutated files'
+	@echo '                  (EVERY=5: those that repeat what others show in one of five runs)'
+	@echo 'make coverage     make test, then the lines and branches it ran, and the functions least covered'
 	@echo 'make lint         ruff and mypy only'
 	@echo 'make docs         the documentation as a site, in build/site; nothing in it needs the network'
-	@echo '                  (EVERY=3: of the pictures that take long, today a third)'
+	@echo '                  (EVERY=5: of the pictures that take long, today a fifth)'
 	@echo 'make regenerate   write generated/ and the generated pages of docs/ anew'
 	@echo 'make clean        remove all that these commands made, .venv included'
 	@echo 'PYTHON=...        the Python to install with; default: the first of $(PYTHONS)'
@@ -28,11 +31,16 @@ help:
 demo: .venv/.installed
 	$(BIN)/modeler demo --out demo
 
-test: lint
-	$(PYTEST) -m 'not slow' $(TESTS)
+# mypy works beside the tests, and speaks after them.
+test: .venv/.installed-test
+	@$(call beside_mypy,$(PYTEST) --every $(EVERY) -m 'not slow' $(TESTS))
 
-test-all: lint
-	$(PYTEST) --every $(EVERY) $(TESTS)
+test-all: .venv/.installed-test
+	@$(call beside_mypy,$(PYTEST) --every $(EVERY) $(TESTS))
+
+coverage: .venv/.installed-test
+	$(PYTEST) --cov --cov-report= -m 'not slow' --every $(EVERY) $(TESTS)
+	$(BIN)/python -m tests.coverage_report
 
 lint: .venv/.installed-test
 	$(BIN)/python -m ruff check .
@@ -65,6 +73,14 @@ clean:
 .venv/.installed-docs: .venv/.installed
 	$(BIN)/python -m pip install -q -c constraints.txt --no-build-isolation -e '.[docs]'
 	@touch $@
+
+define beside_mypy
+$(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check . || exit 1; \
+mkdir -p build; $(BIN)/python -m mypy >build/mypy.txt 2>&1 & types=$$!; \
+trap 'kill $$types 2>/dev/null' INT TERM; \
+echo "$(subst ",\",$(1))"; $(1); tests=$$?; \
+wait $$types; status=$$?; cat build/mypy.txt; test $$tests -eq 0 -a $$status -eq 0
+endef
 
 define find_compiler
 for name in $${CC:-cc} gcc clang; do \
