@@ -41,6 +41,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    gc.disable()  # until all is collected: what collection makes stays
     config.pluginmanager.register(Rotation(config, KINDS, OTHERS), "rotation")
 
 
@@ -61,9 +62,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 def pytest_collection_finish() -> None:
     """What is collected stays: to look for garbage among it, so often, costs a sixth of a run."""
-    gc.collect()
     gc.freeze()
     gc.set_threshold(20_000, 20, 10)
+    gc.enable()
 
 
 @pytest.fixture
@@ -95,8 +96,9 @@ def compiled_models_beside_pytest(request: pytest.FixtureRequest) -> Iterator[No
     """Compiled models go into pytest's cache: kept between runs, never in the user's own."""
     before = os.environ.get("MODELER_CACHE")
     if before is None:
-        folder = request.config.rootpath / ".pytest_cache" / "d" / "modeler"
-        os.environ["MODELER_CACHE"] = str(folder)
+        cache = request.config.cache
+        assert cache is not None
+        os.environ["MODELER_CACHE"] = str(cache.mkdir("modeler"))
     yield
     if before is None:
         del os.environ["MODELER_CACHE"]

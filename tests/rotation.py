@@ -66,7 +66,7 @@ class Rotation:
     def pytest_sessionfinish(self) -> None:
         if hasattr(self._config, "workeroutput"):
             self._config.workeroutput["rotation"] = self._waits
-        elif self._waits:
+        elif self._waits and not self._config.getoption("collectonly"):
             self._keep()
 
     @pytest.hookimpl(optionalhook=True)

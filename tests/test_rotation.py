@@ -80,11 +80,8 @@ def test_quick(k):
 """
 
 
-@pytest.mark.parametrize("processes", [(), ("-n", "2")])
-def test_the_record_is_kept_between_runs(
-    pytester: pytest.Pytester, processes: tuple[str, ...]
-) -> None:
-    """Real runs of pytest, alone and by pytest-xdist."""
+def test_the_record_is_kept_between_runs(pytester: pytest.Pytester) -> None:
+    """Real runs of pytest, alone and by pytest-xdist; to collect is none."""
     pytester.makeconftest(
         f"import sys\nsys.path.insert(0, {str(ROOT)!r})\n"
         "from tests.conftest import pytest_addoption, pytest_configure\n"
@@ -94,8 +91,10 @@ def test_the_record_is_kept_between_runs(
     pytester.makepyprojecttoml('[tool.pytest.ini_options]\nmarkers = ["rotating"]\n')
     pytester.makepyfile(PROJECT)
     ran: list[set[str]] = []
-    for _ in range(4):
-        result = pytester.runpytest_subprocess("-v", "--every", "3", *processes)
+    for words in ([], ["-n", "2"], ["--collect-only"], [], []):
+        result = pytester.runpytest_subprocess("-v", "--every", "3", *words)
+        if "--collect-only" in words:
+            continue
         ran.append({word for line in result.outlines for word in line.split() if "::test_" in word})
     assert len(set().union(*ran[:3])) == 13
     assert all(len(names) < 9 for names in ran)

@@ -61,6 +61,8 @@ def test_a_workflow_calls_what_there_is(path: Path) -> None:
             assert words[2] in DIST, line
         elif words[0] == "modeler":
             assert words[1] in COMMANDS, line
+        elif words[0] == ".ci/run":
+            assert (ROOT / words[0]).is_file()
         else:
             assert words[:2] == ["python", "-m"] and words[2] in ("pip", "build", "pytest"), line
 
