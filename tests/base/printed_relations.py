@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 import sympy
@@ -80,9 +80,9 @@ def printed_forms(
 class Exact:
     """Exact coefficients at random values of the symbols."""
 
-    def __init__(self, base: BaseParameters, seed: int) -> None:
+    def __init__(self, parameters: Sequence[BaseParameter], seed: int) -> None:
         self.random = np.random.default_rng(seed)
-        terms = [term for parameter in base.parameters for term in parameter.terms]
+        terms = [term for parameter in parameters for term in parameter.terms]
         symbols = {s for term in terms for s in term.coefficient.free_symbols}
         self.values = {s.name: self.random.uniform(0.3, 1.4) for s in sorted(symbols, key=str)}
         at = {s: sympy.Float(float(self.values[s.name]), _DIGITS) for s in symbols}

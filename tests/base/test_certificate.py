@@ -43,9 +43,8 @@ def test_a_wrong_coefficient_is_found(wrist):
     row = dict(relations.rows[index])
     other = next(place for place in row if place != relations.dropped[index])
     row[other] = row[other] + K.one
-    wrong = dataclasses.replace(
-        relations, rows=(*relations.rows[:index], row, *relations.rows[index + 1 :])
-    )
+    rows = (*relations.rows[:index], row, *relations.rows[index + 1 :])
+    wrong = dataclasses.replace(relations, rows=rows)
     with pytest.raises(NotProved, match=r"the relation of \w+ does not hold"):
         prove(model, K, wrong, seed=1)
 
@@ -89,9 +88,8 @@ def test_energy_rows_are_those_of_the_links():
     L = state.residues[sympy.Symbol("L", real=True)]
     qd1 = state.qd[0]
     np.testing.assert_array_equal(rows[:5, names["ZZ1"]], qd1 * qd1 % PRIME)
-    np.testing.assert_array_equal(
-        rows[:5, names["M2"]], qd1 * qd1 % PRIME * (L * L % PRIME) % PRIME
-    )
+    expected = qd1 * qd1 % PRIME * (L * L % PRIME) % PRIME
+    np.testing.assert_array_equal(rows[:5, names["M2"]], expected)
 
 
 def test_field_turns_half_angles_back():

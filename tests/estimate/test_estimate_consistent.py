@@ -10,9 +10,12 @@ from modeler.robot.read import read_robot
 from modeler.simulation.parameters import by_shared_names, plant_parameters
 from modeler.simulation.trajectory import motion_limits
 from tests.bodies import buildable
-from tests.modules import compiled
+from tests.modules import plain
 
 SERIAL = ("two-link", "ur10e")
+TURN = [
+    pytest.param(name, marks=pytest.mark.rotating) for name in ("ur10e", "sr400", "orthoglide-2003")
+]
 
 
 def cloud(rng, places=8):
@@ -24,7 +27,7 @@ def cloud(rng, places=8):
 
 def rows_of(name, rng, samples, noise, wide=np.pi):
     """Triangle of weighted rows along random states, and the true base parameters."""
-    model = compiled(name)
+    model = plain(name)
     chi = buildable(model.spec, rng)
     shape = (samples, len(model.spec.joints))
     q, qd, qdd = (rng.uniform(-1.0, 1.0, shape) for _ in range(3))
@@ -35,12 +38,12 @@ def rows_of(name, rng, samples, noise, wide=np.pi):
     return model, np.linalg.qr(np.column_stack([W, y]) / sigma, mode="r"), beta
 
 
-@pytest.mark.parametrize("name", [*SERIAL, "sr400", "orthoglide-2003"])
+@pytest.mark.parametrize("name", ["two-link", "five-bar", *TURN])
 def test_every_link_could_be_built_and_the_base_comes_back(name):
     if name in SERIAL:
         model, whole, _ = rows_of(name, np.random.default_rng(1), 40, 0.3, wide=0.5)
     else:  # rows of the base parameters themselves, badly known
-        model = compiled(name)
+        model = plain(name)
         rng = np.random.default_rng(1)
         beta = model.base_parameters(buildable(model.spec, rng))
         beta = beta * rng.normal(1.0, 1.0, len(beta))
@@ -57,10 +60,16 @@ def test_every_link_could_be_built_and_the_base_comes_back(name):
     )
 
 
-@pytest.mark.parametrize("name", SERIAL)
+def about_centre(body):
+    """Mass, centre and inertia about it of second moments."""
+    mass, centre = body[3, 3], body[:3, 3] / body[3, 3]
+    about = body[:3, :3] - mass * np.outer(centre, centre)
+    return mass, centre, np.trace(about) * np.eye(3) - about
+
+
+@pytest.mark.parametrize("name", ["two-link", TURN[0]])
 def test_pinocchio_gives_the_same_torques(name):
-    pin = pytest.importorskip("pinocchio", reason="NOT CHECKED: Pinocchio is not installed")
-    from tests.symbolic.oracles import pinocchio_model
+    from tests.symbolic.oracles import pin, pinocchio_model
 
     rng = np.random.default_rng(2)
     model, whole, _ = rows_of(name, rng, 60, 0.2)
@@ -68,13 +77,8 @@ def test_pinocchio_gives_the_same_torques(name):
     robot = read_robot(name)
     theirs, ids = pinocchio_model(robot)
     for joint, index in zip(robot.moving, ids, strict=True):
-        body = found.bodies[joint.name]
-        second, moment, mass = body[:3, :3], body[:3, 3], body[3, 3]
-        centre = moment / mass
-        about = second - mass * np.outer(centre, centre)
-        inertia = np.trace(about) * np.eye(3) - about
-        assert np.linalg.eigvalsh(inertia)[0] > 0.0
-        theirs.inertias[index] = pin.Inertia(mass, centre, inertia)
+        theirs.inertias[index] = pin.Inertia(*about_centre(found.bodies[joint.name]))
+        assert np.linalg.eigvalsh(theirs.inertias[index].inertia)[0] > 0.0
     data = theirs.createData()
     for _ in range(5):
         q, qd, qdd = rng.uniform(-1.0, 1.0, (3, 1, len(ids)))
@@ -101,11 +105,7 @@ def test_mujoco_takes_the_bodies_and_gives_the_same_torques():
     y = y + sigma * rng.normal(size=150)
     whole = np.linalg.qr(np.column_stack([W, y]) / sigma, mode="r")
     found = consistent(machine_of(model.spec), whole, {})
-    bodies = []
-    for body in found.bodies.values():
-        mass, centre = body[3, 3], body[:3, 3] / body[3, 3]
-        about = body[:3, :3] - mass * np.outer(centre, centre)
-        bodies.append(Body(mass, centre, np.trace(about) * np.eye(3) - about))
+    bodies = [Body(*about_centre(body)) for body in found.bodies.values()]
     nothing = np.zeros(3)
     theirs = mujoco.MjModel.from_xml_string(
         mjcf(Arm(arm.table, tuple(bodies), nothing, nothing, nothing))
@@ -122,7 +122,7 @@ def test_mujoco_takes_the_bodies_and_gives_the_same_torques():
 
 def test_values_that_the_data_tell_keep_their_least_squares_and_sigma():
     errors = []
-    for seed in range(15):
+    for seed in range(6):
         model, whole, beta = rows_of("two-link", np.random.default_rng(seed), 200, 0.02)
         found = consistent(machine_of(model.spec), whole, {})
         assert found.at_bound or found.rise < 0.1
@@ -132,8 +132,8 @@ def test_values_that_the_data_tell_keep_their_least_squares_and_sigma():
 
 def test_sigmas_of_links_at_the_bound_are_what_repetition_shows():
     """Thin links lie near it. There the curvature is endless, and its inverse 4 to 10 sigma off."""
-    model, robot, z = compiled("wrist"), read_robot("wrist"), []
-    for seed in range(10):
+    model, robot, z = plain("wrist"), read_robot("wrist"), []
+    for seed in range(4):
         drawn, _ = by_shared_names(robot, plant_parameters(robot, motion_limits(robot, {}), seed))
         beta = model.base_parameters(np.array([drawn[p.name] for p in model.spec.standard]))
         rng = np.random.default_rng([seed, 5])

@@ -9,7 +9,7 @@ from scipy.signal import lfilter
 
 from modeler.api import Load, fit_gains
 from modeler.api.fitting import FitRequest, estimated
-from modeler.codegen import derive
+from modeler.codegen import derive, generate
 from modeler.core.errors import DataError
 from modeler.estimation.covariance import Halves
 from modeler.estimation.identify import base_equations, fit_equations, identify
@@ -49,11 +49,14 @@ def rows(model, seed, chi, noise=NOISE, samples=60):
     return phi.reshape(-1, phi.shape[2]), W.reshape(-1, W.shape[2]), y.ravel(), joint
 
 
+def base_names(model):
+    return tuple(base.name for base in model.spec.base)
+
+
 def estimated_beside(model, seed, chi, **how):
     """The posterior of white rows, with the least squares it came from."""
     _, W, y, joint = rows(model, seed, chi, **how)
-    names = tuple(base.name for base in model.spec.base)
-    data = compress(W, y, joint, 3, names)
+    data = compress(W, y, joint, 3, base_names(model))
     white = least_squares(data, "weighted")
     return prior_of(model.spec).applied(white, data, white.covariance), white
 
@@ -91,7 +94,7 @@ def test_the_posterior_is_bayes_rule_on_all_standard_parameters(model):
 
 def test_z_scores_are_those_of_the_prior_and_the_noise(model):
     z = []
-    for seed in range(60):
+    for seed in range(30):
         chi = true_chi(seed)
         found, _ = estimated_beside(model, seed, chi, noise=5.0)
         free = np.array([name != "Fv3" for name in prior_of(model.spec).names])
@@ -105,11 +108,15 @@ def test_a_body_moves_as_its_mass_centre_and_inertia_do():
     rng, share = np.random.default_rng(5), 1e-4
     ten = np.array([NOMINAL[f"{p}2"] for p in PREFIXES])
     why, found = body_covariance(ten, share)
-    every = [drawn(share, rng, NOMINAL) for _ in range(2000)]
+    every = [drawn(share, rng, NOMINAL) for _ in range(1000)]
     many = [[one[f"{p}2"] for p in PREFIXES] for one in every]
     seen, size = np.cov(np.array(many).T), np.sqrt(np.diag(found))
     assert not why
     np.testing.assert_allclose(seen / np.outer(size, size), found / np.outer(size, size), atol=0.1)
+
+
+def spec_of(*stated):
+    return generate(derive(robot_from_text(text(*stated), "stated.toml"))).spec
 
 
 def test_placeholders_have_no_prior_and_are_told_by_name():
@@ -117,42 +124,36 @@ def test_placeholders_have_no_prior_and_are_told_by_name():
     zero |= {f"{p}1": 0.0 for p in PREFIXES}
     values = zero | {f"{p}2": float(p in ("XX", "YY", "ZZ", "M")) for p in PREFIXES}
     values |= {"XX3": 5.0 * odd["XX3"], "YY3": 0.1 * odd["YY3"]}
-    prior = prior_of(compiled(text(values, {"inertial": 0.1})).spec)
+    prior = prior_of(spec_of(values, {"inertial": 0.1}))
     assert prior.without == {
         "link 1": "mass of 0", "link 2": "identity inertia", "link 3": "not physically possible"
     }  # fmt: skip
-    assert not prior.groups
+    assert not prior.groups and prior_of(spec_of(NOMINAL)) is None
     told = " ".join(prior.sentences(np.zeros(3)))
     assert "link 1 (mass of 0), link 2 (identity inertia), link 3 (not phys" in told
     assert body_covariance(-np.array([identity[f"{p}1"] for p in PREFIXES]), 0.1)[0]
     del values["YY3"]
-    prior = prior_of(compiled(text(values, {"inertial": 0.1})).spec)
+    prior = prior_of(spec_of(values, {"inertial": 0.1}))
     assert prior.without["link 3"] == "its ten parameters are not all stated"
     point = zero | {"M1": 3.0}
-    assert prior_of(compiled(text(point, {"inertial": 0.1})).spec).without["link 1"] == (
-        "inertia of 0"
-    )
-
-
-def test_without_a_word_on_uncertainty_there_is_no_prior():
-    assert prior_of(compiled(text(NOMINAL)).spec) is None
+    assert prior_of(spec_of(point, {"inertial": 0.1})).without["link 1"] == "inertia of 0"
 
 
 def test_a_body_that_the_data_contradict_is_told_and_left_out(model):
     told = 0
-    for seed in range(20):
+    for seed in range(10):
         chi = true_chi(seed)
         chi |= {p + "3": 2.2 * NOMINAL[p + "3"] for p in PREFIXES}
         found, white = estimated_beside(model, seed, chi)
         told += len(found.contradicted) == 1 and found.contradicted[0].startswith("link 3: the dat")
         free = [i for i, base in enumerate(model.spec.base) if base.name.endswith("3")]
         np.testing.assert_allclose(found.beta[free], white.beta[free], rtol=0.2, atol=0.3)
-    assert told >= 19
+    assert told >= 9
 
 
 def test_a_true_prior_is_not_told_as_contradicted(model):
-    told = [estimated_beside(model, s, true_chi(s))[0].contradicted for s in range(100, 160)]
-    assert sum(map(bool, told)) <= 2
+    told = [estimated_beside(model, s, true_chi(s))[0].contradicted for s in range(100, 125)]
+    assert sum(map(bool, told)) <= 1
 
 
 def log_of(model, chi, seed=0, seconds=6.0, noise=None, name="made.csv"):
@@ -184,9 +185,8 @@ def test_held_values_hold_and_the_table_says_what_came_from_the_prior(model, see
     assert by_name["Fv3"].status == "held"
     shares = [p.prior for p in fit.parameters]
     assert all(0.0 <= share <= 1.0 for share in shares) and by_name["Fs1"].prior < 0.2
-    alone = identify(seen, method)
-    assert all(a.sigma <= 1.02 * b.sigma for a, b in zip(fit.parameters, alone.parameters,
-                                                           strict=True))  # fmt: skip
+    pairs = zip(fit.parameters, identify(seen, method).parameters, strict=True)
+    assert all(own.sigma <= 1.02 * alone.sigma for own, alone in pairs)
     told = "\n".join(fit.lines())
     assert "  prior  unit" in told and "held" in told
     assert "prior of the robot file on link 1, link 2, link 3, Fv1, Fs1" not in told
@@ -209,17 +209,14 @@ def test_windows_of_long_logs_raise_the_sigmas_as_all_rows_do(model):
     once, twice = (
         fit_equations(seen, base_equations(seen), "weighted", model, **how) for how in ({}, every)
     )
-    pairs = {
-        own.name: own.sigma / other.sigma
-        for own, other in zip(twice.parameters, once.parameters, strict=True)
-    }
-    assert all(0.68 < pairs[name] < 0.78 for name in ("XZ2R", "MX2R")), pairs
+    for own, other in zip(twice.parameters, once.parameters, strict=True):
+        assert own.name not in ("XZ2R", "MX2R") or 0.68 < own.sigma / other.sigma < 0.78, own
 
 
 def test_rows_that_repeat_each_other_weigh_less(model):
     """Noise that remembers 0.2 s: sigmas of data and prior together stay honest."""
     z = []
-    for seed in range(12):
+    for seed in range(4):
         chi = true_chi(200 + seed)
         fit = identify(seen_of(model, chi, seed, 12.0, remembering(seed)), "weighted", model)
         sigma = np.array([p.sigma for p in fit.parameters])
@@ -288,13 +285,13 @@ def test_the_energy_model_fits_without_the_values_and_says_so():
 
 
 def test_a_fit_with_a_prior_is_the_least_of_its_objective(model):
-    """|V^-1/2 (beta - theta)|^2 + |R (beta - beta_0)|^2 on 50 problems; what halves disagree about
+    """|V^-1/2 (beta - theta)|^2 + |R (beta - beta_0)|^2 on 15 problems; what halves disagree about
     stays in the standard deviations and moves no value."""
-    for seed in range(50):
+    for seed in range(15):
         rng = np.random.default_rng([seed, 3])
         _, W, y, joint = rows(model, seed, true_chi(seed))
         y = y + rng.uniform(0.0, 2.0) * np.sign(rng.normal(size=len(y)))  # no noise of the model
-        names = tuple(base.name for base in model.spec.base)
+        names = base_names(model)
         data = compress(W, y, joint, 3, names)
         white = least_squares(data, "weighted")
         raised = rng.uniform(1.0, 3.0) * white.covariance
@@ -316,10 +313,9 @@ def test_a_fit_with_a_prior_is_the_least_of_its_objective(model):
 
 def test_a_weighted_fit_is_the_least_of_its_objective(model):
     """sum_j |y_j - W_j beta|^2 / sigma_j^2 with the weights that it ends with."""
-    for seed in range(50):
+    for seed in range(15):
         _, W, y, joint = rows(model, seed, true_chi(seed), noise=0.2 + 0.02 * seed)
-        names = tuple(base.name for base in model.spec.base)
-        found = least_squares(compress(W, y, joint, 3, names), "weighted")
+        found = least_squares(compress(W, y, joint, 3, base_names(model)), "weighted")
         X = W / found.sigma[joint][:, None]
         slope = X.T @ (X @ found.beta - y / found.sigma[joint])
         assert np.abs(slope / np.linalg.norm(X, axis=0)).max() < 1e-6
@@ -327,16 +323,14 @@ def test_a_weighted_fit_is_the_least_of_its_objective(model):
 
 def test_a_prior_that_raises_the_error_of_a_joint_is_named(model, monkeypatch):
     _, W, y, joint = rows(model, 3, true_chi(3), noise=0.05)
-    data = compress(W, y, joint, 3, tuple(base.name for base in model.spec.base))
+    data = compress(W, y, joint, 3, base_names(model))
     white = least_squares(data, "weighted")
     prior = prior_of(model.spec)
-    right = prior.applied(white, data, white.covariance, joints="123")
-    assert right.contradicted == ()
+    assert prior.applied(white, data, white.covariance, joints="123").contradicted == ()
     wrong = dataclasses.replace(prior, mean=2.0 * prior.mean)
     monkeypatch.setattr(type(prior), "contradictions", lambda *_: {})
     found = wrong.applied(white, data, 100.0 * white.covariance, joints="123")
-    assert any("the prior of the robot file raises its fit error from" in x
-               for x in found.contradicted)  # fmt: skip
+    assert "the prior of the robot file raises its fit error from" in " ".join(found.contradicted)
 
 
 def test_values_that_halves_disagree_about_do_not_leave_their_sums(tmp_path, monkeypatch):
@@ -346,9 +340,8 @@ def test_values_that_halves_disagree_about_do_not_leave_their_sums(tmp_path, mon
     own = text(NOMINAL | FRICTION, {"inertial": 0.3}).replace("[effects]", effects)
     truth = buildable(0.3, np.random.default_rng(1), NOMINAL) | FRICTION
     machine = robot_from_text(text(truth).replace("[effects]", effects), "arm")
-    write_log(
-        tmp_path / "a.parquet", simulate(machine, SimulationSettings(duration=12.0, rate=250.0))
-    )
+    run = simulate(machine, SimulationSettings(duration=8.0, rate=200.0))
+    write_log(tmp_path / "a.parquet", run)
     model = compiled(own)
     seen = observe(model, [read_log(tmp_path / "a.parquet", model.spec)])
     errors = []

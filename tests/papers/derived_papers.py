@@ -1,10 +1,21 @@
 """The robots of the papers, each derived once per test run."""
 
 from functools import cache
+from typing import Any
 
+import pytest
+
+from modeler.core.builtin import paper_names
 from modeler.papers.paper import DerivedPaper, derived_robot, read_paper
 from modeler.robot.read import read_robot
 from tests.modules import module
+
+
+def each_paper(*always: str) -> Any:
+    """The test for every paper, as `name`: these in every run, the others in turn."""
+    turn = pytest.mark.rotating
+    names = [n if n in always else pytest.param(n, marks=turn) for n in paper_names()]
+    return pytest.mark.parametrize("name", names)
 
 
 @cache

@@ -5,13 +5,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
 
-import pytest
-
-from modeler.core.builtin import paper_names
 from modeler.papers.check import LineVerdict, check_line, written_out
 from modeler.papers.paper import read_paper
 from modeler.papers.wrist import coefficient_quotations
-from tests.papers.derived_papers import robots_of
+from tests.papers.derived_papers import each_paper, robots_of
 
 EVERY = 9
 """Of how many alterations one is tried; which, changes from line to line."""
@@ -44,7 +41,7 @@ def all_lines(name):
     return paper, [one for line in lines for one in written_out(line)]
 
 
-@pytest.mark.parametrize("name", paper_names())
+@each_paper("hanssen-2000")
 def test_every_alteration_of_a_line_is_noticed(name):
     paper, lines = all_lines(name)
     robots, survivors, tried = robots_of(name), [], 0

@@ -13,7 +13,6 @@ from modeler.papers.check import LineVerdict, check_line, check_paper
 from modeler.papers.paper import PrintedLine, read_paper
 from modeler.papers.quotation import QuotationError, numbers_of, read_sum, sum_text
 from modeler.papers.readings import READINGS
-from modeler.papers.wrist import coefficient_quotations
 from tests.papers.derived_papers import robots_of
 
 CLOSED = "orthoglide-2012"
@@ -54,38 +53,16 @@ def test_what_may_be_the_scan_says_so():
     scans = {
         line.place: line for name in paper_names() for line in lines_of(name) if line.slip == "scan"
     }
+    others = "Table 1; Table 3; section 2.2, S112; section 2.2, S311; section 3; section 5, below G"
     inverses = {f"eq. ({n})" for n in (7, 8, 9, 27, 28, 29, 30)}
-    assert set(scans) == inverses | {
-        "Table 1", "Table 3", "section 2.2, S112", "section 2.2, S311", "section 3",
-        "section 5, below G",
-    }  # fmt: skip
+    assert set(scans) == inverses | {*others.split("; ")}
     assert "S312" in scans["section 2.2, S311"].why
     assert "PS18" in scans["section 2.2, S112"].derived
 
 
-def test_rotor_inertias_of_the_passive_joints_are_omissions():
-    slips = {line.printed[:5]: line.slip for line in lines_of("briot-2012") if line.slip}
-    assert set(slips) == {"ZZ21R", "ZZ31R", "M12R ", "M13R ", "13 | ", "phip "}
-    assert (slips["ZZ21R"], slips["ZZ31R"]) == ("omission", "omission")
-    assert (slips["M12R "], slips["M13R "]) == ("misprint", "misprint")
-
-
-def test_leg_3_has_fifteen_with_the_pair_that_the_paper_prints():
-    places = {line.printed: line for line in lines_of("guegan-2003")}
-    assert places["there are 15 base parameters"].verdict is LineVerdict.EQUAL
-    assert places["M1R3 = M13 + M23 + M33 + M43 + M73"].verdict is LineVerdict.EQUAL
-
-
-COMMANDS = [
-    name if name in ("briot-2012", "hanssen-2000") else pytest.param(name, marks=pytest.mark.slow)
-    for name in paper_names()
-]
-
-
-@pytest.mark.parametrize("name", COMMANDS)
-def test_the_command_ends_well(name, capsys, tmp_path):
+def test_the_command_ends_well(capsys, tmp_path):
     place = tmp_path / "lines.json"
-    assert main(["reproduce", name, "--section", "print", "--json", str(place)]) == 0
+    assert main(["reproduce", "briot-2012", "--section", "print", "--json", str(place)]) == 0
     assert "printed and equal" in capsys.readouterr().out
     told = json.loads(place.read_text())
     assert {line["verdict"] for line in told["lines"]} >= {"printed and different"}
@@ -99,12 +76,6 @@ def test_a_line_that_differs_ends_with_status_1(capsys, monkeypatch):
     monkeypatch.setattr("modeler.papers.read_paper", lambda name: changed)
     assert main(["reproduce", "hanssen-2000", "--section", "print"]) == 1
     assert "1 line is different: as many as 33 physical" in capsys.readouterr().err
-
-
-def test_a_robot_names_its_paper():
-    named = {"evra": "houda", "wrist": "hanssen-2000", "orthoglide-leg": "guegan-2003",
-             "orthoglide-2012": "briot-2012"}  # fmt: skip
-    assert {robot: read_paper(robot).name for robot in named} == named
 
 
 def test_an_unknown_paper_is_told(capsys):
@@ -131,15 +102,12 @@ def test_a_known_difference_that_is_not_there_is_a_difference():
                    "gives": ("11", "21")}),
         ("houda", {"check": "names", "gives": ("prefix(within(standard('*31'), standard('*21')))",),
                    "quote": "hXX, hXY, hXZ, hYY, hYZ, hZZ, hM"}),
-        ("houda", {"check": "recursion", "gives": ("angular",),
-                   "quote": "^komegak-1 + sigmak qdk ^kak"}),
         ("houda", {"check": "recursion", "gives": ("angular",), "quote": "qdk (^kak"}),
         ("houda", {"check": "body", "gives": ("E",), "quote": "Mk + Vk"}),
         ("houda", {"check": "energy", "gives": ("XY",), "quote": "1/2 omega1 omega2",
                    "difference": "1/2 w1 w2 inXY", "slip": "misprint",
                    "corrected": "2 omega1 omega2"}),
         ("hanssen-2000", {"check": "velocity", "gives": ("vCMa",), "quote": "-at3 qd1"}),
-        ("houda", {"check": "energy", "quote": "uk 0 | 0", "gives": ("ZZ", "M")}),
         ("houda", {"check": "energy", "quote": "^kVk^T kVk", "gives": ("M",)}),
         ("hanssen-2000", {"check": "indices", "quote": "Jij ddotqi + gi = taui"}),
     ],
@@ -226,9 +194,8 @@ def test_what_cannot_be_read_is_different_and_says_why(check, quote, gives, told
 def test_sums_are_read_as_they_are_printed():
     assert sum_text(read_sum("ZZ2 + D4^2 M4 - MX3/D4", str)) == "ZZ2 + D4^2*M4 - MX3/D4"
     assert sum_text(read_sum("- sin theta2 qd1", str)) == "-qd1*sin(theta2)"
-    assert (
-        sum_text(read_sum("sum_i [ M4i + 1/2 M3i ]", str, "12")) == "M41 + 1/2*M31 + M42 + 1/2*M32"
-    )
+    legs = sum_text(read_sum("sum_i [ M4i + 1/2 M3i ]", str, "12"))
+    assert legs == "M41 + 1/2*M31 + M42 + 1/2*M32"
     with pytest.raises(QuotationError, match="expected a name or a number"):
         read_sum("+", str)
 
@@ -241,20 +208,6 @@ def test_numbers_are_those_between_the_words():
 def test_every_kind_of_line_is_used():
     used = {line.check for name in paper_names() for line in read_paper(name).lines}
     assert set(READINGS) - used == {"function", "definition", "solution", "independent"}
-
-
-def test_every_slip_of_the_wrist_is_one_of_its_quotations():
-    paper = read_paper("hanssen-2000")
-    lines = coefficient_quotations(paper, robots_of("hanssen-2000"))
-    assert len([line for line in lines if line.slip]) == len(paper.slips)
-
-
-def test_the_opened_robot_has_no_relations_and_every_joint_a_motor():
-    """As Briot and Gautier open it: 15 joints of the legs, and the platform's three."""
-    tree = robots_of("briot-2012")["orthoglide-2012-tree"].robot
-    assert not tree.loops and not tree.relations
-    assert all(joint.actuated for joint in tree.moving)
-    assert len(tree.coordinates) == 18
 
 
 def test_the_tree_of_the_sr400_has_fifty_base_parameters(capsys):

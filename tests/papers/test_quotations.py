@@ -30,10 +30,9 @@ def squeezed(text: str) -> str:
     text = text.replace("g_{ au", "g_{tau")  # the text has lost the t of \tau
     text = re.sub(r"\\(?:left|right|mathbf|mathbb|text|hat|cdot|begin|end|split)", "", text)
     text = text.replace(r"\times", "x").replace("bmatrix", "").replace(r"\quad", "")
+    group = r"\{((?:[^{}]|\{[^{}]*\})*)\}"
     for _ in range(3):
-        text = re.sub(
-            r"\\frac\{((?:[^{}]|\{[^{}]*\})*)\}\{((?:[^{}]|\{[^{}]*\})*)\}", r"\1/\2", text
-        )
+        text = re.sub(rf"\\frac{group}{group}", r"\1/\2", text)
     text = re.sub(r"\\dot\{(\w)\}", r"\1d", text)
     text = text.replace("sum_i=1^3", "sumi").replace(",k}", "}")
     text = text.replace(r"\sum_{i=1}^3", "sumi").replace("sum_i", "sumi")

@@ -40,9 +40,11 @@ def fold(rows: int = ROWS) -> np.ndarray:
     return stretches(np.zeros(rows, dtype=int))
 
 
-@pytest.mark.parametrize("memory", [0.0, 0.03, 0.1, 0.2])
+@pytest.mark.parametrize(
+    "memory", [0.1, *(pytest.param(x, marks=pytest.mark.rotating) for x in (0.0, 0.03, 0.2))]
+)
 def test_noise_of_any_colour_is_not_predicted(memory: float) -> None:
-    found = [flexible(functions(measured(s)), noise(s, memory), fold()) for s in range(6)]
+    found = [flexible(functions(measured(s)), noise(s, memory), fold()) for s in range(4)]
     assert np.mean([each.share for each in found]) < 0.03
     assert np.mean([each.sure and each.share > 0.05 for each in found]) < 0.1
     if memory < 0.1:
@@ -50,13 +52,10 @@ def test_noise_of_any_colour_is_not_predicted(memory: float) -> None:
 
 
 @pytest.mark.parametrize("function", [
-    lambda m: np.sin(5.0 * m.q[:, 0]),
     lambda m: np.sign(m.v[:, 0]) * np.exp(-np.abs(m.v[:, 0]) / 0.3),
     lambda m: np.abs(m.load[:, 0]) * np.sign(m.v[:, 0]),
     lambda m: np.abs(m.torque[:, 0]),
-    lambda m: np.tanh(m.a[:, 0]),
     lambda m: np.tanh(3.0 * np.sin(4.0 * m.q[:, 1])),
-    lambda m: np.sign(m.v[:, 2]),
     lambda m: m.load[:, 3],
 ])  # fmt: skip
 def test_functions_of_what_was_measured_are_predicted(

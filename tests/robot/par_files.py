@@ -22,17 +22,10 @@ def par_text(lists: Mapping[str, str], name: str = "arm", links: int = 0, joints
     geometry = dict.fromkeys(("Ant", "Sigma", "B", "d", "R", "gamma", "Alpha", "Mu"), zeros)
     geometry |= {"Mu": ",".join("1" * frames), "Theta": zeros, "G": "0,0,-9.81"}
     kind = 2 if joints > links else 0
-    lines = [
-        f"(* Robotname = '{name}' *)",
-        f"NF = {frames}",
-        f"NL = {links}",
-        f"NJ = {joints}",
-        f"Type = {kind} (* a comment *)",
-        "",
-        *(f"{key}  = {{\n        {cells}}}" for key, cells in (geometry | dict(lists)).items()),
-        "",
-        "(* End of definition *)",
-    ]
+    lists = {key: f"{{\n        {cells}}}" for key, cells in (geometry | dict(lists)).items()}
+    lines = [f"(* Robotname = '{name}' *)", f"NF = {frames}", f"NL = {links}", f"NJ = {joints}"]
+    lines += [f"Type = {kind} (* a comment *)", "", *(f"{key}  = {x}" for key, x in lists.items())]
+    lines += ["", "(* End of definition *)"]
     return _HEAD + "\n".join(lines) + "\n"
 
 

@@ -24,11 +24,18 @@ def public_urdf(name: str) -> Path:
     pytest.skip(f"NOT CHECKED: {name}, for example-robot-data is not installed")
 
 
+KINDS = ("double_pendulum_continuous", "panda", "so101", "ur5_robot", "allegro_left_hand", "z1")
+"""A plane chain, an arm with a gripper that follows, rounded angles, limits of its own, a hand
+with branches, bodies on fixed joints: the others rotate."""
+
+
 def each_public_urdf() -> pytest.MarkDecorator:
     """The test for every one of them, as `path`."""
     found = public_urdfs()
     why = "NOT CHECKED: public URDFs, for example-robot-data is not installed"
     none = [pytest.param(None, id="none", marks=pytest.mark.skip(why))]
-    return pytest.mark.parametrize(
-        "path", [pytest.param(path, id=path.stem) for path in found] or none
-    )
+    cases = [
+        pytest.param(p, id=p.stem, marks=() if p.stem in KINDS else pytest.mark.rotating)
+        for p in found
+    ]
+    return pytest.mark.parametrize("path", cases or none)

@@ -74,12 +74,7 @@ def test_a_missing_table_comes_after_the_loops(after) -> None:
     assert stated(written) == pytest.approx(NEW, abs=1e-6)
 
 
-def test_the_same_home_changes_nothing() -> None:
-    text = BEFORE + HOME + AFTER
-    assert changed(text, stated(text)) == text
-
-
-@pytest.mark.parametrize("value", [0.1 + 0.2, -2 / 3, 1e-9, 2.5, 3.141592653589793, -0.7853981634])
+@pytest.mark.parametrize("value", [0.1 + 0.2, 1e-9, -0.7853981634])
 def test_numbers_are_read_as_they_were_given(value) -> None:
     assert stated(changed(BEFORE, {**NEW, "22": value}))["22"] == pytest.approx(value, abs=1e-9)
 

@@ -22,8 +22,9 @@ from modeler.robot.read import robot_from_text
 from modeler.robot.robot import INERTIAL, JointKind
 from modeler.robot.tree_cuts import cut
 from modeler.robot.tree_text import tree_to_toml
-from tests.elementary_motions import frames, shift, turn
+from tests.elementary_motions import frames
 from tests.modules import loaded
+from tests.robot.poses import place_on_row
 
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")
 
@@ -43,6 +44,10 @@ FILES = [
 ]  # fmt: skip
 
 
+KINDS = ("ant.xml", "walker2d.xml", "pusher.xml", "fetch/reach.xml")
+"""A tree, a chain whose base moves in a plane, an arm, one on slides with fixed bodies."""
+
+
 def there(file):
     """The file in the folder of its package, which is not imported for it; None without."""
     package, _, inside = file.partition("/")
@@ -50,12 +55,18 @@ def there(file):
     return Path(spec.submodule_search_locations[0]) / inside if spec else None
 
 
-def each_of(files):
-    """The test for every one of the files, as `path`; what is not installed is skipped, loudly."""
+def each_of(files, always):
+    """The test for every one of the files, as `path`; what is not installed is skipped, loudly.
+
+    Args:
+        files: of `FILES`.
+        always: ends of the names of those that do not rotate.
+    """
     packages = sorted({file.split("/")[0] for file in files if there(file) is None})
     name = "{0[0]}-{0[1]}".format
     return pytest.mark.parametrize("path", [
-        *(pytest.param(there(f), id=name(f.removesuffix("/robot.xml").split("/")[-2:]))
+        *(pytest.param(there(f), id=name(f.removesuffix("/robot.xml").split("/")[-2:]),
+                       marks=() if f.endswith(always) else pytest.mark.rotating)
           for f in files if there(f)),
         *(pytest.param(None, id=p, marks=pytest.mark.skip(
             f"NOT CHECKED: {p}, which is not installed")) for p in packages),
@@ -83,13 +94,6 @@ def rigid_model(path):
     model.body_gravcomp[:] = 0.0
     model.tendon_armature[:] = 0.0
     return model
-
-
-def link_pose(frame):
-    """Of a link's frame on its row, as `[frames]` states it."""
-    roll, pitch, yaw = (angle.number({}) for angle in frame.angles)
-    shifts = [shift(k, x.number({})) for k, x in enumerate(frame.position)]
-    return np.linalg.multi_dot([*shifts, turn(2, yaw), turn(1, pitch), turn(0, roll)])
 
 
 class Both:
@@ -150,7 +154,7 @@ class Both:
         """MuJoCo's number of every body on a row, with its row and its place there."""
         for link, frame in self.robot.frames.items():
             if link in self.bodies:
-                yield self.bodies.index(link), frame.row, link_pose(frame)
+                yield self.bodies.index(link), frame.row, place_on_row(self.robot, link)
             else:
                 assert link in self.tree.hidden
 
@@ -180,7 +184,7 @@ def alike(ours, theirs, tolerance):
     return np.max(np.abs(ours - theirs) / size) < tolerance
 
 
-each_file = each_of(FILES)
+each_file = each_of(FILES, KINDS)
 
 
 def check_places(both, found):
@@ -239,7 +243,7 @@ def test_torques_are_mujocos(path):
             assert abs(worth - chi[name]) < 1e-12 * max(abs(x) for x in chi.values()), name
 
 
-@each_of([FILES[3], FILES[7], FILES[-1]])
+@each_of([FILES[3]], FILES[3])
 def test_torques_of_the_c_are_mujocos(path):
     both = Both(path)
     model, chi = derive_model(both.robot), both.standard()
@@ -249,8 +253,7 @@ def test_torques_of_the_c_are_mujocos(path):
     assert alike(c.inverse_dynamics(*states, beta), both.torques(states), 1e-9)
 
 
-@pytest.mark.rotating
-@each_file
+@each_of(FILES, ("reacher.xml", "walker2d.xml", "ant.xml"))
 def test_there_are_as_many_base_parameters_as_mujoco_feels(path):
     """Rank of MuJoCo's torques with one body at a time, of ten different sets of values."""
     both = Both(path)

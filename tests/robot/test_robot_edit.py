@@ -63,17 +63,13 @@ def test_values_of_coupled_motors_are_not_taken_for_those_of_joints():
 
 @pytest.mark.parametrize("line", ['effects = { viscous = "all" }', 'effects.viscous = "all"'])
 def test_a_table_that_cannot_be_replaced_is_refused(line):
-    start, rest = ARM.split("[mdh]")
-    mdh = rest.split("[effects]")[0]
+    text = ARM.partition("[effects]")[0].replace("[mdh]", f"{line}\n[mdh]")
     with pytest.raises(RobotError, match="write it as a table of its own"):
-        with_effects(f"{start}{line}\n[mdh]{mdh}", {"coulomb": "all"})
+        with_effects(text, {"coulomb": "all"})
 
 
 def test_other_nominal_values_keep_what_is_known_of_them():
-    head = (
-        'name = "x"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "theta"]\nrows = [["1", "q1"]]\n'
-    )
-    head += '[effects]\nviscous = "all"\n'
+    head = ARM.partition("[effects]")[0] + '[effects]\nviscous = "all"\n'
     for tail in (
         '[parameters]\nFv1 = 1.0\nZZ1 = 1\nheld = ["ZZ1"]\n[parameters.uncertainty]\nFv1 = 0.2\n',
         '[parameters]\nFv1 = 1.0\nZZ1 = 1\nuncertainty = {Fv1 = 0.2, held = ["ZZ1"]}\n',

@@ -1,266 +1,342 @@
-"""Every mistake in a robot file is told: where, got, expected, what to do."""
+"""Every mistake in a robot file is told in one line: where, got, expected, what to do."""
 
 import random
-import re
 
 import pytest
 
 from modeler.core.builtin import builtin_names, builtin_text
 from modeler.core.errors import RobotError
 from modeler.robot.read import read_robot, robot_from_text
+from tests.robot.texts import (
+    ARM,
+    COUPLED,
+    FIVE_BAR,
+    LAW,
+    MOTORS,
+    OWN_EFFECTS,
+    PLANAR,
+    check_mistake,
+)
 
-GOOD = """\
-name = "arm"
-title = "Arm for tests"
-gravity = [0, 0, "-g"]
-priority = ["ZZ*", "Ia?"]
-notes = "none"
-
-[symbols]
-g = 9.81
-D3 = 0.45
-R4 = "D3 / 2"
-
-[mdh]
-columns = ["j", "a", "mu", "sigma", "alpha", "d", "theta", "r"]
-rows = [
-  ["1", "0", 1, 0, 0, 0, "q1", 0],
-  ["2", "1", 1, 0, "pi/2", 0, "pi/2 - q2", 0],
-  ["3", "2", 1, 1, 0, "D3", 0, "q3 + R4"],
-  ["4", "3", 0, 0, "-pi/2", 0, "-q4", "R4"],
-  ["E", "4", 0, 2, 0, 0.1, "pi", 0],
-]
-
-[effects]
-viscous = "all"
-rotor_inertia = ["1", "2"]
-coupled_friction = "all"
-
-[coupling]
-2 = "q1 + 2*q2"
-
-[parameters]
-ZZ1 = 0.5
-Fv1 = 2
-
-[drive_gains]
-1 = 12.5
-
-[limits]
-1 = ["-pi", 2.5, 3, 10]
-
-[physical.1]
-mass = "m1"
-centre = ["x1", 0, "z1 - D3"]
-inertia = ["J1", 0, 0, "J2", 0, "J3"]
-
-[terms]
-PG1 = "m1*x1"
-"""
-
-_V, _U = "Fv1 = 2\n", "[parameters.uncertainty]"
+V, U = "Fv1 = 2\n", "[parameters.uncertainty]"
+EDDY = 'columns = {Keb = "v*exp(-((q - c)/w)**2)"}'
+HOOK, TRAVEL = 'columns = {Kh = "z*cos(q)"}', "shapes = {d = [0.01, 0.1]}"
+FIRST = "[own_effects.eddy_brake]"
+TABLE = "{low = [-1], high = [1], cells = [2], values = [0, 0, 0, 1, 1]}"
+TWO_AXES = "{low = [0, 0], high = [1, 1], cells = [1, 1], values = [%s]}" % ("1, " * 16)
+RUB = "[effects]\npassive_friction = "
 
 # (what is wrong, old text, new text, pieces of the message in this order)
-MISTAKES = [
-    # the TOML text
-    ("unclosed text", 'title = "Arm for tests"', 'title = "Arm', ["line 2, column 13", "not TOML"]),
-    ("no comma", "[0, 0, ", "[0 0, ", ["line 3", "not TOML", "commas"]),
-    ("file ends early", 'PG1 = "m1*x1"', 'PG1 = """', ["line", "not TOML"]),
-    ("key twice", 'notes = "none"', 'name = "b"', ["line 5", "not TOML", "overwrite"]),
-    # top level
-    ("no name", 'name = "arm"\n', "", ["name: is missing", 'name = "arm"']),
-    ("name no text", 'name = "arm"', "name = 3", ["name: got 3", "letters, digits"]),
-    ("name with space", 'name = "arm"', 'name = "my arm"', ['name: got "my arm"', "expected"]),
-    ("empty title", '"Arm for tests"', '""', ['title: got ""', "expected text"]),
-    ("no gravity", 'gravity = [0, 0, "-g"]\n', "", ["gravity: is missing", "[0, 0, 0]"]),
-    ("no table", "[mdh]", "[terms.x]", ["mdh: is missing", "add the table [mdh]"]),
-    ("unknown key", "notes =", "note =", ['unknown key "note"', 'did you mean "notes"?']),
-    ("unknown table", "[limits]", "[limit]", ['unknown key "limit"', '"limits"', "expected name"]),
-    # columns and rows
-    ("mdh no table", "[mdh]", "[terms.x]\n[[mdh]]", ["[mdh]: got [{", "expected a table"]),
-    ("mdh key", "rows = [\n", "row = [\n", ["[mdh]", 'unknown key "row"', 'did you mean "rows"?']),
-    ("no columns", "columns = [", "#", ["[mdh]: columns is missing", "columns = ["]),
-    ("bad column", '"alpha", "d"', '"alfa", "d"', ["columns", '"alfa"', 'did you mean "alpha"?']),
-    ("column twice", '"sigma", "alpha"', '"sigma", "d"', ['columns: "d" stands twice', "remove"]),
-    ("no j", 'columns = ["j",', 'columns = ["b",', ['column "j"', "is missing", "add it"]),
-    ("column no text", '"mu", "sigma"', '3, "sigma"', ["columns: entry 3 is 3", "expected names"]),
-    ("short row", 'pi/2 - q2", 0]', 'pi/2 - q2"]', ['row 2 ("2")', "got 7 cells", "8", "add 1"]),
-    ("long row", '"q1", 0]', '"q1", 0, 0]', ['row 1 ("1")', "got 9 cells, expected 8", "remove 1"]),
-    ("row no list", '["1", "0", 1, 0, 0, 0, "q1", 0]', "7", ["row 1", "got 7", "expected a list"]),
-    # names and antecedents
-    ("row twice", '["2", "1"', '["1", "1"', ['row "1"', "rows 1 and 2", "its own name"]),
-    ("row 0", '["1", "0"', '["0", "0"', ["row 1, column j", 'got "0"', "is the base"]),
-    ("row name", '["1", "0"', '["1-a", "0"',
-     ["row 1, column j", 'got "1-a"', "letters and digits"]),
-    ("row name type", '["1", "0"', '[1.5, "0"', ["row 1, column j: got 1.5", "expected a name"]),
-    ("row name true", '["1", "0"', '[true, "0"', ["column j: got true", "expected a name"]),
-    ("q of another", '["E", "4"', '["d1", "4"', ['row "d1"', "qd1 mean two things", 'row "1"']),
-    ("no antecedent", '["3", "2"', '["3", "7"', ['row "3", column a', 'got "7"', "(1, 2)"]),
-    ("antecedent type", '["3", "2"', '["3", 0.5', ['row "3", column a: got 0.5', "expected"]),
-    ("itself", '["3", "2"', '["3", "3"', ['row "3", column a', "circle 3 -> 3", "end at"]),
-    ("circle", '["2", "1"', '["2", "4"', ['row "2"', "circle 2 -> 4 -> 3 -> 2", 'end at "0"']),
-    # sigma, mu
-    ("sigma 3", '"1", "0", 1, 0', '"1", "0", 1, 3', ['row "1", column sigma', "got 3", "0 (rev"]),
-    ("sigma text", '"1", "0", 1, 0', '"1", "0", 1, "R"', ["column sigma", 'got "R"', "2 (fixed)"]),
-    ("mu 2", '"1", "0", 1, 0', '"1", "0", 2, 0', ['row "1", column mu', "got 2", "0 (passive)"]),
-    ("fixed motor", '"E", "4", 0', '"E", "4", 1', ['row "E", column mu', "got 1", "write 0"]),
-    # cells
-    ("undeclared", '0, "D3"', '0, "D33"', ['row "3", column d', 'got "D33"', 'mean "D3"?']),
-    ("letter case", '0, "D3"', '0, "d3"', ['row "3", column d', "d3 is not", 'mean "D3"?']),
-    ("far symbol", '0, "D3"', '0, "zeta"', ["zeta is not declared", "declare it in [symbols]"]),
-    ("not arithmetic", '0, "D3"', '0, "D3^2"', ["column d", 'got "D3^2"', "powers as x**2"]),
-    ("not an expression", '0, "D3"', '0, "D3 +"', ["column d", 'got "D3 +"', "cannot be read"]),
-    ("no number", '0, "D3"', "0, [1]", ["column d", "got [1]", "expected a number"]),
-    ("truth", '0, "D3"', "0, true", ["column d", "got True", "expected a number"]),
-    ("infinite", '0, "D3"', "0, inf", ["column d", "got inf", "finite"]),
-    ("huge", '0, "D3"', '0, "1e400"', ["column d", "1e400", "too large"]),
-    ("division by 0", '0, "D3"', '0, "1/(D3-D3)"',
-     ["column d", "no finite real value", "divisors"]),
-    ("root of -1", '0, "D3"', '0, "sqrt(-D3)"', ["column d", "no finite real value", "roots"]),
-    ("no real power", '0, "D3"', '0, "(-D3)**0.5"', ["column d", "no finite real value"]),
-    ("deep", '0, "D3"', f'0, "{"1+" * 5000}1"', ["column d", "expected"]),
-    # joint variables
-    ("no q in theta", '0, 0, "q1", 0]', "0, 0, 0, 0]", ['row "1", column theta', 'got "0"', "q1"]),
-    ("no q in r", '"q3 + R4"', '"R4"', ['row "3", column r', 'got "R4"', "expected q3"]),
-    ("q in d", '0, 0, "q1", 0]', '0, "q1", "q1", 0]',
-     ['row "1", column d', "column theta", "move"]),
-    ("q in theta", '0, "q3 + R4"', '"q3", 0', ['row "3", column theta', "prismatic", "column r"]),
-    ("q of another row", '"q1", 0]', '"q1 + q2", 0]', ['row "1"', "another row", "follows"]),
-    ("q of fixed", '0.1, "pi", 0', '0.1, "qE", 0',
-     ['row "E", column theta', "sigma 2", "remove qE"]),
+IN_ARM = [
+    ("unclosed text", 'title = "Arm for tests"', 'title = "Arm', "line 2, column 13 .. not TOML"),
+    ("file ends early", 'PG1 = "m1*x1"', 'PG1 = """', "line .. not TOML"),
+    ("no name", 'name = "arm"\n', "", 'name: is missing .. name = "arm"'),
+    ("name no text", 'name = "arm"', "name = 3", "name: got 3 .. letters, digits"),
+    ("name with space", 'name = "arm"', 'name = "my arm"', 'name: got "my arm" .. expected'),
+    ("empty title", '"Arm for tests"', '""', 'title: got "" .. expected text'),
+    ("unknown key", "notes =", "note =", 'unknown key "note" .. did you mean "notes"?'),
+    ("mdh no table", "[mdh]", "[terms.x]\n[[mdh]]", "[mdh]: got [{ .. expected a table"),
+    ("mdh key", "rows = [\n", "row = [\n", '[mdh] .. unknown key "row" .. did you mean "rows"?'),
+    ("no columns", "columns = [", "#", "[mdh]: columns is missing .. columns = ["),
+    ("bad column", '"alpha", "d"', '"alfa", "d"', 'columns .. "alfa" .. did you mean "alpha"?'),
+    ("column twice", '"sigma", "alpha"', '"sigma", "d"', 'columns: "d" stands twice .. remove'),
+    ("no j", 'columns = ["j",', 'columns = ["b",', 'column "j" .. is missing .. add it'),
+    ("short row", 'pi/2 - q2", 0]', 'pi/2 - q2"]', 'row 2 ("2") .. got 7 cells .. 8 .. add 1'),
+    ("row no list", '["1", "0", 1, 0, 0, 0, "q1", 0]', "7", "row 1 .. got 7 .. expected a list"),
+    ("row twice", '["2", "1"', '["1", "1"', 'row "1" .. rows 1 and 2 .. its own name'),
+    ("row 0", '["1", "0"', '["0", "0"', 'row 1, column j .. got "0" .. is the base'),
+    ("row name", '["1", "0"', '["1-a", "0"', 'row 1, column j .. got "1-a" .. letters and digits'),
+    ("row name true", '["1", "0"', '[true, "0"', "column j: got true .. expected a name"),
+    ("q of another", '["E", "4"', '["d1", "4"', 'row "d1" .. qd1 mean two things .. row "1"'),
+    ("no antecedent", '["3", "2"', '["3", "7"', 'row "3", column a .. got "7" .. (1, 2)'),
+    ("circle", '["2", "1"', '["2", "4"', 'row "2" .. circle 2 -> 4 -> 3 -> 2 .. end at "0"'),
+    ("sigma 3", '"1", "0", 1, 0', '"1", "0", 1, 3', 'row "1", column sigma .. got 3 .. 0 (rev'),
+    ("mu 2", '"1", "0", 1, 0', '"1", "0", 2, 0', 'row "1", column mu .. got 2 .. 0 (passive)'),
+    ("fixed motor", '"E", "4", 0', '"E", "4", 1', 'row "E", column mu .. got 1 .. write 0'),
+    ("undeclared", '0, "D3"', '0, "D33"', 'row "3", column d .. got "D33" .. mean "D3"?'),
+    ("far symbol", '0, "D3"', '0, "zeta"', "zeta is not declared .. declare it in [symbols]"),
+    ("not arithmetic", '0, "D3"', '0, "D3^2"', 'column d .. got "D3^2" .. powers as x**2'),
+    ("no number", '0, "D3"', "0, [1]", "column d .. got [1] .. expected a number"),
+    ("infinite", '0, "D3"', "0, inf", "column d .. got inf .. finite"),
+    ("huge", '0, "D3"', '0, "1e400"', "column d .. 1e400 .. too large"),
+    ("division by 0", '0, "D3"', '0, "1/(D3-D3)"', "column d .. no finite real value .. divisors"),
+    ("root of -1", '0, "D3"', '0, "sqrt(-D3)"', "column d .. no finite real value .. roots"),
+    ("no real power", '0, "D3"', '0, "(-D3)**0.5"', "column d .. no finite real value"),
+    ("no q in theta", '0, 0, "q1", 0]', "0, 0, 0, 0]", 'row "1", column theta .. got "0" .. q1'),
+    ("no q in r", '"q3 + R4"', '"R4"', 'row "3", column r .. got "R4" .. expected q3'),
+    ("q in d", '0, 0, "q1", 0]', '0, "q1", "q1", 0]', 'row "1", column d .. column theta .. move'),
+    ("q of another row", '"q1", 0]', '"q1 + q2", 0]', 'row "1" .. another row .. follows'),
+    ("q of fixed", '0.1, "pi", 0', '0.1, "qE", 0', 'row "E", column theta .. sigma 2 .. remove qE'),
     ("sin q", '0, "q1", 0]', '0, "sin(q1)", 0]',
-     ["column theta", "sin(q1)", "not linear", "q1 + pi/2"]),
-    ("q squared", '0, "q1", 0]', '0, "q1**2", 0]', ["column theta", "q1**2", "not linear"]),
-    ("q times q", '0, "q1", 0]', '0, "q1*q1", 0]', ["column theta", "q1*q1", "not linear"]),
-    ("1 over q", '0, "q1", 0]', '0, "1/q1", 0]', ["column theta", "1/q1", "not linear"]),
-    ("2 q", '0, "q1", 0]', '0, "2*q1", 0]', ["column theta", "coefficient 2", "expected 1 or -1"]),
-    ("0 q", '0, "q1", 0]', '0, "q1 - q1", 0]', ["column theta", "coefficient 0", "1 or -1"]),
-    # angles
-    ("degrees", '"pi/2", 0, "pi', '90, 0, "pi', ["alpha", "90 rad is more than a turn", "radians"]),
-    # symbols
-    ("symbol q1", "D3 = 0.45", "D3 = 0.45\nq1 = 1", ["[symbols]", '"q1"', "joint variable"]),
-    ("symbol qd1", "D3 = 0.45", "D3 = 0.45\nqd1 = 1", ["[symbols]", '"qd1"', "joint variable"]),
-    ("symbol pi", "D3 = 0.45", "D3 = 0.45\npi = 3", ["[symbols]", '"pi"', "number pi"]),
-    ("symbol sin", "D3 = 0.45", "D3 = 0.45\nsin = 3", ["[symbols]", '"sin"', "a function"]),
-    ("symbol MX1", "D3 = 0.45", "D3 = 0.45\nMX1 = 3", ["[symbols]", '"MX1"', "standard parameter"]),
-    ("symbol Fv1", "D3 = 0.45", "D3 = 0.45\nFv1 = 3", ["[symbols]", '"Fv1"', "choose another"]),
-    ("symbol double", "D3 = 0.45", "D3 = 0.45\ndouble = 3", ['"double"', "C language"]),
-    ("symbol lambda", "D3 = 0.45", "D3 = 0.45\nlambda = 3", ['"lambda"', "choose another"]),
-    ("symbol name", "D3 = 0.45", 'D3 = 0.45\n"a b" = 3',
-     ["[symbols]", '"a b"', "expected a letter"]),
-    ("symbol value", "D3 = 0.45", "D3 = [1]", ["[symbols], D3", "got [1]", "expected a number"]),
+     "column theta .. sin(q1) .. not linear .. q1 + pi/2"),
+    ("q squared", '0, "q1", 0]', '0, "q1**2", 0]', "column theta .. q1**2 .. not linear"),
+    ("1 over q", '0, "q1", 0]', '0, "1/q1", 0]', "column theta .. 1/q1 .. not linear"),
+    ("2 q", '0, "q1", 0]', '0, "2*q1", 0]', "column theta .. coefficient 2 .. expected 1 or -1"),
+    ("degrees", '"pi/2", 0, "pi', '90, 0, "pi', "alpha .. 90 rad is more than a turn .. radians"),
+    ("symbol q1", "D3 = 0.45", "D3 = 0.45\nq1 = 1", '[symbols] .. "q1" .. joint variable'),
+    ("symbol pi", "D3 = 0.45", "D3 = 0.45\npi = 3", '[symbols] .. "pi" .. number pi'),
+    ("symbol sin", "D3 = 0.45", "D3 = 0.45\nsin = 3", '[symbols] .. "sin" .. a function'),
+    ("symbol MX1", "D3 = 0.45", "D3 = 0.45\nMX1 = 3", '[symbols] .. "MX1" .. standard parameter'),
+    ("symbol double", "D3 = 0.45", "D3 = 0.45\ndouble = 3", '"double" .. C language'),
+    ("symbol name", "D3 = 0.45", 'D3 = 0.45\n"a b" = 3', '[symbols] .. "a b" .. expected a letter'),
+    ("symbol value", "D3 = 0.45", "D3 = [1]", "[symbols], D3 .. got [1] .. expected a number"),
     ("symbol unknown", '"D3 / 2"', '"D4 / 2"',
-     ["[symbols], R4", "D4 is not declared", "among g, D3, R4"]),
-    ("symbol joint", '"D3 / 2"', '"q1 / 2"', ["[symbols], R4", "q1 is not declared", "among"]),
-    ("symbols circle", "D3 = 0.45", 'D3 = "R4"', ["[symbols]", "D3, R4", "circle", "a number"]),
-    ("symbol 1/0", "D3 = 0.45", 'D3 = "1/0"', ["[symbols], D3", "no finite real value"]),
-    # gravity
-    ("2 entries", '[0, 0, "-g"]', '[0, "-g"]', ["gravity: got 2 entries, expected 3", "add 1"]),
-    ("a number", '[0, 0, "-g"]', "9.81", ["gravity: got 9.81", "expected a list"]),
-    ("moving", '[0, 0, "-g"]', '[0, 0, "q1"]', ["gravity, entry 3", "joint variable q1"]),
-    ("undeclared G", '[0, 0, "-g"]', '[0, 0, "-G"]', ["gravity, entry 3", "G is not", '"g"?']),
-    # effects and coupling
-    ("effect", "viscous =", "viscus =", ["[effects]", '"viscus"', 'did you mean "viscous"']),
-    ("effects list", "[effects]", "[[effects]]", ["[effects]: got [{", "expected a table"]),
+     "[symbols], R4 .. D4 is not declared .. among g, D3, R4"),
+    ("symbols circle", "D3 = 0.45", 'D3 = "R4"', "[symbols] .. D3, R4 .. circle .. a number"),
+    ("symbol 1/0", "D3 = 0.45", 'D3 = "1/0"', "[symbols], D3 .. no finite real value"),
+    ("2 entries", '[0, 0, "-g"]', '[0, "-g"]', "gravity: got 2 entries, expected 3 .. add 1"),
+    ("a number", '[0, 0, "-g"]', "9.81", "gravity: got 9.81 .. expected a list"),
+    ("moving", '[0, 0, "-g"]', '[0, 0, "q1"]', "gravity, entry 3 .. joint variable q1"),
+    ("motors no table", "notes =", "motors = 3\nnotes =", "[motors]: got 3; expected a table"),
+    ("effect", "viscous =", "viscus =", '[effects] .. "viscus" .. did you mean "viscous"'),
+    ("effects list", "[effects]", "[[effects]]", "[effects]: got [{ .. expected a table"),
     ("alias twice", 'viscous = "all"', 'viscous = "all"\nback_emf = "all"',
-     ["is viscous", "keep one"]),
-    ("effect joint", '["1", "2"]', '["1", "5"]', ["rotor_inertia", 'joint "5"', "1, 2, 3, 4"]),
-    ("effect on frame", '["1", "2"]', '["1", "E"]',
-     ["rotor_inertia", 'moving joint "E"', "one of"]),
-    ("joint twice", '["1", "2"]', '["1", "1"]', ["rotor_inertia", '"1" stands there twice']),
-    ("joints word", '["1", "2"]', '"1"', ["rotor_inertia", 'got "1"', '"all" or ["1", "2"]']),
+     "is viscous .. keep one"),
+    ("effect joint", '["1", "2"]', '["1", "5"]', 'rotor_inertia .. joint "5" .. 1, 2, 3, 4'),
+    ("joint twice", '["1", "2"]', '["1", "1"]', 'rotor_inertia .. "1" stands there twice'),
+    ("joints word", '["1", "2"]', '"1"', 'rotor_inertia .. got "1" .. "all" or ["1", "2"]'),
     ("no coupling", '[coupling]\n2 = "q1 + 2*q2"', "",
-     ["coupled_friction", "add a table [coupling]"]),
+     "coupled_friction .. add a table [coupling]"),
     ("uncoupled motor", 'coupled_friction = "all"', 'coupled_friction = ["3"]',
-     ["coupled_friction", 'joint "3" has no line in [coupling]', "has 2"]),
-    ("coupling joint", '2 = "q1 +', '5 = "q1 +', ['[coupling], "5"', "no moving joint", "1, 2, 3"]),
-    ("coupling product", '"q1 + 2*q2"', '"q1*q2"', ['[coupling], "2"', "not linear", "q5 + q6"]),
-    ("coupling constant", '"q1 + 2*q2"', '"q2 + 1"', ['[coupling], "2"', "constant 1", "only"]),
-    ("coupling own", '"q1 + 2*q2"', '"q1"', ['[coupling], "2"', "without q2", "own joint"]),
-    ("coupling name", '"q1 + 2*q2"', '"q2 + q9"', ['[coupling], "2"', "q9 is not declared"]),
-    # parameters, drives, limits
-    ("priority", '"ZZ*"', '"zz1"', ["priority", '"zz1" matches no parameter', 'mean "ZZ1"']),
-    ("priority number", '"ZZ*"', "3", ["priority: got 3", "expected text"]),
-    ("priority text", '["ZZ*", "Ia?"]', '"ZZ*"', ["priority", 'got "ZZ*"', "expected a list"]),
-    ("parameter", "ZZ1 = 0.5", "ZZ9 = 0.5", ["[parameters]", 'no parameter "ZZ9"', "did you mean"]),
-    ("no such friction", "ZZ1 = 0.5", "Fs1 = 1", ["[parameters]", '"Fs1"', "where [effects] has"]),
-    ("parameter text", "ZZ1 = 0.5", 'ZZ1 = "big"', ["[parameters], ZZ1", 'got "big"', "a number"]),
-    ("parameter inf", "ZZ1 = 0.5", "ZZ1 = nan", ["[parameters], ZZ1", "got nan", "finite"]),
-    ("uncertain text", _V, f"{_V}uncertainty.Fv1 = 'a'\n", [f"{_U}, Fv1", 'got "a"', "a number"]),
-    ("sigma 0", _V, f"{_V}uncertainty.Fv1 = 0\n", [f"{_U}, Fv1", "got 0", "above 0", "held"]),
-    ("sigma name", _V, f"{_V}uncertainty.Fv9 = 1\n", [_U, 'no parameter "Fv9"', "did you mean"]),
-    ("uncertain word", _V, f"{_V}uncertainty.inertal = 1\n", [_U, 'did you mean "inertial"']),
-    ("uncertain open", _V, f"{_V}uncertainty.ZZ2 = 1\n", [_U, "ZZ2 has no value", "write"]),
-    ("percent", "ZZ1 = 0.5", "M2 = 3\nuncertainty.inertial = 10", [_U, "got 10", "0.10 for 10 %"]),
-    ("no body", _V, f"{_V}uncertainty.inertial = 0.1\n", [_U, "no body", "state masses"]),
-    ("held text", _V, f"{_V}held = 'Fv1'\n", ["[parameters], held", 'got "Fv1"', "a list"]),
-    ("held number", _V, f"{_V}held = [3]\n", ["[parameters], held", "got 3", "text such as"]),
-    ("held name", _V, f"{_V}held = ['ZZ8']\n", ["[parameters], held", '"ZZ8"', "did you mean"]),
-    ("held without value", _V, f"{_V}held = ['ZZ2']\n", ["held: ZZ2 has no value; write ZZ2 = "]),
-    ("held and uncertain", _V, f"{_V}held = ['Fv1']\nuncertainty.Fv1 = 1\n", ["one of both"]),
-    ("gain joint", "1 = 12.5", "8 = 12.5", ['[drive_gains], "8"', "no moving joint", "one of 1"]),
-    ("gain 0", "1 = 12.5", "1 = 0", ['[drive_gains], "1"', "got 0", "not zero"]),
-    ("gain text", "1 = 12.5", '1 = "12"', ['[drive_gains], "1"', 'got "12"', "expected a number"]),
-    ("limits joint", '1 = ["-pi",', '9 = ["-pi",', ['[limits], "9"', "no moving joint"]),
-    ("limits short", ", 3, 10]", ", 3]", ['[limits], "1"', "got 3 entries, expected 4", "add 1"]),
-    ("limits range", '["-pi", 2.5', '["pi", 2.5', ['[limits], "1"', "lower 3.14", "lower < upper"]),
-    ("limits speed", "2.5, 3, 10", "2.5, 0, 10", ['[limits], "1"', "speed 0", "both positive"]),
-    # letters of a paper
-    ("physical joint", "[physical.1]", "[physical.7]", ['[physical], "7"', "no moving joint"]),
-    ("physical key", 'mass = "m1"', 'mas = "m1"', ["[physical]", 'key "mas"', 'mean "mass"?']),
-    ("physical missing", 'mass = "m1"\n', "", ['[physical], "1"', "mass is missing", "inertia"]),
-    ("centre", '["x1", 0, "z1 - D3"]', '["x1"]', ["centre", "got 1 entries, expected 3"]),
-    ("inertia", '"J2", 0, "J3"]', '"J2"]', ["inertia", "got 4 entries, expected 6", "YZ"]),
-    ("physical q", 'mass = "m1"', 'mass = "q1"', ["[physical]", "joint variable q1", "rigid"]),
-    ("physical text", 'mass = "m1"', 'mass = "m1 *"', ["mass", 'got "m1 *"', "cannot be read"]),
-    ("physical value", "[physical.1]", "[physical]\n1 = 3\n[terms.x]", ['"1": got 3', "a table"]),
+     'coupled_friction .. joint "3" has no line in [coupling] .. has 2'),
+    ("coupling joint", '2 = "q1 +', '5 = "q1 +', '[coupling], "5" .. no moving joint .. 1, 2, 3'),
+    ("coupling product", '"q1 + 2*q2"', '"q1*q2"', '[coupling], "2" .. not linear .. q5 + q6'),
+    ("coupling constant", '"q1 + 2*q2"', '"q2 + 1"', '[coupling], "2" .. constant 1 .. only'),
+    ("coupling own", '"q1 + 2*q2"', '"q1"', '[coupling], "2" .. without q2 .. own joint'),
+    ("coupling name", '"q1 + 2*q2"', '"q2 + q9"', '[coupling], "2" .. q9 is not declared'),
+    ("priority", '"ZZ*"', '"zz1"', 'priority .. "zz1" matches no parameter .. mean "ZZ1"'),
+    ("priority number", '"ZZ*"', "3", "priority: got 3 .. expected text"),
+    ("priority text", '["ZZ*", "Ia?"]', '"ZZ*"', 'priority .. got "ZZ*" .. expected a list'),
+    ("parameter", "ZZ1 = 0.5", "ZZ9 = 0.5", '[parameters] .. no parameter "ZZ9" .. did you mean'),
+    ("parameter text", "ZZ1 = 0.5", 'ZZ1 = "big"', '[parameters], ZZ1 .. got "big" .. a number'),
+    ("parameter inf", "ZZ1 = 0.5", "ZZ1 = nan", "[parameters], ZZ1 .. got nan .. finite"),
+    ("uncertain text", V, f"{V}uncertainty.Fv1 = 'a'\n", f'{U}, Fv1 .. got "a" .. a number'),
+    ("sigma 0", V, f"{V}uncertainty.Fv1 = 0\n", f"{U}, Fv1 .. got 0 .. above 0 .. held"),
+    ("sigma name", V, f"{V}uncertainty.Fv9 = 1\n", f'{U} .. no parameter "Fv9" .. did you mean'),
+    ("uncertain open", V, f"{V}uncertainty.ZZ2 = 1\n", f"{U} .. ZZ2 has no value .. write"),
+    ("percent", "ZZ1 = 0.5", "M2 = 3\nuncertainty.inertial = 10",
+     f"{U} .. got 10 .. 0.10 for 10 %"),
+    ("no body", V, f"{V}uncertainty.inertial = 0.1\n", f"{U} .. no body .. state masses"),
+    ("held text", V, f"{V}held = 'Fv1'\n", '[parameters], held .. got "Fv1" .. a list'),
+    ("held number", V, f"{V}held = [3]\n", "[parameters], held .. got 3 .. text such as"),
+    ("held name", V, f"{V}held = ['ZZ8']\n", '[parameters], held .. "ZZ8" .. did you mean'),
+    ("held without value", V, f"{V}held = ['ZZ2']\n", "held: ZZ2 has no value; write ZZ2 = "),
+    ("held and uncertain", V, f"{V}held = ['Fv1']\nuncertainty.Fv1 = 1\n", "one of both"),
+    ("gain joint", "1 = 12.5", "8 = 12.5", '[drive_gains], "8" .. no moving joint .. one of 1'),
+    ("gain 0", "1 = 12.5", "1 = 0", '[drive_gains], "1" .. got 0 .. not zero'),
+    ("gain text", "1 = 12.5", '1 = "12"', '[drive_gains], "1" .. got "12" .. expected a number'),
+    ("limits joint", '1 = ["-pi",', '9 = ["-pi",', '[limits], "9" .. no moving joint'),
+    ("limits short", ", 3, 10]", ", 3]", '[limits], "1" .. got 3 entries, expected 4 .. add 1'),
+    ("limits range", '["-pi", 2.5', '["pi", 2.5', '[limits], "1" .. lower 3.14 .. lower < upper'),
+    ("limits speed", "2.5, 3, 10", "2.5, 0, 10", '[limits], "1" .. speed 0 .. both positive'),
+    ("physical joint", "[physical.1]", "[physical.7]", '[physical], "7" .. no moving joint'),
+    ("physical key", 'mass = "m1"', 'mas = "m1"', '[physical] .. key "mas" .. mean "mass"?'),
+    ("physical missing", 'mass = "m1"\n', "", '[physical], "1" .. mass is missing .. inertia'),
+    ("centre", '["x1", 0, "z1 - D3"]', '["x1"]', "centre .. got 1 entries, expected 3"),
+    ("inertia", '"J2", 0, "J3"]', '"J2"]', "inertia .. got 4 entries, expected 6 .. YZ"),
+    ("physical q", 'mass = "m1"', 'mass = "q1"', "[physical] .. joint variable q1 .. rigid"),
+    ("physical text", 'mass = "m1"', 'mass = "m1 *"', 'mass .. got "m1 *" .. cannot be read'),
 ]  # fmt: skip
 
+IN_PLANAR = [
+    ("mark without legs", 'legs = ["1", "2"]\n', "", "{i} stands for the legs .. names none"),
+    ("legs no list", 'legs = ["1", "2"]', 'legs = "1"', "legs: got .. expected a list"),
+    ("leg twice", 'legs = ["1", "2"]', 'legs = ["1", "1"]', 'legs .. "1" stands there twice'),
+    ("leg name", 'legs = ["1", "2"]', 'legs = ["1", "a b"]', 'legs .. "a b" .. letters'),
+    ("no legs", 'legs = ["1", "2"]', "legs = []", "legs .. no legs"),
+    ("other mark", '"1{i}", "2{i}"]', '"1{k}", "2{i}"]', "effects .. {k} .. only mark"),
+    ("relation of nothing", "q7 = ", "q9 = ", '[relations] .. "q9" .. no joint variable .. q4'),
+    ("relation undeclared", "-q21 + pi/2", "-q99 + pi/2", "q99 is not declared"),
+    ("relation not linear", "-q21 + pi/2", "q21*q12", "[relations] .. not linear"),
+    ("relation of itself", "-q21 + pi/2", "q7 + q12", "holds q7 itself"),
+    ("constant relation", "-q21 + pi/2", "pi/2", "a constant .. sigma 2"),
+    ("actuated follows", '["7", "21", 0,', '["7", "21", 1,',
+     'row "7" .. column mu .. follows other joints .. write 0'),
+    ("circle", 'q7 = "-q21 + pi/2"', 'q7 = "-q21"\nq21 = "q7"',
+     "[relations] .. follow each other in a circle"),
+    ("twice", '0, 0, 0, "q7"]', '0, 0, 0, "q12"]',
+     "[relations] .. stands as a relation in the table too"),
+    ("platform key", 'motion = "tr', 'moves = "tr', '[platform] .. unknown key "moves"'),
+    ("no motion", 'motion = "translation"\n', "", "[platform] .. motion is missing"),
+    ("motion", '"translation"', '"spatial"', '[platform] .. motion .. "spatial" .. planar'),
+    ("platform name", 'name = "P"', 'name = "P 1"', '[platform] .. name .. "P 1" .. letters'),
+    ("platform name taken", 'name = "P"', 'name = "12"', "12 .. [platform]"),
+    ("loop columns", '"meets", "joint"]', '"meets", "kind"]', "[loops] .. columns .. expected"),
+    ("loop cells", '"P", "position"]', '"P"]', "[loops] .. row 1 .. got 3 entries, expected 4"),
+    ("loop frame", '"3{i}", "P"', '"9{i}", "P"', '[loops] .. "leg 1" .. frame .. "91" .. no row'),
+    ("loop joint", '"position"', '"ball"', '[loops] .. joint .. "ball" .. spherical'),
+    ("nothing to close", '"3{i}", "P"', '"3{i}", "2{i}"', "both fixed on link 21 .. nothing"),
+    ("home of nothing", "q21 = ", "q91 = ", '[home] .. "q91" .. no joint variable'),
+    ("home no number", '"-pi/3"', '"x"', "[home] .. x is not declared"),
+    ("links row", "7 = []", "8 = []", '[links] .. "8" .. no moving joint'),
+    ("links parameter", '["M", "MX"]', '["M", "X"]', '[links] .. "P" .. "X" .. expected some of'),
+    ("shared without mark", '"*2{i}"', '"*2"', 'shared .. "*2" .. {i}'),
+    ("shared nothing", '"*2{i}"', '"*9{i}"', "shared .. matches no parameter of leg 1"),
+]  # fmt: skip
 
-def test_the_good_file_is_read():
-    robot = robot_from_text(GOOD, "arm.toml")
-    assert [joint.name for joint in robot.moving] == ["1", "2", "3", "4"]
+IN_OWN_EFFECTS = [
+    ("no table", "[own_effects.wave]", "[own_effects]\nwave = 3\n[terms]", "wave]: got 3"),
+    ("id of the catalogue", FIRST, "[own_effects.spring]", "spring]: .. of the catalogue"),
+    ("capital id", FIRST, "[own_effects.Eddy]", 'got the name "Eddy" .. small letters'),
+    ("id of a word", FIRST, "[own_effects.undo]", 'got the name "undo" .. not all, auto, undo'),
+    ("unknown key", "nonnegative =", "positive =", 'unknown key "positive" .. expected title'),
+    ("no columns", EDDY, "", "eddy_brake], columns: is missing .. as in [own_effects."),
+    ("columns no table", EDDY, 'columns = "v"', 'columns: got "v"; expected a table'),
+    ("unknown function", "v*exp", "v*ln", "columns, Keb: .. no function ln .. sin, cos"),
+    ("unknown variable", "v*exp", "u*exp", "Keb: got .. u is unknown .. names among q, v, a"),
+    ("misspelt shape", "- c)", "- cc)", 'cc is unknown .. did you mean "c"? .. under shapes'),
+    ("speed of a position", "cos(k*q)", "v*cos(k*q)", "v is unknown .. names among q, k"),
+    ("kink of a position", "cos(k*q)", "abs(k*q)", "wave], columns, Wc: .. without abs and sign"),
+    ("no joint", "v*exp", "v3*exp", "v3 is unknown .. the name of a joint (1, 2); list"),
+    ("own joint", "v*exp", "v2*exp", 'joint "2" is the one whose v2 .. write v for its own'),
+    ("shape a motion", "{c = [1,", "{v1 = [1,", '"v1", which is the speed of joint 1'),
+    ("prefix of the catalogue", "{Keb", "{Ks", 'the parameter "Ks" is that of spring already'),
+    ("prefix of a link", "{Keb", "{MX", 'the parameter "MX" is that of the links already'),
+    ("prefix of the other", "{Wc", "{Keb", 'wave], columns: .. "Keb" is that of eddy_brake'),
+    ("prefix with digit", "{Keb", "{K1", 'the parameter "K1" .. a letter first and last'),
+    ("shapes no table", "{k = 2}", "[2]", "shapes: got [2]; expected a table"),
+    ("shape a variable", "{k = 2}", "{k = 2, v = 1}", 'the name "v" .. neither a variable (q,'),
+    ("shape reserved", "{k = 2}", "{k = 2, t0 = 1}", 'the name "t0" .. nor joint, t0'),
+    ("empty grid", "[0.1, 0.3]", "[]", "shapes, w: got an empty list .. [0.1, 0.3]"),
+    ("value twice", "[0.1, 0.3]", "[0.3, 0.3]", "shapes, w: .. stands there twice"),
+    ("value no number", "[0.1, 0.3]", '["x"]', 'shapes, w: got "x"; expected a number'),
+    ("value infinite", "[0.1, 0.3]", "[inf]", "shapes, w: got inf .. finite"),
+    ("unused shape", "{k = 2}", "{k = 2, m = 1}", "shapes: no equation uses m .. take it out"),
+    ("too many", "[0.1, 0.3]", str([*range(1, 40)]), "117 combinations of c, w"),
+    ("division by 0", "v*exp", "1/v + exp", "columns: Keb = .. no finite value at q = 0, v = 0"),
+    ("complex", "v*exp", "v**0.5 + exp", "columns: Keb = .. no finite value at"),
+    ("shape 0", "[0.1, 0.3]", "[0, 0.3]", "no finite value at .. w = 0; .. at rest too"),
+    ("lag unknown", HOOK, f'{HOOK}\nlag = "abs(u)"', "lag: got .. u is unknown .. among q, v, a"),
+    ("lag no text", HOOK, f"{HOOK}\nlag = [1]", "hook], lag: got [1] .. expression"),
+    ("lag without tau", HOOK, f'{HOOK}\nlag = "v*d"', "shapes: z lags by a time .. {tau ="),
+    ("lag unused", EDDY, f'{EDDY}\nlag = "v"', "lag: no equation uses z, which lags"),
+    ("lag infinite", f"{HOOK}\n{TRAVEL}",
+     f'{HOOK}\nlag = "1/v"\nshapes = {{tau = [0.1, 1]}}', "lag = .. no finite value at v = 0"),
+    ("unit no text", '"N*m*s/rad"', "3", "unit: got 3; expected text"),
+    ("unit ends comment", '"N*m*s/rad"', '"N */ x"', "unit: got .. expected text such as"),
+    ("unit of another", "{Ws =", "{Wx =", 'unit: got "Wx" .. no parameter of this .. Wc, Ws'),
+    ("nonnegative no word", "= true", "= 1", "nonnegative: got 1; expected true or false"),
+    ("acts unknown", '"position"', '"motor"', 'acts: got "motor"; expected "joint"'),
+    ("acts a list", '"position"', '["joint"]', "acts: got ['joint'] .. expected \"joint\""),
+    ("empty title", '"drag of a magnet"', '""', 'title: got ""; expected text'),
+    ("z without travel", "{d = [0.01, 0.1]}", "{}", "shapes: z turns over a travel .. {d ="),
+    ("z with travel 0", "[0.01, 0.1]", "[0, 0.1]", "shapes: z turns over .. no positive values"),
+    ("no shapes", '[{joint = "2", c = 0.7, w = 0.2}]', '"all"', 'got "all"; expected its shapes'),
+    ("one missing", ", w = 0.2", "", "eddy_brake: got the shapes c; expected eddy_brake = [{"),
+    ("shape 0 there", "w = 0.2", "w = 0", 'joint "2": Keb = .. no finite value'),
+]  # fmt: skip
+
+IN_FRAMES_AND_TOOL = [
+    ("column twice", '"link", "row"', '"link", "link"', "[frames], columns: got .. link, row and"),
+    ("no row", '"hand", "4"', '"hand", "7"', 'row 1 ("hand"), column row: got "7"; expected the'),
+    ("link twice", '"base", 0', '"hand", 0', 'row 2 ("hand"): the link stands there twice'),
+    ("no link", '"base", 0', '"", 0', 'column link: got ""; expected text such as "hand"'),
+    ("joint no text", '"wrist"', "7", 'column joint: got 7; expected a name, or ""'),
+    ("undeclared", '"R4/2"', '"R4/K"', 'row 1 ("hand"), column x: .. K is not declared'),
+    ("of a joint", '"R4/2"', '"q1"', "column x: .. q1"),
+    ("a length", '"90 deg"', '"0.2 m"', 'column yaw: got "0.2 m"'),
+    ("short", '"base", 0, "", 0, 0]', '"base", 0, ""]', "row 2: got 3 entries, expected 5"),
+    ("key", 'rows = [["hand"', 'lines = [["hand"', 'unknown key "lines"'),
+    ("tool key", 'x = "2*D3"', "xx = 1", '[tool]: unknown key "xx"'),
+    ("tool undeclared", '"2*D3"', '"M"', "[tool], x"),
+    ("tool truth", 'x = "2*D3"', "yaw = true", "[tool], yaw"),
+    ("tool row", 'link = "hand"', 'row = "7"', '[tool], row: got "7"; expected the name of a row'),
+    ("tool row no text", 'link = "hand"', "row = [1]", "row: got [1]; expected the name of a row"),
+    ("tool link", 'link = "hand"', 'link = "han"', '[tool] .. did you mean "hand"'),
+    ("tool link no text", 'link = "hand"', "link = 1", "link: got 1"),
+    ("tool on both", 'x = "2*D3"', 'row = "2"', "[tool] .. keep one of them"),
+    ("tool angle", '"2*D3"', '"30 deg"', "[tool], x"),
+]  # fmt: skip
+
+IN_MOTORS = [
+    ("singular", "q2 - 0.4*q1", "2*q1", "[motors] .. singular, some motion of 1, 2, 3 turns no"),
+    ("nearly", "q2 - 0.4", "1e-5*q2 - 0.4", "nearly singular, a joint moves 1e+05 times as far"),
+    ("product", "q2 - 0.4*q1", "q2*q1", "not linear"),
+    ("no joint", "0.4*q1", "0.4*q7", "q7 is not declared"),
+    ("a motor", "q2 - 0.4*q1", "qm1 + q2", "qm1 is not declared"),
+    ("constant", "q2 - 0.4*q1", "q2 + 0.1", "with the constant 0.1"),
+    ("no variable", "q2 - 0.4*q1", "0.1", "without a joint variable"),
+    ("large", "q2 - 0.4*q1", "q2 - 1e5*q1", "expected at most 10000"),
+    ("one less", 'm2 = "q2 - 0.4*q1"\n', "", "got 2 motors (m1, m3) for the 3 joints 1, 2, 3"),
+    ("a joint without", MOTORS, 'm1 = "q1"\nm2 = "q2"\n', "no motor turns with q3, which has one"),
+    ("name of a row", "m2 =", "2 =", 'row "2" of [mdh] has that name; call the motor m2'),
+    ("dash", "m2 =", '"m-2" =', "expected a name of letters and digits"),
+    ("no sum", '"q2 - 0.4*q1"', "[1]", "expected a number or an expression"),
+    ("relation", MOTORS, f'{MOTORS}[relations]\nq3 = "q2"\n', "follows motors of [motors] too"),
+]  # fmt: skip
+
+IN_PASSIVE_FRICTION = [
+    ("motor", "[effects]", f'{RUB}["11"]', 'joint "11" has a motor .. write viscous and coulomb'),
+    ("twice", "[effects]", f'{RUB}["21"]\ncoulomb = ["21"]',
+     'passive_friction .. joint "21" has coulomb already .. out of one of them'),
+    ("no joint", "[effects]", f'{RUB}["31"]', 'no moving joint "31"'),
+]  # fmt: skip
+
+IN_LAW = [
+    ("no table", f"law = {TABLE}\n", "", "no function law; .. key `law`"),
+    ("a name", "law(q)", "law*q", "law needs an argument, as in law(x)"),
+    ("two for one", "law(q)", "law(q, v)", "law takes one argument"),
+    ("one for two", TABLE, TWO_AXES, "law takes 2 arguments"),
+    ("not called", "law(q)", "q", "law: no equation calls law; use it, as in law"),
+    ("no list", "cells = [2]", "cells = 2", "law, cells: got 2; expected a list of num"),
+    ("a word", "[-1]", '["a"]', 'law, low: got "a"; expected'),
+    ("no number", "[-1]", "[nan]", "law, low: got nan; expected"),
+    ("a key too many", "1, 1]}", "1, 1], odd = true}", "law: .. odd"),
+    ("a key too few", ", values = [0, 0, 0, 1, 1]", "", "law: .. values .. missing"),
+    ("no axis", "[-1]", "[]", "law: got 0, 1 and 1 entries of low, hi"),
+    ("three axes", TABLE, TABLE.replace("[-1]", "[0, 0, 0]"), "entries .. which has one or two"),
+    ("turned", "[-1]", "[1]", "got an axis from 1 to 1 of 2 cells; exp"),
+    ("too narrow", "[-1], high = [1]", "[0], high = [1e-315]", "got an axis from 0 to"),
+    ("half a cell", "[2]", "[2.5]", "of 2.5 cells; expected low < high"),
+    ("no cell", "[2]", "[0]", "of 0 cells; expected"),
+    ("too few", "[2]", "[3]", "values: got 5 numbers; expected 6, 3 more"),
+]  # fmt: skip
+
+TABLES = {
+    "arm": (ARM, IN_ARM), "frames and tool": (ARM, IN_FRAMES_AND_TOOL),
+    "planar": (PLANAR, IN_PLANAR), "own effects": (OWN_EFFECTS, IN_OWN_EFFECTS),
+    "law": (LAW, IN_LAW), "motors": (COUPLED, IN_MOTORS),
+    "passive friction": (FIVE_BAR, IN_PASSIVE_FRICTION),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "pieces"), [pytest.param(*mistake[1:], id=mistake[0]) for mistake in MISTAKES]
+    ("text", "old", "new", "told"),
+    [
+        pytest.param(text, *row[1:], id=f"{table}: {row[0]}")
+        for table, (text, rows) in TABLES.items()
+        for row in rows
+    ],
 )
-def test_a_mistake_is_told(old, new, pieces):
-    assert GOOD.count(old) >= 1
-    pattern = ".*".join(re.escape(piece) for piece in pieces)
-    with pytest.raises(RobotError, match=pattern) as caught:
-        robot_from_text(GOOD.replace(old, new, 1), "arm.toml")
-    message = str(caught.value)
-    assert message.startswith("arm.toml: ")
-    assert "\n" not in message
-    assert len(message) < 500
+def test_a_mistake_is_told(text, old, new, told):
+    check_mistake(text, old, new, told)
+
+
+def test_the_good_files_are_read():
+    robots = {table: robot_from_text(text, "x") for table, (text, _) in TABLES.items()}
+    assert [joint.name for joint in robots["arm"].moving] == ["1", "2", "3", "4"]
 
 
 def test_a_row_before_its_antecedent_is_told_where_to_go():
-    text = GOOD.replace('["1", "0", 1, 0, 0, 0, "q1", 0],', "", 1).replace(
-        '["E", "4"', '["1", "0", 1, 0, 0, 0, "q1", 0],\n["E", "4"'
-    )
-    with pytest.raises(RobotError, match=r'row "2", column a: got "1".*move row "1" above row "2"'):
-        robot_from_text(text, "arm.toml")
+    first, last = '["1", "0", 1, 0, 0, 0, "q1", 0],', '["E", "4"'
+    told = 'row "2", column a: got "1" .. move row "1" above row "2"'
+    check_mistake(ARM.replace(first, "", 1), last, first + last, told)
 
 
-def test_a_table_without_motion_is_refused():
-    text = 'name = "rock"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "sigma"]\nrows = [["1", 2]]'
-    with pytest.raises(RobotError, match=r'\[mdh\], row "1": no row of the table moves'):
-        robot_from_text(text, "rock.toml")
+ROCK = 'name = "rock"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "sigma", "theta"]\nrows = ['
 
 
-def test_an_empty_table_is_refused():
-    text = 'name = "rock"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j"]\nrows = []'
-    with pytest.raises(RobotError, match=r"\[mdh\], rows: the table is empty; write one row"):
-        robot_from_text(text, "rock.toml")
-
-
-def test_row_names_that_make_two_parameters_one_are_refused():
-    text = GOOD.replace('"E"', '"X1"').replace('"X1", "4", 0, 2', '"X1", "4", 0, 0')
-    text = text.replace('0.1, "pi"', '0.1, "qX1"')
-    with pytest.raises(RobotError, match=r'row "X1".*MX1 mean two parameters, with row "1"'):
-        robot_from_text(text, "arm.toml")
+@pytest.mark.parametrize(
+    ("rows", "told"),
+    [
+        ('["1", 2, 0]', '[mdh], row "1": no row of the table moves'),
+        ("", "[mdh], rows: the table is empty; write one row"),
+        ('["1", 0, "q1"], ["1R", 0, "q1R"]', 'row "1R": the name makes XX1R a parameter, which is'),
+        ('["1", 0, "q1"], ["X1", 0, "qX1"]', 'row "X1" .. MX1 mean two parameters, with row "1"'),
+    ],
+)
+def test_a_table_that_is_no_robot_is_refused(rows, told):
+    check_mistake(f"{ROCK}x]", "x]", f"{rows}]", told)
 
 
 def test_unknown_names_suggest_built_in_robots():
@@ -287,10 +363,10 @@ SHARDS = [
 ]
 
 
-@pytest.mark.parametrize("seed", range(80))
+@pytest.mark.parametrize("seed", range(40))
 def test_damaged_files_raise_nothing_but_robot_errors(seed):
     rng = random.Random(seed)
-    text = rng.choice([GOOD, *map(builtin_text, builtin_names())])
+    text = rng.choice([ARM, *map(builtin_text, builtin_names())])
     for _ in range(rng.randint(1, 4)):
         at, other = rng.randrange(len(text)), rng.randrange(len(text))
         length = rng.choice([0, 1, 1, 3, 20])
@@ -304,12 +380,3 @@ def test_damaged_files_raise_nothing_but_robot_errors(seed):
         assert "\n" not in str(error)
     else:
         assert robot.moving
-
-
-def test_a_row_name_that_reads_like_a_grouped_parameter_is_refused():
-    text = (
-        'name = "rock"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "theta"]\n'
-        'rows = [["1", "q1"], ["1R", "q1R"]]'
-    )
-    with pytest.raises(RobotError, match=r'row "1R": the name makes XX1R a parameter, which is'):
-        robot_from_text(text, "rock.toml")

@@ -4,24 +4,23 @@ import numpy as np
 import pytest
 
 from modeler.core.builtin import builtin_text
-from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.edit import with_effect
 from modeler.robot.motors import joint_directions
 from modeler.robot.read import read_robot, robot_from_text
 from tests.modules import module, plain
+from tests.robot.texts import COUPLED, MOTORS
 
 _G = np.array([[1.0, 0.0, 0.0], [-0.4, 1.0, 0.0], [0.2, -0.5, 1.0]])
 _JM, _FV, _FS = np.array([0.5, 0.3, 0.15]), np.array([4.0, 2.5, 1.2]), np.array([3.0, 2.0, 1.2])
 _TEXT = builtin_text("wrist-coupled")
-_MOTORS = 'm1 = "q1"\nm2 = "q2 - 0.4*q1"\nm3 = "q3 - 0.5*q2 + 0.2*q1"\n'
 _ROTORS = 'rotor_inertia = "all"\nviscous = "all"\ncoulomb = "all"\n'
 
 
 def _coupled(motors: str, effects: str = _ROTORS):
-    assert _MOTORS in _TEXT and _ROTORS in _TEXT
-    text = _TEXT.split("[parameters]")[0].replace(_MOTORS, motors).replace(_ROTORS, effects)
+    assert MOTORS in COUPLED and _ROTORS in COUPLED
+    text = COUPLED.replace(MOTORS, motors).replace(_ROTORS, effects)
     return robot_from_text(text, "coupled.toml")
 
 
@@ -110,53 +109,7 @@ b = "q2 + 5*q1"
     assert kinds == [False, True]
 
 
-@pytest.mark.parametrize(
-    ("cell", "told"),
-    [
-        ("2*q1", "singular, some motion of 1, 2, 3 turns no motor"),
-        ("1e-5*q2 - 0.4*q1", "nearly singular, a joint moves 1e+05 times as far"),
-        ("q2*q1", "not linear"),
-        ("q2 - 0.4*q7", "q7 is not declared"),
-        ("qm1 + q2", "qm1 is not declared"),
-        ("q2 + 0.1", "with the constant 0.1"),
-        ("0.1", "without a joint variable"),
-        ("q2 - 1e5*q1", "expected at most 10000"),
-    ],
-)
-def test_a_wrong_sum_is_told(cell, told):
-    with pytest.raises(RobotError, match=r"^coupled.toml: \[motors\]") as error:
-        _coupled(_MOTORS.replace("q2 - 0.4*q1", cell, 1))
-    assert told in str(error.value) and "\n" not in str(error.value)
-
-
-@pytest.mark.parametrize(
-    ("motors", "told"),
-    [
-        ('m1 = "q1"\nm3 = "q3 + q2"\n', "got 2 motors (m1, m3) for the 3 joints 1, 2, 3"),
-        (f'{_MOTORS}m4 = "q3"\n', "got 4 motors (m1, m2, m3, m4) for the 3 joints 1, 2, 3"),
-        ('m1 = "q1"\nm2 = "q2"\n', "no motor turns with q3, which has one"),
-        (_MOTORS.replace("m2", "2"), 'row "2" of [mdh] has that name; call the motor m2'),
-        (_MOTORS.replace("m2", '"m-2"'), "expected a name of letters and digits"),
-        ("m1 = [1]\n", "expected a number or an expression"),
-        (f'{_MOTORS}[relations]\nq3 = "q2"\n', "follows motors of [motors] too"),
-    ],
-)
-def test_wrong_motors_are_told(motors, told):
-    with pytest.raises(RobotError, match=r"^coupled.toml: \[(motors|relations)\]") as error:
-        _coupled(motors)
-    assert told in str(error.value) and "\n" not in str(error.value)
-
-
 def test_an_effect_that_is_added_leaves_the_values_of_the_motors():
     """Fvm1 is viscous friction of the motor m1, not friction of a motor on joint 1."""
     changed = with_effect(_TEXT, "stribeck", "m2", {"vs": 0.1, "d": 2.0})
     assert robot_from_text(changed, "x.toml").parameters == read_robot("wrist-coupled").parameters
-
-
-def test_motors_that_are_no_table_are_told():
-    with pytest.raises(RobotError, match=r"\[motors\]: got 3; expected a table"):
-        robot_from_text(
-            'name = "x"\ngravity = [0, 0, 0]\nmotors = 3\n[mdh]\ncolumns = ["j", "theta"]\n'
-            'rows = [["1", "q1"]]\n',
-            "x.toml",
-        )

@@ -26,11 +26,23 @@ def convert(text: str, where: str = "arm.par"):
     return robot_from_text(found.text, where), found
 
 
-TWINS = ("rx90", "puma560", "scara", "sr400-tree", "sr400", "tx40")
+def at_home(text, robot):
+    """With the [home] of the robot, if it has one."""
+    lines = [f"q{row} = {value!r}" for row, value in robot.home.items()]
+    return "\n".join([text, *(["[home]"] if lines else []), *lines])
 
 
-@pytest.mark.parametrize("name", TWINS)
-@pytest.mark.parametrize("letters", [True, False])
+TWINS = ("rx90", "puma560", "scara", "sr400-tree", "tx40")
+
+
+@pytest.mark.parametrize(
+    ("name", "letters"),
+    [
+        ("sr400", True),
+        ("sr400", False),
+        *(pytest.param(n, x, marks=pytest.mark.rotating) for n in TWINS for x in (True, False)),
+    ],
+)
 def test_the_frames_of_a_twin_are_the_same(name, letters):
     robot = read_robot(name)
     twin, found = convert(par_of(robot, letters=letters))
@@ -48,35 +60,27 @@ def test_the_frames_of_a_twin_are_the_same(name, letters):
         for frame, pose in ours.items():
             assert np.allclose(theirs[frame], pose, atol=1e-9), frame
     assert [j.actuated for j in twin.joints] == [j.actuated for j in robot.joints]
-    pull = [
-        [e.number({n: v.number() for n, v in r.symbols.items()}) for e in r.gravity]
-        for r in (robot, twin)
-    ]
-    assert np.allclose(*pull)
+    assert np.allclose(*([e.number(r.symbol_values()) for e in r.gravity] for r in (robot, twin)))
 
 
-@pytest.mark.parametrize("name", ["rx90", "puma560", "sr400"])
+@pytest.mark.parametrize(
+    "name", ["puma560", *(pytest.param(n, marks=pytest.mark.rotating) for n in ("rx90", "sr400"))]
+)
 def test_a_twin_has_the_same_base_parameters(name):
     robot = read_robot(name)
     text = convert(par_of(robot, letters=True))[1].text
     for symbol, value in robot.symbols.items():
         text = re.sub(rf"^{symbol} = \S+ ", f"{symbol} = {value.text} ", text, flags=re.M)
-    if robot.loops:
-        home = "\n".join(f"q{row} = {value!r}" for row, value in robot.home.items())
-        text += f"\n[home]\n{home}\n"
-    ours = as_json("x", module(name).base)
-    theirs = as_json("x", derive(robot_from_text(text, "twin")).base)
-    assert theirs["base"] == ours["base"]
-    assert theirs["rank"] == ours["rank"]
-    assert theirs["unidentifiable"] == ours["unidentifiable"]
+    bases = module(name).base, derive(robot_from_text(at_home(text, robot), "twin")).base
+    ours, theirs = (as_json("x", base) for base in bases)
+    assert all(theirs[key] == ours[key] for key in ("base", "rank", "unidentifiable"))
 
 
 def test_numbers_keep_the_structure_of_a_loop():
     """Equal lengths of the parallelogram stay one letter: SR400 from numbers alone."""
     robot = read_robot("sr400")
     twin, found = convert(par_of(robot, letters=False))
-    home = "\n".join(f"q{row} = {value!r}" for row, value in robot.home.items())
-    twin = robot_from_text(f"{found.text}\n[home]\n{home}\n", "twin")
+    twin = robot_from_text(at_home(found.text, robot), "twin")
     base = derive(twin).base
     assert base.rank == module("sr400").base.rank == 39
     assert base.proof.certificate.rank == 39
@@ -88,23 +92,17 @@ def test_numbers_keep_the_structure_of_a_loop():
     ("digits", "angle"),
     [
         ("1.5708", "pi/2"), ("-1.571", "-pi/2"), ("1.57", "pi/2"), ("1.57080", "pi/2"),
-        ("1.57079632679000", "pi/2"), ("0.7854", "pi/4"), ("3.14159", "pi"), ("3.1415", "pi"),
-        ("3.14", "pi"), ("1.0472", "pi/3"), ("0.2618", "pi/12"), ("-4.7124", "-3*pi/2"),
-        ("6.2832", "2*pi"), ("1.5707963267948966", "pi/2"), ("15.708e-1", "pi/2"),
-        ("0", None), ("0.0001", None), ("1.5710", "pi/2"), ("2.880", "11*pi/12"), ("2.88", None),
-        ("0.260000", None),
-        ("1.58", None), ("0.79", None),
-        ("1.6", None), ("2", None), ("3", None), ("1.57090", None), ("1.572", None),
-        ("3.1417", None),
-        ("0.785398163", "pi/4"),
-        ("0.785398173", None),
+        ("3.1415", "pi"), ("0.2618", "pi/12"), ("-4.7124", "-3*pi/2"), ("6.2832", "2*pi"),
+        ("1.5707963267948966", "pi/2"), ("15.708e-1", "pi/2"), ("0.785398163", "pi/4"),
+        ("0", None), ("0.0001", None), ("2.880", "11*pi/12"), ("2.88", None), ("0.260000", None),
+        ("1.58", None), ("0.79", None), ("2", None), ("1.57090", None), ("0.785398173", None),
     ],
 )  # fmt: skip
 def test_rounded_angles(digits, angle):
     assert exact_angle(digits) == angle
 
 
-@pytest.mark.parametrize("decimals", [3, 4, 6, 9, 12])
+@pytest.mark.parametrize("decimals", [3, 6, 12])
 def test_every_multiple_is_found_in_its_rounding_and_hardly_ever_elsewhere(decimals):
     for k in range(-24, 25):
         if k:
@@ -122,15 +120,10 @@ def test_every_multiple_is_found_in_its_rounding_and_hardly_ever_elsewhere(decim
 
 def test_letters_and_numbers():
     lists = {
-        "Ant": "0,1,2,3",
-        "Sigma": "0,0,1,2",
-        "d": "0,0.25,L*2,-0.25",
-        "R": "RL1,0,r3,0.1",
-        "gamma": "0,0,0,0.3",
-        "Alpha": "0,Pi/2,-1.5708,0",
-        "Theta": "th1,th2 - 1.571,0,0",
+        "Ant": "0,1,2,3", "Sigma": "0,0,1,2", "d": "0,0.25,L*2,-0.25", "R": "RL1,0,r3,0.1",
+        "gamma": "0,0,0,0.3", "Alpha": "0,Pi/2,-1.5708,0", "Theta": "th1,th2 - 1.571,0,0",
         "Mu": "1,0,1,0",
-    }
+    }  # fmt: skip
     robot, found = convert(par_text(lists, "my arm"))
     rows = tomllib.loads(found.text)["mdh"]["rows"]
     assert rows == [
@@ -207,9 +200,7 @@ def test_bodies_with_and_without_parameters():
     [
         ({"FX": "0,FX2"}, "FX are left out"),
         ({"W0": "0,0,w"}, "W0 are left out"),
-        ({"V0": "0.5,0,0"}, "V0 are left out"),
         ({"VP0": "0,0,1"}, "VP0 are left out"),
-        ({"QP": "QP1,0.5"}, "QP are left out"),
         ({"eta": "0,1"}, "eta are left out"),
         ({"Z": "1,0,0,0,0,1,0,0,0,0,1,0.5,0,0,0,1"}, "Z is left out"),
         ({"Mu": "0,0"}, "all are taken as actuated"),
@@ -237,17 +228,11 @@ def test_a_type_that_says_otherwise_is_told(kind, notes):
     assert len([note for note in found.notes if note.startswith("Type is")]) == notes
 
 
-@pytest.mark.parametrize("theta", ["q0,q1,q2", "q1,q3,q2", "q2,q3,q4 + Pi", "a,b,c"])
+@pytest.mark.parametrize("theta", ["q0,q1,q2", "q1,q3,q2", "q2,q3,q4 + Pi"])
 def test_variables_are_those_of_the_rows(theta):
     robot, _ = convert(par_text({"Ant": "0,1,2", "Theta": theta}))
     assert [min(joint.theta.names) for joint in robot.joints] == ["q1", "q2", "q3"]
     assert not robot.symbols.keys() - {"g"}
-
-
-def test_a_letter_beside_a_variable_before_is_no_constant():
-    """q1 + phi in row 2: phi is the variable of row 2, and such a table is refused."""
-    with pytest.raises(RobotError, match=r'row "2", column theta'):
-        convert(par_text({"Ant": "0,1", "Theta": "q1,q1 + phi"}))
 
 
 def test_a_base_that_moves_stands_still():
@@ -264,16 +249,12 @@ def test_a_base_that_moves_stands_still():
         ({"G": "0,0,9.81"}, [0, 0, 9.81]),
         ({"G": "0,-9.8,0"}, [0, -9.8, 0]),
         ({"G": "0,0,G3"}, [0, 0, -9.81]),
-        ({"G": "0,0,-GZ"}, [0, 0, -9.81]),
         ({"G": "0,0,2*g"}, [0, 0, -9.81]),
-        ({"G": "0,0,-9.81*k"}, [0, 0, -9.81]),
         ({"G": "GX,GY,GZ"}, [0, 0, -9.81]),
         ({"G": "GX,0,-9.81"}, [0, 0, -9.81]),
         ({"G": "g,0,0"}, [9.81, 0, 0]),
-        ({"G": "0,-g,0"}, [0, -9.81, 0]),
         ({"G": "0,g*sin(a),-g*cos(a)"}, [0, 0, -9.81]),
         ({"G": "0,0,0", "VP0": "0,0,g"}, [0, 0, -9.81]),
-        ({"G": "0,0,0", "VP0": "0,0,-g"}, [0, 0, -9.81]),
         ({"G": "0,0,0"}, [0, 0, 0]),
         ({"G": "0,0,0", "VP0": "0,0,9.81"}, [0, 0, -9.81]),
         ({"G": "0,1.5,-3"}, [0, 1.5, -3]),
@@ -322,19 +303,13 @@ def test_every_key_of_a_par_file_is_read_told_or_refused():
     assert set(refused) <= {"Mu"}  # which is 0 or 1
 
 
+# A boom on the base, moved by a cylinder: base eye at a, boom eye at c. Links 1 boom, 2 cylinder,
+# 3 rod; cut joint 4 at the boom eye, its second frame 5 on the boom.
 BOOM = {
-    # A boom on the base, moved by a cylinder: base eye at a, boom eye at c. Links 1 boom,
-    # 2 cylinder, 3 rod; cut joint 4 at the boom eye, its second frame 5 on the boom.
-    "Ant": "0,0,2,3,1",
-    "Sigma": "0,0,1,0,2",
-    "B": "0,0,0,0,0",
-    "d": "0,a,0,0,c",
-    "R": "0,0,r3,0,0",
-    "Alpha": "Pi/2,Pi/2,-Pi/2,Pi/2,0",
-    "gamma": "0,0,0,0,gam5",
-    "Theta": "t1,t2,0,t4,0",
-    "Mu": "0,0,1,0,0",
-}
+    "Ant": "0,0,2,3,1", "Sigma": "0,0,1,0,2", "B": "0,0,0,0,0", "d": "0,a,0,0,c",
+    "R": "0,0,r3,0,0", "Alpha": "Pi/2,Pi/2,-Pi/2,Pi/2,0", "gamma": "0,0,0,0,gam5",
+    "Theta": "t1,t2,0,t4,0", "Mu": "0,0,1,0,0",
+}  # fmt: skip
 
 
 HAND_BOOM = """
@@ -422,26 +397,19 @@ def test_encodings_and_line_ends():
     lists = {"Ant": "0,1", "Theta": "t1,t2"}
     plain = par_text(lists, "Nœud é").replace("a comment", "1 rue de la Noë")
     expected = convert(plain)[1].text
-    for data in (
-        plain.encode("cp1252"),
-        plain.encode("utf-8-sig"),
-        plain.encode("utf-16"),
-        plain.replace("\n", "\r\n").encode(),
-        plain.replace("\n", "\r").encode(),
-        plain.encode() + b"\x1a",
-    ):
-        assert convert(data)[1].text == expected
+    assert convert(plain.encode() + b"\x1a")[1].text == expected
+    for encoding in ("cp1252", "utf-8-sig", "utf-16"):
+        assert convert(plain.encode(encoding))[1].text == expected
+    for end in ("\r\n", "\r"):
+        assert convert(plain.replace("\n", end).encode())[1].text == expected
 
 
 GOOD = par_text({"Ant": "0,1,2", "Theta": "t1,t2,t3", "XX": "XX1,XX2,XX3"})
 
 MISTAKES = [
-    ("d  = {\n        0,0,0}", "d  = {\n        0,0}", "line 18: d: got 2 entries, expected 3"),
     ("XX1,XX2,XX3", "XX1,XX2,XX3,XX4", "XX: got 4 entries, expected 3 (NL); remove 1"),
     ("0,1,2}", "0,1,5}", 'Ant, entry 3: got "5"; expected the base, 0, or a frame before it'),
-    ("0,1,2}", "0,1,x}", 'Ant, entry 3: got "x"'),
     ("Sigma  = {\n        0,0,0}", "Sigma  = {\n        0,3,0}", 'Sigma, entry 2: got "3"'),
-    ("Mu  = {\n        1,1,1}", "Mu  = {\n        1,yes,0}", 'Mu, entry 2: got "yes"'),
     ("NF = 3", "NF = 4", "NF: got 4, expected 3, which is 2 NJ - NL"),
     ("NL = 3", "NL = 4", "got NL = 4, NJ = 3; expected 1 <= NL <= NJ"),
     ("NL = 3", "NL = three", 'NL: got "three"; expected a count'),
@@ -452,9 +420,7 @@ MISTAKES = [
     ("t1,t2,t3}", "t1,t2,}", "theta, entry 3: is empty"),
     ("t1,t2,t3}", "t1,a+c,t3}", 'theta, entry 2: got "a+c"; expected the joint variable'),
     ("t1,t2,t3}", "t1,2 Pi,t3}", 'theta, entry 2: got "2 Pi"; expected a number, a letter'),
-    ("t1,t2,t3}", "t1,f(2),t3}", 'theta, entry 2: got "f(2)"'),
     ("t1,t2,t3}", "t1,atan2(3),t3}", "theta, entry 2: got"),
-    ("t1,t2,t3}", "t1,2.5?,t3}", "theta, entry 2: got"),
     ("gamma  = {\n        0,0,0}", "gamma  = {\n        0,90,0}", "entry 2: got 90, which is"),
     ("Type = 0", "Type = closed", 'Type: got "closed"; expected 0 (simple), 1 (tree) or 2'),
     ("NJ = 3", "NJ = {3}", "NJ: got a list; expected one number"),
@@ -476,7 +442,7 @@ def test_mistakes_are_told_in_one_line(old, new, told):
     assert message.startswith("arm.par") and told in message and "\n" not in message
 
 
-@pytest.mark.parametrize("data", [b"", b"\x00\x01\x02", b"PK\x03\x04", b"name = 1", b"<robot/>"])
+@pytest.mark.parametrize("data", [b"", b"\x00\x01\x02", b"<robot/>"])
 def test_what_is_no_such_file_is_told(data):
     with pytest.raises(RobotError, match=r"^arm\.par: "):
         convert(data)
@@ -486,7 +452,7 @@ def test_random_damage_is_told_or_read():
     """No letter changed, dropped or doubled gives anything but a robot or one line."""
     rng = np.random.default_rng(7)
     text = par_text(BOOM, "boom", links=3, joints=4)
-    for _ in range(100):
+    for _ in range(50):
         at = int(rng.integers(len(text)))
         letter = str(rng.choice(list('{},=()*0129.ePi-\n é"\\;[^')))
         end = at + int(rng.integers(2))

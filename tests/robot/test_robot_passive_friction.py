@@ -6,12 +6,11 @@ from modeler.core.errors import RobotError
 from modeler.effects.catalogue import PASSIVE_FRICTION_IS
 from modeler.robot.edit import with_effect, with_effects
 from modeler.robot.read import read_robot, robot_from_text
-
-BARE = with_effects(read_robot("five-bar").text, {})
+from tests.robot.texts import FIVE_BAR
 
 
 def with_lines(*lines: str) -> str:
-    return BARE.replace("[effects]", "\n".join(["[effects]", *lines]))
+    return FIVE_BAR.replace("[effects]", "\n".join(["[effects]", *lines]))
 
 
 def joints_of(text: str) -> dict[str, tuple[str, ...]]:
@@ -39,25 +38,6 @@ def test_all_of_them_leaves_the_platform_out() -> None:
     rubbing = joints_of(text)["viscous"]
     expected = [j.name for j in robot.moving if not j.actuated and j.name not in robot.platform]
     assert list(rubbing) == expected and robot.platform
-
-
-@pytest.mark.parametrize(
-    ("lines", "pieces"),
-    [
-        (['passive_friction = ["11"]'], ['joint "11" has a motor', "write viscous and coulomb"]),
-        (
-            ['passive_friction = ["21"]', 'coulomb = ["21"]'],
-            ["passive_friction", 'joint "21" has coulomb already', "out of one of them"],
-        ),
-        (['passive_friction = ["21", "21"]'], ["stands there twice"]),
-        (['passive_friction = ["31"]'], ["31", "no moving joint"]),
-        (["passive_friction = 3"], ["got 3", "expected the joints"]),
-    ],
-)
-def test_mistakes_are_told(lines: list[str], pieces: list[str]) -> None:
-    with pytest.raises(RobotError) as caught:
-        robot_from_text(with_lines(*lines), "five-bar.toml")
-    assert all(piece in str(caught.value) for piece in pieces), caught.value
 
 
 def test_a_robot_whose_joints_all_have_motors_has_none() -> None:

@@ -2,7 +2,6 @@
 
 import math
 import zlib
-from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -10,12 +9,13 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
-from modeler.robot.body_tree import BodyTree, Pose, about_origin, moving_links
+from modeler.robot.body_tree import BodyTree, about_origin, moving_links, poses_at
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import JointKind
 from modeler.robot.tree_cuts import cut, lock_values
 from modeler.robot.tree_text import tree_to_toml
 from modeler.robot.urdf import urdf_tree
+from tests.robot.poses import link_poses
 from tests.robot.public_robots import each_public_urdf
 
 ARM = """<?xml version="1.0"?>
@@ -73,13 +73,6 @@ def positions(tree: BodyTree, seed: int) -> dict[str, float]:
     return q
 
 
-def placements(tree: BodyTree, q: Mapping[str, float]) -> dict[str, Pose]:
-    poses = {tree.root: Pose()}
-    for joint in tree.joints:
-        poses[joint.child] = poses[joint.parent] @ joint.at(q[joint.name])
-    return poses
-
-
 def soft_limits(data: bytes, name: str) -> tuple[float, float]:
     """Of the safety_controller, by the standard library; Pinocchio does not read it."""
     joint = ElementTree.fromstring(data).find(f"joint[@name='{name}']/safety_controller")
@@ -123,7 +116,7 @@ def test_public_robots_are_those_of_pinocchio(path: Path):
             assert model.effortLimit[theirs.idx_v] == joint.effort
     known = model.createData()
     pin.framesForwardKinematics(model, known, state)
-    for name, pose in placements(tree, q).items():
+    for name, pose in poses_at(tree, q).items():
         theirs = known.oMf[model.getFrameId(name, pin.FrameType.BODY)]
         assert np.allclose(pose.position, theirs.translation, rtol=0, atol=1e-12), name
         assert np.allclose(pose.rotation, theirs.rotation, rtol=0, atol=1e-12), name
@@ -172,16 +165,12 @@ def test_right_angles_are_exact():
 def test_elements_of_the_schema():
     tree = read()
     assert (tree.name, tree.format, tree.root) == ("arm", "URDF", "base")
-    shoulder, elbow, finger, other = (
-        joint_of(tree, name) for name in ("shoulder", "elbow", "finger", "other")
-    )
+    shoulder, elbow, _, finger, other = tree.joints
     assert (shoulder.lower, shoulder.upper, shoulder.speed, shoulder.effort) == (-1.5, 2, 3, 40)
     assert (shoulder.damping, shoulder.friction, shoulder.armature) == (0.7, 1.5, None)
     assert np.array_equal(shoulder.axis, [0, 0, 1])
     assert any("length 1" in note and "shoulder" in note for note in tree.notes)
-    assert np.array_equal(elbow.axis, [1, 0, 0])
-    assert elbow.lower is None
-    assert elbow.damping is None
+    assert np.array_equal(elbow.axis, [1, 0, 0]) and elbow.lower is elbow.damping is None
     assert (finger.lower, finger.upper, finger.speed, finger.effort) == (0, 0.04, None, None)
     assert (other.leader, other.ratio, other.offset) == ("finger", -2, 0.01)
     assert (other.actuated, finger.actuated) == (False, True)
@@ -198,10 +187,8 @@ def test_joints_are_sorted_only_as_far_as_must_be():
 
 
 def test_mimic_joints_have_one_leader():
-    chain = edited(
-        ('<axis xyz="0 1 0"/><limit', '<mimic joint="elbow" multiplier="3" offset="1"/><limit')
-    )
-    other = joint_of(read(chain), "other")
+    led = '<mimic joint="elbow" multiplier="3" offset="1"/><limit'
+    other = joint_of(read(edited(('<axis xyz="0 1 0"/><limit', led))), "other")
     assert (other.leader, other.ratio) == ("elbow", -6)
     assert other.offset == pytest.approx(-2 + 0.01)
     still = read(edited(('multiplier="-2"', 'multiplier="0"')))
@@ -255,13 +242,12 @@ def test_gravity_is_seen_from_the_new_base():
     """It points where it pointed, and frames stand to each other as before."""
     tree, base = read(), cut(read(), base="upper")
     q = positions(tree, 3) | {"shoulder": 0.0}
-    before, after = placements(tree, q), placements(base, q)
+    before, after = poses_at(tree, q), poses_at(base, q)
     assert np.allclose(before["upper"].rotation @ base.gravity, tree.gravity, atol=1e-15)
     for name, pose in after.items():
         expected = before["upper"].inverse() @ before[name]
         assert np.allclose(pose.position, expected.position, atol=1e-14)
-    assert any("gravity" in note for note in base.notes)
-    assert "base" not in base.bodies
+    assert any("gravity" in note for note in base.notes) and "base" not in base.bodies
 
 
 def test_a_tip_keeps_what_is_fixed_on_the_way():
@@ -281,37 +267,28 @@ def test_locked_joints_lump_their_bodies():
     tree = read()
     locked = cut(tree, locks={"elbow": "30 deg", "finger": "20 mm"})
     q = positions(tree, 5) | {"elbow": math.pi / 6, "finger": 0.02, "other": -0.03}
-    ours, theirs = placements(locked, q), placements(tree, q)
+    ours, theirs = poses_at(locked, q), poses_at(tree, q)
     for name, pose in ours.items():
         assert np.allclose(pose.position, theirs[name].position, atol=1e-14), name
         assert np.allclose(pose.rotation, theirs[name].rotation, atol=1e-14), name
-    links = moving_links(locked)
-    assert len(links) == 2
-    assert links[1].inertial is not None
-    assert links[1].inertial.mass == 4.0
+    _, link = moving_links(locked)
+    assert link.inertial is not None and link.inertial.mass == 4.0
     assert any("outside" in note for note in cut(tree, locks={"shoulder": 3}).notes)
 
 
-@pytest.mark.parametrize("drawn", np.random.default_rng().uniform(-1, 1, (3, 3)).round(3).tolist())
-def test_followers_with_an_offset_stop_with_their_leader(drawn: list[float]):
+def test_followers_with_an_offset_stop_with_their_leader():
     """The relation in the text; the leader locked, the follower stands at ratio q + offset."""
-    ratio, offset, at = drawn
+    ratio, offset, at = np.random.default_rng().uniform(-1, 1, 3).round(3).tolist()
     text = edited(('multiplier="-2" offset="0.01"', f'multiplier="{ratio}" offset="{offset}"'))
     robot = robot_from_text(tree_to_toml(cut(read(text)), "arm.urdf").text, "arm.toml")
     assert robot.relations["4"].number({"q3": at}) == pytest.approx(ratio * at + offset, abs=1e-15)
-    locked = cut(read(text), locks={"finger": at})
-    robot = robot_from_text(tree_to_toml(locked, "arm.urdf").text, "arm.toml")
+    made = tree_to_toml(cut(read(text), locks={"finger": at}), "arm.urdf")
+    robot = robot_from_text(made.text, "arm.toml")
     assert not robot.relations and [joint.name for joint in robot.moving] == ["1", "2"]
-    q = dict.fromkeys(("shoulder", "wrist"), 0.0) | {"elbow": 0.4}
-    poses = placements(locked, q | {"finger": 0.0, "other": 0.0})
-    way = poses["flange"].inverse().place(poses["right"].position)
-    assert np.allclose(way, [0, ratio * at + offset, 0], rtol=0, atol=1e-15)
-    fingers = [
-        np.array([c.number({}) for c in robot.frames[f].position]) for f in ("left", "right")
-    ]
-    assert robot.frames["right"].row == "2"
-    step = np.linalg.norm(fingers[1] - fingers[0])
-    assert step == pytest.approx(abs(ratio * at + offset - at), abs=1e-12)
+    poses = link_poses(robot, [0.0, 0.4])
+    for link, travel in (("left", at), ("right", ratio * at + offset)):
+        way = np.linalg.inv(poses["flange"]) @ poses[link]
+        assert np.allclose(way[:3, 3], [0, travel, 0], rtol=0, atol=1e-15)
 
 
 def test_cuts_name_what_they_do_not_find():
@@ -366,7 +343,6 @@ INERTIA = 'ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"'
         ("1", INERTIA.replace("0.001", "1"), "identity"),
         ("1", INERTIA.replace('izz="0.001"', 'izz="0.0031"'), "0.001, 0.001, 0.0031 kg m2"),
         ("1", INERTIA.replace('iyy="0.001"', 'iyy="-0.001"'), "negative"),
-        ("1", INERTIA.replace('ixy="0"', 'ixy="0.002"'), "negative"),
         ("1", INERTIA, ""),
         # 0.0014 + 0.0014 > 0.0026: within what the printed digits say.
         ("1", INERTIA.replace('izz="0.001"', 'izz="0.003"'), ""),
@@ -375,7 +351,6 @@ INERTIA = 'ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"'
 def test_doubted_bodies_are_told(mass: str, inertia: str, told: str):
     text = edited((INERTIA, inertia), ('mass value="0.5"', f'mass value="{mass}"'))
     tree = cut(read(text))
-    assert tree.bodies["flange"] is not None
     assert told in tree.doubted.get("flange", "") and bool(told) == bool(tree.doubted)
     notes = [note for note in notes_of(text) if '"flange"' in note and "move as one" not in note]
     if told and told != "mass 0":

@@ -12,7 +12,8 @@ from modeler.robot.read import robot_from_text
 from modeler.robot.tree_cuts import cut
 from modeler.robot.tree_text import tree_to_toml
 from modeler.robot.urdf import urdf_tree
-from tests.elementary_motions import frames, shift, turn
+from tests.elementary_motions import frames
+from tests.robot.poses import origin_pose
 
 BODY = (
     '<link name="%s"><inertial><origin xyz="0.1 0.02 -0.03"/><mass value="1"/><inertia ixx="0.02" '
@@ -68,10 +69,9 @@ CHAIN = joint("j3", "b", "c", '<origin xyz="0 0 0.2"/>')
 @pytest.mark.parametrize(
     "angles",
     [
-        (0, 0, np.pi / 2),
         (np.pi / 2, 0, -np.pi / 6),
         (np.pi, np.pi / 4, 0),
-        *np.random.default_rng().uniform(-1.2, 1.2, (3, 3)).tolist(),
+        *np.random.default_rng().uniform(-1.2, 1.2, (1, 3)).tolist(),
     ],
 )
 def test_a_quaternion_says_what_angles_say(angles) -> None:
@@ -79,11 +79,8 @@ def test_a_quaternion_says_what_angles_say(angles) -> None:
     rpy = " ".join(repr(float(x)) for x in angles)
     both = []
     for way in (f'rpy="{rpy}"', f'quat_xyzw="{quaternion(*angles)}"'):
-        text = urdf(
-            joint("j1", "base", "a"),
-            joint("j2", "a", "b", f'<origin xyz="0.3 0.1 0" {way}/>'),
-            CHAIN,
-        )
+        turned = joint("j2", "a", "b", f'<origin xyz="0.3 0.1 0" {way}/>')
+        text = urdf(joint("j1", "base", "a"), turned, CHAIN)
         text = text.replace('<origin xyz="0.1 0.02 -0.03"/>', f'<origin xyz="0.1 0 0" {way}/>', 2)
         values = tomllib.loads(toml(text))["parameters"]
         tree, q = read(text), {"j1": 0.4, "j2": -0.7, "j3": 1.1}
@@ -147,20 +144,16 @@ def test_couplings_are_relations(text: str, offset: str) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (
-            mimic("0.2").replace("</robot>", PLUGIN + "</robot>"),
-            'plugin "m": joint "j2" follows in two',
-        ),
+        (mimic("0.2").replace("</robot>", PLUGIN + "</robot>"),
+         'plugin "m": joint "j2" follows in two'),
         (urdf(*TREE, PLUGIN.replace("j2", "jj2")), 'there is no joint "jj2"'),
         (urdf(*TREE, PLUGIN.replace("-1.5", "fast")), 'got "fast"; expected a number'),
-        (
-            urdf(*TREE, COUPLING.replace('link="a"', 'link="c"')),
-            "expected two links whose joints stand on one link",
-        ),
+        (urdf(*TREE, COUPLING.replace('link="a"', 'link="c"')),
+         "expected two links whose joints stand on one link"),
         (urdf(*TREE, COUPLING.replace("ratio", "gear")), "ratio is missing"),
         (urdf(*TREE, '<joint_constraint name="t"/>'), "<joint_constraint> ties joints in a way"),
     ],
-)
+)  # fmt: skip
 def test_couplings_that_are_not_plain_are_refused(text: str, message: str) -> None:
     with pytest.raises(RobotError, match=message):
         read(text)
@@ -231,28 +224,24 @@ def test_loops_of_all_tools_are_one_loop(tmp_path) -> None:
     assert 'the file states no motor: "ja" are taken as actuated' in notes
 
 
-@pytest.mark.parametrize(
-    ("more", "driven"),
-    [
-        ('<transmission name="t"><joint name="jc"/><actuator name="m"/></transmission>', {"3"}),
-        (
-            '<ros2_control name="r"><joint name="jc"><command_interface name="effort"/></joint>'
-            '<joint name="ja"><state_interface name="position"/></joint></ros2_control>',
-            {"3"},
-        ),
-        ("", {"1"}),
-    ],
+DRIVEN = (
+    '<transmission name="t"><joint name="jc"/><actuator name="m"/></transmission>',
+    '<ros2_control name="r"><joint name="jc"><command_interface name="effort"/></joint>'
+    '<joint name="ja"><state_interface name="position"/></joint></ros2_control>',
+    "",
 )
-def test_motors_of_a_loop_are_those_that_the_file_names(more: str, driven: set) -> None:
+
+
+@pytest.mark.parametrize(("more", "driven"), [*zip(DRIVEN, "331", strict=True)])
+def test_motors_of_a_loop_are_those_that_the_file_names(more: str, driven: str) -> None:
     text = urdf(*FOUR, CLOSED["plus"] % "revolute", more)
     robot = robot_from_text(tree_to_toml(read(text), "arm.urdf").text, "arm.toml")
-    assert {j.name for j in robot.moving if j.actuated} == driven
+    assert [j.name for j in robot.moving if j.actuated] == [driven]
 
 
 def test_independent_joints_have_the_motors_and_the_posture_is_home() -> None:
-    text = urdf(*FOUR, CLOSED["plus"] % "revolute").replace(
-        'name="jc"', 'name="jc" independent="true"'
-    )
+    text = urdf(*FOUR, CLOSED["plus"] % "revolute")
+    text = text.replace('name="jc"', 'name="jc" independent="true"')
     text = text.replace("</robot>", '<gazebo reference="jb"><initial_joint_position>0.4'
                         "</initial_joint_position></gazebo></robot>")  # fmt: skip
     robot = robot_from_text(tree_to_toml(read(text), "arm.urdf").text, "arm.toml")
@@ -285,15 +274,7 @@ def test_frames_that_meet_stand_where_the_file_has_them(kind: str, seed: int) ->
     rows, bodies = frames(robot, dict(zip("123", q.values(), strict=True))), poses_at(tree, q)
     axis = axis / np.linalg.norm(axis)
     for k, link in enumerate("bc"):
-        roll, pitch, yaw = turns[k]
-        own = np.linalg.multi_dot(
-            [
-                *(shift(i, x) for i, x in enumerate(places[k])),
-                turn(2, yaw),
-                turn(1, pitch),
-                turn(0, roll),
-            ]
-        )
+        own = origin_pose(places[k], turns[k])
         expected = bodies[link] @ Pose(own[:3, 3], own[:3, :3])
         got = rows[f"P1{'ab'[k]}"]
         assert np.allclose(got[:3, 3], expected.position, rtol=0, atol=1e-9)
@@ -309,27 +290,23 @@ def test_frames_that_meet_stand_where_the_file_has_them(kind: str, seed: int) ->
         (CLOSED["plus"] % "gear", 'type: got "gear"; expected a joint that closes a loop'),
         (CLOSED["gazebo"] % "screw", 'joint "pin", type: got "screw"'),
         (CLOSED["plus"].replace('link="c"', 'link="d"') % "ball", 'there is no link "d"'),
-        (
-            CLOSED["links"].replace('<link1 link="b">', '<link1 link="">') % "ball",
-            "link is missing",
-        ),
+        (CLOSED["links"].replace('<link1 link="b"', '<link1 link=""') % "ball", "link is missing"),
         (CLOSED["plus"].replace(AXIS, "") % "revolute", "<axis>: is missing"),
         (CLOSED["gazebo"].replace("<pose>", '<pose relative_to="b">') % "ball", "another frame"),
         ('<drake:linear_bushing_rpy name="f"/>', "line 1: <drake:linear_bushing_rpy> is a force"),
         ('<gazebo><link name="w"/></gazebo>', "<link> in <gazebo> is a body of Gazebo alone"),
     ],
-)
+)  # fmt: skip
 def test_loops_that_are_not_plain_are_refused(loop: str, message: str) -> None:
     with pytest.raises(RobotError, match=message):
         read(urdf(*FOUR, loop))
 
 
 def test_a_joint_of_the_base_with_the_world_closes_nothing() -> None:
-    still = (
-        CLOSED["gazebo"].replace("<parent>b", "<parent>world").replace("<child>c", "<child>base")
-    )
-    assert "[loops]" not in toml(urdf(*FOUR, still % "fixed"))
-    assert 'loops within one body are left out: "pin"' in told(urdf(*FOUR, still % "fixed"))
+    still = CLOSED["gazebo"].replace("<parent>b", "<parent>world")
+    text = urdf(*FOUR, still.replace("<child>c", "<child>base") % "fixed")
+    assert "[loops]" not in toml(text)
+    assert 'loops within one body are left out: "pin"' in told(text)
 
 
 # Gears and springs.
@@ -352,9 +329,8 @@ MOTOR = f'<actuator name="m">%s{ROTOR}</actuator>'
     ],
 )  # fmt: skip
 def test_gears_of_actuator_and_joint_are_their_own(inner: str, expected: float) -> None:
-    text = urdf(
-        *TREE, f'<transmission name="t"><type>x/SimpleTransmission</type>{inner}</transmission>'
-    )
+    gear = f'<transmission name="t"><type>x/SimpleTransmission</type>{inner}</transmission>'
+    text = urdf(*TREE, gear)
     (armature,) = [j.armature for j in read(text).joints if j.name == "j1"]
     assert armature == pytest.approx(expected)
     assert "armature is gear ratio squared" in told(text)
@@ -384,9 +360,8 @@ def test_springs_are_the_effect() -> None:
     spring = urdf(joint("j1", "base", "a", DYNAMICS), *TREE[1:])
     other = urdf(joint("j1", "base", "a", '<dynamics damping="0.5"/>'), *TREE[1:], GAZEBO)
     assert toml(spring) == toml(other) == toml(spring.replace("</robot>", GAZEBO + "</robot>"))
-    assert 'spring = [{joint = "1", q0 = 0.3, h = 0}]' in toml(spring) and "Ks1 = 20" in toml(
-        spring
-    )
+    for line in ('spring = [{joint = "1", q0 = 0.3, h = 0}]', "Ks1 = 20"):
+        assert line in toml(spring)
     with pytest.raises(RobotError, match='joint "j1" has two springs that differ'):
         read(spring.replace("</robot>", GAZEBO.replace("20", "30") + "</robot>"))
     with pytest.raises(RobotError, match='got "stiff"'):

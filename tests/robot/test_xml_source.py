@@ -18,33 +18,20 @@ ODD = (
 )
 
 
+ROBOT_SPANS = {"xmlns:xacro": b"x", "name": b'a"b'}
+P_SPANS = {"v": b"&quot;1&gt;2&quot; >", "w": b""}
+
+
 def test_spans_are_those_of_the_bytes():
     root = parse_xml(ODD, "odd.urdf")
-    found = {
-        element.tag: (
-            dict(element.attributes),
-            {name: ODD[start:end] for name, (start, end) in element.spans.items()},
-            element.text,
-            element.text_span and ODD[slice(*element.text_span)],
-            element.line,
-        )
-        for element in root.walk()
-    }
+    found = {}
+    for one in root.walk():
+        spans = {name: ODD[start:end] for name, (start, end) in one.spans.items()}
+        text = one.text_span and ODD[slice(*one.text_span)]
+        found[one.tag] = (dict(one.attributes), spans, one.text, text, one.line)
     assert found == {
-        "robot": (
-            {"xmlns:xacro": "x", "name": 'a"b'},
-            {"xmlns:xacro": b"x", "name": b'a"b'},
-            "t",
-            None,
-            3,
-        ),
-        "xacro:p": (
-            {"v": '"1>2" >', "w": ""},
-            {"v": b"&quot;1&gt;2&quot; >", "w": b""},
-            "",
-            None,
-            5,
-        ),
+        "robot": ({"xmlns:xacro": "x", "name": 'a"b'}, ROBOT_SPANS, "t", None, 3),
+        "xacro:p": ({"v": '"1>2" >', "w": ""}, P_SPANS, "", None, 5),
         "b": ({}, {}, "3.5", b"3.5", 5),
         "c": ({}, {}, "<mass/>", None, 6),
         "d": ({}, {}, "4", None, 6),
@@ -62,9 +49,8 @@ def test_only_what_is_changed_changes():
     end = tags["b"].closing[0]
     text_span = tags["b"].text_span
     assert text_span is not None
-    made = replaced(
-        ODD, {tags["e"].spans["value"]: "2", text_span: "7.25", (end, end): "<!-- new -->"}
-    )
+    changes = {tags["e"].spans["value"]: "2", text_span: "7.25", (end, end): "<!-- new -->"}
+    made = replaced(ODD, changes)
     expected = ODD.replace(b"\xc3\xa9 1", b"2").replace(b" 3.5 </b>", b" 7.25 <!-- new --></b>")
     assert made == expected
     assert replaced(ODD, {}) == ODD
@@ -120,16 +106,11 @@ def test_what_ros_reads_is_read_with_its_lines_and_bytes():
         (b"  \n", "is empty"),
         ("<a/>".encode("utf-16"), "UTF-16"),
         (b'\n<?xml version="1.0" encoding="koi8-r"?><a/>', 'line 2: encoding="koi8-r"; save'),
-        (b"<?xml version='1.0' encoding='no'?><a/>", 'line 1: encoding="no"; save'),
         (b"<a>\n<!-- open", "line 2: .*unclosed token; <a> of line 1 is open"),
         (b"<a>\n<b c='\xff'/></a>", "line 2: byte 10 is not UTF-8"),
         (b"<a>\n<b>\n</a>", "line 3: .*mismatched tag; <b> of line 2 is open"),
-        (b"<a>\n<b>", "line 2: .*no element found; <b> of line 2 is open"),
         (b"<a b=1/>", "line 1: not well-formed XML, column 6: invalid token"),
-        (b"<a b='1' b='2'/>", "duplicate attribute"),
         (b"<a/><b/>", "junk after document element"),
-        (b"<a>&b;</a>", "undefined entity"),
-        (b"name = 'arm'", "syntax error"),
         (b"<!DOCTYPE a>\n<a/>", "line 1: <!DOCTYPE> and its entities are not read"),
         (b"<a>" * 300, "more than 200000 elements, or than 256 inside each other"),
     ],

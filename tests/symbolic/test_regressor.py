@@ -9,7 +9,7 @@ from modeler.derivation.numeric_rank import random_states, regressor_values
 from tests.modules import module
 from tests.robots import ROBOTS, TREES
 
-TEXTBOOK = ("wrist", "rx90", "panda", "orthoglide-leg-tree", "sr400-tree", "scara")
+TEXTBOOK = ("wrist", "sr400-tree", "scara")
 
 
 def inertial(model) -> list[int]:
