@@ -1,6 +1,7 @@
-"""One number is called error: fit, compare, diagnose and add print the same of one log."""
+"""One number is called error by every command; the command after `compare` runs as it stands."""
 
 import json
+import shlex
 
 import pytest
 
@@ -10,7 +11,7 @@ from modeler.cli import main
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     place = tmp_path_factory.mktemp("error")
-    run(["simulate", "two-link", "--hide", "stribeck@2", "--duration", "12", "--rate", "250",
+    run(["simulate", "two-link", "--hide", "stribeck@2", "--duration", "8", "--rate", "200",
          "--seed", "5", "--out", place / "a.parquet"])  # fmt: skip
     run(["fit", "two-link", place / "a.parquet", "--out", place / "m.json"])
     return place
@@ -43,3 +44,29 @@ def test_error_is_one_number_of_one_model_and_log(folder, capsys):
     assert "error of the model on the logs of the fit: joint 1" in said
     assert "the cross-validated error falls: joint 2" in said
     assert errors(folder, ["compare", better, log]) == pytest.approx(added)
+
+
+def test_the_next_line_names_the_log_of_the_fit_by_its_path(tmp_path, capsys, monkeypatch) -> None:
+    (tmp_path / "in").mkdir()
+    monkeypatch.chdir(tmp_path / "in")
+    for seed in (1, 2):
+        words = f"simulate two-link --duration 4 --seed {seed} --out ../{seed}.parquet"
+        assert main(words.split()) == 0
+    assert main(["fit", "two-link", "../1.parquet", "--out", "m.json"]) == 0
+
+    def following(words: str) -> list[str]:
+        capsys.readouterr()
+        assert main(words.split()) == 0
+        return shlex.split(capsys.readouterr().out.splitlines()[-1])
+
+    said = following("compare m.json ../2.parquet")
+    if "diagnose" in said:
+        assert said[4] == "../1.parquet"
+    from modeler.api import open_model
+
+    (log,) = open_model("m.json").logs
+    assert log.place(".") == "../1.parquet"
+    monkeypatch.chdir(tmp_path)
+    assert log.place("in") == "in/../1.parquet"
+    (tmp_path / "1.parquet").unlink()
+    assert log.place("in") == ""

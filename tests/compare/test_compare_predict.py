@@ -59,11 +59,6 @@ def wandering(time: np.ndarray) -> tuple:
                         [(0.8, 1.21, 0.5), (0.6, 2.9, 0.0), (0.2, 4.7, 2.0)]])  # fmt: skip
 
 
-def laps(time: np.ndarray) -> tuple:
-    w = 2 * np.pi / 5.0131
-    return waves(time, [[(1.0, w, 0.0), (0.4, 3 * w, 1.0)], [(0.8, w, 0.5), (0.4, 2 * w, 0.0)]])
-
-
 @pytest.fixture(scope="module")
 def machine() -> Machine:
     return Machine()
@@ -96,14 +91,6 @@ def added(q: np.ndarray, joint: int = 1) -> np.ndarray:
     return torque
 
 
-def test_shares_from_laps(machine: Machine) -> None:
-    motion = laps(np.arange(0.0, 60.0, 1.0 / RATE))
-    extra = added(motion[1])
-    found = machine.compared(machine.log("laps.csv", motion, 3, added=extra))
-    assert found.repeated[0].periods[0] == pytest.approx(5.0131, abs=1e-3)
-    check_shares(found, "laps", extra[:, 1])
-
-
 def test_shares_from_several_logs(machine: Machine) -> None:
     motion = wandering(np.arange(0.0, 25.0, 1.0 / RATE))
     later = tuple(part[333:] for part in motion)
@@ -125,13 +112,6 @@ def test_the_same_log_twice_is_no_repetition(machine: Machine) -> None:
     for other in (again, log):
         item = machine.compared(log, other).joints[1]
         assert item.shares is not None and item.shares.method == "smooth"
-
-
-def test_shares_without_repetition(machine: Machine) -> None:
-    motion = wandering(np.arange(0.0, 60.0, 1.0 / RATE))
-    extra = added(motion[1])
-    check_shares(machine.compared(machine.log("a.csv", motion, 7, added=extra)), "smooth",
-                 extra[:, 1])  # fmt: skip
 
 
 def test_an_order_far_above_the_filter_is_seen(machine: Machine) -> None:
@@ -229,10 +209,3 @@ def test_what_follows_another_joint_is_no_noise(
     assert first.structure is not None
     assert first.structure.follows.share == pytest.approx(share, abs=0.25)
     assert "the residual looks like noise" in joint_verdict(second)
-
-
-def test_nothing_follows_without_a_cause(machine: Machine) -> None:
-    motion = wandering(np.arange(0.0, 20.0, 1.0 / RATE))
-    for seed in range(3):
-        for item in machine.compared(machine.log("x.csv", motion, seed)).joints:
-            assert "the residual looks like noise" in joint_verdict(item)

@@ -1,3 +1,5 @@
+"""Pages of comparisons: all that is drawn is in them, captions name colours that are there."""
+
 import base64
 import dataclasses
 import gzip
@@ -8,7 +10,6 @@ import re
 import struct
 import threading
 import xml.etree.ElementTree as ET
-from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
@@ -17,20 +18,22 @@ import pytest
 from known_defects import first_joint, prediction
 
 from modeler.cli.places import PictureFolder
-from modeler.core.errors import ModelerError
-from modeler.core.figure import Bars, Curve, Heat, Panel, Picture
+from modeler.core.figure import Band, Bars, Heat, Panel, Picture
 from modeler.core.thinning import LIMIT, thin_curves, thin_points
+from modeler.observation.observation import MASKS
 from modeler.report.comparison import all_pictures, comparison_page
 from modeler.report.figure_matplotlib import images
-from modeler.report.figure_page import Numbers, picture_csv, write_files
+from modeler.report.figure_page import Numbers, drawn, keys, picture_csv, write_files
 from modeler.report.page import page_text, write_page
 from modeler.validation.comparison import Comparison, compare
-from modeler.validation.pictures import binned_means
-from modeler.validation.prediction import JointInfo
+from modeler.validation.pictures import binned_means, overlay_picture
+from modeler.validation.prediction import JointInfo, Prediction
+from modeler.validation.time_picture import masked_spans, time_picture
+from tests.captions import assert_named, colours_drawn, colours_said
 
 
 @pytest.fixture(scope="module")
-def found() -> Comparison:
+def comparison() -> Comparison:
     return compare(prediction(lambda q, qd, qdd, tau, t: 0.5 * qd))
 
 
@@ -40,36 +43,23 @@ def small() -> Comparison:
 
 
 @pytest.fixture(scope="module")
-def page(found: Comparison) -> str:
-    return page_text(comparison_page(found, ["Filter: 20 Hz <both sides>."]))
+def page(comparison: Comparison) -> str:
+    return page_text(comparison_page(comparison, ["Filter: 20 Hz <both sides>."]))
 
 
-class Tags(HTMLParser):
-    """Collects tags, what they load, and open tags, to see that the page is well formed."""
-
-    EMPTY = frozenset({"meta", "br", "link", "img"})
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.loads: list[str] = []
-        self.ids: list[str] = []
-        self.stack: list[str] = []
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.loads += [value or "" for name, value in attrs if name in ("src", "href", "action")]
-        self.ids += [value or "" for name, value in attrs if name == "id"]
-        if tag not in self.EMPTY:
-            self.stack.append(tag)
-
-    def handle_endtag(self, tag: str) -> None:
-        assert self.stack.pop() == tag
+def outside_scripts(page: str) -> str:
+    return re.sub(r"(<(script|style)\b[^>]*>).*?(?=</\2>)", r"\1", page, flags=re.DOTALL)
 
 
-def tags(page: str) -> Tags:
-    parser = Tags()
-    parser.feed(page)
-    parser.close()
-    return parser
+def still_open(page: str) -> list[str]:
+    """Tags that are not closed; those that are, in the order in which they were opened."""
+    stack: list[str] = []
+    for closes, name in re.findall(r"<(/?)([a-z]\w*)[^>]*>", outside_scripts(page)):
+        if closes:
+            assert stack.pop() == name
+        elif name not in ("meta", "br", "link", "img"):
+            stack.append(name)
+    return stack
 
 
 def figures(page: str) -> list[dict[str, Any]]:
@@ -102,12 +92,11 @@ def unpacked(page: str) -> list[np.ndarray]:
 
 
 def test_page_is_one_file_that_loads_nothing(page: str) -> None:
-    parsed = tags(page)
-    assert parsed.stack == []
-    assert parsed.loads
-    for target in parsed.loads:
-        assert target.startswith("#")
-    assert {t[1:] for t in parsed.loads if t != "#"} <= set(parsed.ids)
+    assert still_open(page) == []
+    loads = re.findall(r'\b(?:src|href|action)="([^"]*)"', outside_scripts(page))
+    assert loads and all(target.startswith("#") for target in loads)
+    ids = re.findall(r'\bid="([^"]*)"', page)
+    assert {target[1:] for target in loads if target != "#"} <= set(ids)
     assert "default-src 'none'" in page  # the browser itself refuses any network access
     ours = page.partition("<script>")[2]
     assert 'showSendToCloud: false, plotlyServerURL: ""' in ours  # no button that uploads
@@ -130,9 +119,9 @@ def test_page_escapes_text_and_tells_provenance(page: str) -> None:
     assert "6000 of 6000 count" in page
 
 
-def test_page_has_every_picture_and_its_numbers(page: str, found: Comparison) -> None:
+def test_page_has_every_picture_and_its_numbers(page: str, comparison: Comparison) -> None:
     """All that is drawn is in the page, each array once; maps of cells are tables."""
-    pictures, arrays = all_pictures(found), unpacked(page)
+    pictures, arrays = all_pictures(comparison), unpacked(page)
     assert len(pictures) == 1 + 2 * 3 == len(figures(page)) == page.count("<a download=")
     for picture, figure in zip(pictures, figures(page), strict=True):
         panels = [panel for row in picture.panels for panel in row]
@@ -172,38 +161,19 @@ def test_numbers_of_any_size_come_through() -> None:
     np.testing.assert_array_equal(arrays[3], still)
 
 
-def test_axes_carry_units(found: Comparison) -> None:
-    for picture in all_pictures(found)[1:]:
-        for panel in (panel for row in picture.panels for panel in row if panel.series):
-            assert panel.x_label.endswith("]") and panel.y_label.endswith("]")
-        assert len(picture.caption) > 100
-
-
-def test_no_curve_has_too_many_points() -> None:
-    drawn = all_pictures(compare(first_joint(prediction(rows=20000))))
-    for panel in (panel for picture in drawn for row in picture.panels for panel in row):
-        for series in panel.series:
-            if isinstance(series, Curve):
-                assert series.x.size <= LIMIT + 10
-
-
-def test_stacked_bars_fill_the_whole(found: Comparison, page: str) -> None:
+def test_stacked_bars_fill_the_whole(comparison: Comparison, page: str) -> None:
     """Both stacks of every joint end at 100 %, in the picture and on the page."""
-    torque, left = all_pictures(found)[0].panels[1]
+    torque, left = all_pictures(comparison)[0].panels[1]
     for panel in (torque, left):
         for k in range(3):
             assert sum(bars.values[k] for bars in panel.series) == pytest.approx(100.0)
         last = panel.series[-1]
         np.testing.assert_allclose(last.base + last.values, 100.0)
-    item = found.joints[1]
+    item = comparison.joints[1]
     assert item.shares is not None
     assert torque.series[1].values[1] == pytest.approx(100 * item.shares.systematic)
     stacked = [bars for bars in series_of(figures(page)[0]) if bars["base"] is not None]
     assert len(stacked) == 5
-
-
-def test_page_is_the_same_twice(small: Comparison) -> None:
-    assert page_text(comparison_page(small)) == page_text(comparison_page(small))
 
 
 def test_page_without_a_judged_joint() -> None:
@@ -211,23 +181,7 @@ def test_page_without_a_judged_joint() -> None:
     empty = compare(dataclasses.replace(p, measured=np.zeros_like(p.measured)))
     page = page_text(comparison_page(empty))
     assert "no joint could be judged" in page and "not judged" in page
-    assert tags(page).stack == []
-
-
-def test_files_and_folders(small: Comparison, tmp_path: Path) -> None:
-    assert write_page(tmp_path / "page.html", comparison_page(small)) == tmp_path / "page.html"
-    assert (
-        write_page(tmp_path / "folder", comparison_page(small))
-        == tmp_path / "folder" / "compare.html"
-    )
-    assert sorted(path.name for path in tmp_path.rglob("*.html")) == [
-        "compare.html",
-        "index.html",
-        "page.html",
-    ]
-    (tmp_path / "plain").write_text("a file")
-    with pytest.raises(ModelerError, match="cannot be written"):
-        write_page(tmp_path / "plain", comparison_page(small))
+    assert still_open(page) == []
 
 
 def test_a_page_may_go_into_a_pipe(small: Comparison, tmp_path: Path) -> None:
@@ -283,14 +237,11 @@ def test_thinning_keeps_the_extremes_and_the_ends() -> None:
         assert np.isnan(curves[1][kept]).any()  # the gap is still to be seen
 
 
-def test_short_curves_stay_whole() -> None:
-    np.testing.assert_array_equal(thin_curves((np.arange(10.0),)), np.arange(10))
-    np.testing.assert_array_equal(thin_points(np.arange(10.0), np.arange(10.0)), np.arange(10))
-
-
 def test_scatter_keeps_its_extremes() -> None:
     rng = np.random.default_rng(0)
     x, y = rng.normal(size=(2, 50_000))
+    np.testing.assert_array_equal(thin_points(x[:10], y[:10]), np.arange(10))
+    np.testing.assert_array_equal(thin_curves((x[:10],)), np.arange(10))
     kept = thin_points(x, y, 1000)
     assert kept.size <= 1000
     assert {np.argmax(y), np.argmin(y), np.argmax(x), np.argmin(x)} <= set(kept.tolist())
@@ -311,7 +262,7 @@ def test_binned_means_cover_the_truth() -> None:
 
 def test_the_page_of_six_noisy_joints_stays_small() -> None:
     """White noise compresses least: no robot of six joints has a larger page than this one."""
-    three = prediction(rows=20_000)
+    three = prediction(rows=8000)
     names = ("q", "qd", "qdd", "measured", "predicted", "used")
     twice = {name: np.hstack([getattr(three, name)] * 2) for name in names}
     noise = np.random.default_rng(1).normal(size=twice["measured"].shape)
@@ -322,3 +273,100 @@ def test_the_page_of_six_noisy_joints_stays_small() -> None:
     page = page_text(comparison_page(compare(six)))
     assert len(figures(page)) == 1 + 2 * 6
     assert len(page.encode()) < 1_000_000
+
+
+def masked() -> Prediction:
+    """Every reason on joint 1, a gap in the first log, and a band."""
+    whole = prediction(lambda q, qd, qdd, tau, t: 0.5 * qd, rows=4800)
+    masks = np.full(whole.used.shape, -1, dtype=np.int8)
+    for k in range(len(MASKS)):
+        masks[400 * k + 100 : 400 * k + 160, 0] = k
+    used = masks < 0
+    used[2200:2250, 0] = False  # for no reason of its own
+    segment = whole.segment.copy()
+    segment[1500:] += 1
+    time = whole.time.copy()
+    time[1500:] += 0.7
+    sigma = 0.05 + 0.02 * np.abs(whole.qd)
+    return dataclasses.replace(
+        whole, masks=masks, used=used, segment=segment, time=time, sigma=sigma
+    )
+
+
+@pytest.fixture(scope="module")
+def made() -> Prediction:
+    return masked()
+
+
+@pytest.fixture(scope="module")
+def compared(made: Prediction) -> Comparison:
+    return compare(made)
+
+
+def test_every_picture_names_colours_that_are_there(compared: Comparison) -> None:
+    plain = compare(first_joint(prediction(rows=900)))
+    heated = first_joint(prediction(rows=900))
+    heat = 20.0 + heated.time[:, None]
+    for whole in (compared, plain, compare(dataclasses.replace(heated, temperature=heat))):
+        for picture in all_pictures(whole):
+            assert_named(picture)
+
+
+def test_several_models_are_named_by_their_colours(made: Prediction) -> None:
+    others = [dataclasses.replace(made, predicted=made.predicted + k) for k in range(3)]
+    picture = overlay_picture(["a", "b", "c"], others, 0)
+    assert colours_said(picture) == colours_drawn(picture)
+    assert all(name in picture.caption for name in ("a", "b", "c"))
+
+
+def test_what_is_shaded_is_what_does_not_count(made: Prediction) -> None:
+    rows = np.arange(made.time.size)
+    spans = {span.label: span.ends for span in masked_spans(made, 0, made.time, rows)}
+    assert set(spans) == {*MASKS, "no rows", "left out"}
+    shaded = np.zeros(made.time.size, dtype=bool)
+    for label, ends in spans.items():
+        for start, end in ends:
+            shaded |= (made.time > start) & (made.time < end) & (label != "no rows")
+    np.testing.assert_array_equal(shaded, ~made.used[:, 0])
+    for k, name in enumerate(MASKS):
+        (start, end) = spans[name][0]
+        assert made.time[400 * k + 100] - start == pytest.approx(0.005)
+        assert end - made.time[400 * k + 159] == pytest.approx(0.005)
+    gap = spans["no rows"]
+    assert gap.shape == (1, 2) and np.ptp(gap) == pytest.approx(0.7)
+    assert masked_spans(made, 1, made.time, rows)[0].label == "no rows"  # all rows of joint 2 count
+
+
+def test_both_drawers_draw_what_is_shaded_and_the_band(
+    made: Prediction, compared: Comparison
+) -> None:
+    picture = time_picture(made, compared.joints[0])
+    whole, worst = picture.panels[0]
+    band = next(s for s in worst.series if isinstance(s, Band))
+    assert not any(isinstance(s, Band) for s in whole.series)
+    labels = {label: (color, mark) for label, color, mark in keys(picture)}
+    for span in whole.spans:
+        assert labels[span.label] == (span.color, "span")
+    plain = drawn(picture, Numbers())
+    assert {color for color, _ in plain["rows"][0][0]["spans"]} == {s.color for s in whole.spans}
+    assert any(series["kind"] == "band" for series in plain["rows"][0][1]["series"])
+    svg = images(picture)["svg"].decode()
+    for span in whole.spans:
+        assert span.color.lower() in svg.lower() and span.label in svg
+    assert band.label in svg and f"{band.label}," in picture_csv(picture)
+
+
+def test_the_band_is_two_deviations_of_the_prediction(
+    made: Prediction, compared: Comparison
+) -> None:
+    item = compared.joints[0]
+    worst = time_picture(made, item).panels[0][1]
+    band = next(s for s in worst.series if isinstance(s, Band))
+    at = np.searchsorted(made.time, band.x)
+    np.testing.assert_allclose(band.high - band.low, 4.0 * made.sigma[at, 0], rtol=1e-9)
+    middle = 0.5 * (band.high + band.low)
+    np.testing.assert_allclose(middle, made.predicted[at, 0], atol=1e-9)
+    rows = made.used[:, 0]
+    rms = float(np.sqrt(np.mean(made.sigma[rows, 0] ** 2)))
+    assert item.predicted_sigma == pytest.approx(rms)
+    assert compared.to_json()["joints"]["1"]["predicted_sigma"] == pytest.approx(rms)

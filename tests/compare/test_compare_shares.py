@@ -11,6 +11,7 @@ from modeler.validation.comparison import compare, scale
 from modeler.validation.prediction import JointInfo, Prediction
 from modeler.validation.repeatability import repetitions
 from modeler.validation.verdict import joint_verdict
+from tests.in_turn import in_turn
 
 STEP, NOISE, KNOWN = 0.01, 0.5, 0.9  # s; N m, standard deviation of the noise; amplitude
 WAVES = np.array([20.0, 15.0])  # 1/rad
@@ -73,7 +74,7 @@ def check(p: Prediction, method: str, known: float, tolerance: float) -> None:
         assert found.floor == pytest.approx(NOISE**2 / total, abs=tolerance / total)
 
 
-@pytest.mark.parametrize("known", [0.0, KNOWN])
+@pytest.mark.parametrize("known", [KNOWN, *in_turn(0.0)])
 def test_laps_in_one_log(known: float) -> None:
     """Standard error of the mean product of 5 laps: NOISE^2 / sqrt(10 pairs of 628 rows)."""
     time = np.arange(0.0, 5 * PERIOD, STEP)
@@ -93,7 +94,7 @@ def test_a_long_row_of_laps_stays_in_step() -> None:
     check(p, "laps", KNOWN, 0.03)
 
 
-@pytest.mark.parametrize("known", [0.0, KNOWN])
+@pytest.mark.parametrize("known", [KNOWN, *in_turn(0.0)])
 def test_several_logs_of_one_motion(known: float) -> None:
     """Three logs, one begins later, one has another clock."""
     time = np.arange(0.0, 24.0, STEP)
@@ -141,7 +142,7 @@ def test_what_returns_is_told_and_noise_is_not() -> None:
     assert "% of it returns in every lap" in text
     share = float(text.split(" % of it returns")[0].rsplit(" ", 1)[1])
     assert share == pytest.approx(62.0, abs=5.0)
-    for seed in range(3):
+    for seed in range(2):
         short = time[: time.size // 2]
         quiet = measured([(short, motion(short, PERIOD))], 0.0, seed)
         assert all("returns" not in joint_verdict(item) for item in compare(quiet).joints)
@@ -195,8 +196,8 @@ def test_a_constant_torque_has_no_shares() -> None:
 
 @pytest.mark.parametrize(("factor", "words"), [
     (-1.0, "the prediction of joint 2 has the opposite sign: measured is -1"),
-    (1.4, "the prediction of joint 2 is off by a factor: measured is 1.4"),
-    (57.29578, "off by a factor: measured is 57"),
+    *in_turn((1.4, "the prediction of joint 2 is off by a factor: measured is 1.4"),
+             (57.29578, "off by a factor: measured is 57")),
 ])  # fmt: skip
 def test_a_wrong_sign_or_scale_is_one_sentence(factor: float, words: str) -> None:
     p = prediction(rows=1500)
@@ -224,7 +225,7 @@ def test_scale_by_hand() -> None:
     assert scale(p, np.zeros(200)) is None and scale(p[:5], p[:5]) is None
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", [0, *in_turn(1, 2, 3)])
 def test_a_factor_is_stated_only_where_applying_it_lowers_the_residual(seed: int) -> None:
     """Measured torques that are another slope and a constant of the predicted ones."""
     rng = np.random.default_rng(seed)

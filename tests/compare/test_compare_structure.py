@@ -1,3 +1,5 @@
+"""What a residual follows: effects, noise, orders, temperature, motors, known because put in."""
+
 import dataclasses
 import math
 
@@ -6,9 +8,15 @@ import pytest
 from known_defects import NOISE, PERIOD, Defect, judged_alone, prediction
 from scipy.signal import lfilter
 
+from modeler.core.style import BLACK, BLUE, GREY, ORANGE, SLATE, VERMILLION
 from modeler.core.table import percent
+from modeler.numerics.spectra import order_spectrum
 from modeler.numerics.splines import curve, flexible
+from modeler.observation.motion import travel_since_reversal
+from modeler.report.comparison import all_pictures, comparison_page
+from modeler.report.page import page_text
 from modeler.validation.comparison import JointComparison, compare
+from modeler.validation.prediction import FullRate, JointInfo, Motor, Prediction
 from modeler.validation.verdict import (
     best_pattern,
     headline,
@@ -17,6 +25,7 @@ from modeler.validation.verdict import (
     looks_like_noise,
     verdict,
 )
+from tests.in_turn import in_turn
 
 
 def second_joint(defect: Defect | None, noise: float = NOISE, rows: int = 6000) -> JointComparison:
@@ -28,12 +37,14 @@ def second_joint(defect: Defect | None, noise: float = NOISE, rows: int = 6000) 
     ("coordinate", "defect"),
     [
         ("velocity", lambda q, qd, qdd, tau, t: 0.5 * qd),
-        ("velocity", lambda q, qd, qdd, tau, t: 1.5 * np.sign(qd) * np.exp(-((qd / 0.4) ** 2))),
         ("direction", lambda q, qd, qdd, tau, t: 1.0 * np.sign(qd)),
-        ("position", lambda q, qd, qdd, tau, t: 0.5 * q),
-        ("acceleration", lambda q, qd, qdd, tau, t: 0.2 * qdd),
         ("load", lambda q, qd, qdd, tau, t: 0.1 * np.abs(tau) * np.sign(qd)),
         ("time", lambda q, qd, qdd, tau, t: 0.06 * (t % 30.0 - 15.0)),
+        *in_turn(
+            ("velocity", lambda q, qd, qdd, tau, t: 1.5 * np.sign(qd) * np.exp(-((qd / 0.4) ** 2))),
+            ("position", lambda q, qd, qdd, tau, t: 0.5 * q),
+            ("acceleration", lambda q, qd, qdd, tau, t: 0.2 * qdd),
+        ),
     ],
 )
 def test_a_missing_effect_is_named_and_measured(coordinate: str, defect: Defect) -> None:
@@ -51,14 +62,13 @@ def test_a_missing_effect_is_named_and_measured(coordinate: str, defect: Defect)
 
 def test_white_noise_has_no_structure() -> None:
     """The share is 0 within the chance of 3000 samples."""
-    for seed in range(3):
-        for item in compare(prediction(seed=seed, rows=3000)).joints:
-            assert item.structure is not None
-            assert item.structure.together < 0.01
-            assert max(share for _, share in item.structure.shares) < 0.01
-            assert max(share for _, share in item.structure.across) < 0.01
-            assert looks_like_noise(item)
-            assert "the residual looks like noise" in joint_verdict(item)
+    for item in compare(prediction(rows=3000)).joints:
+        assert item.structure is not None and item.structure.together < 0.01
+        assert max(share for _, share in item.structure.shares) < 0.01
+        assert max(share for _, share in item.structure.across) < 0.01
+        assert looks_like_noise(item)
+        assert "the residual looks like noise" in joint_verdict(item)
+        assert "ripples" not in joint_verdict(item)
 
 
 def coloured(memory: float, seed: int) -> np.ndarray:
@@ -68,7 +78,7 @@ def coloured(memory: float, seed: int) -> np.ndarray:
     return np.asarray(lfilter([np.sqrt(1 - pole**2)], [1, -pole], white))[500:]
 
 
-@pytest.mark.parametrize("memory", [0.05, 0.2])
+@pytest.mark.parametrize("memory", [0.05, *in_turn(0.2)])
 def test_coloured_noise_is_neither_structure_nor_white(memory: float) -> None:
     for seed in range(2):
         item = second_joint(lambda q, qd, qdd, tau, t, s=seed: 3.0 * coloured(memory, s))
@@ -133,26 +143,10 @@ def test_long_logs_are_looked_at_sparsely_and_alike() -> None:
     assert found is not None and found[0].id == "velocity"
 
 
-def test_another_joint_is_named() -> None:
-    p = prediction()
-    measured = p.measured.copy()
-    measured[:, 1] += 1.0 * np.sign(p.qd[:, 2])
-    (item,) = compare(judged_alone(dataclasses.replace(p, measured=measured))).joints
-    assert "follows the velocity of joint 3 more than its own" in joint_verdict(item)
-    assert kind_of_residual(item) == "pattern"
-
-
 def test_an_offset_is_named() -> None:
     item = second_joint(lambda q, qd, qdd, tau, t: np.full(t.size, -0.7))
     assert "off by -0.7" in joint_verdict(item)
     assert not looks_like_noise(item)
-
-
-def test_a_burst_is_told_with_its_moment() -> None:
-    text = joint_verdict(second_joint(lambda q, qd, qdd, tau, t: 20.0 * (np.abs(t - 41.0) < 0.1)))
-    assert (
-        "s of two.parquet, 8" in text and "of the squared residual in 0.833 % of the time" in text
-    )
 
 
 def test_too_few_samples_are_admitted() -> None:
@@ -201,8 +195,211 @@ def test_a_joint_that_never_moves() -> None:
 
 
 @pytest.mark.parametrize(
-    ("share", "text"),
-    [(0.033, "3.3 %"), (0.4123, "41.2 %"), (1e-9, "0 %"), (15.26, "1526 %"), (math.nan, "-")],
+    ("share", "text"), [(0.033, "3.3 %"), (1e-9, "0 %"), (15.26, "1526 %"), (math.nan, "-")]
 )
 def test_percent(share: float, text: str) -> None:
     assert percent(share) == text
+
+
+def test_travel_of_a_sine() -> None:
+    """q = sin t turns at odd multiples of pi/2, at 1 and -1 in turn."""
+    t = np.linspace(0.0, 4 * np.pi, 4001)
+    found = travel_since_reversal(np.sin(t))
+    turned = np.floor((t + np.pi / 2) / np.pi)  # turning points passed
+    last = np.where(turned == 0, 0.0, np.sin((turned - 0.5) * np.pi))
+    np.testing.assert_allclose(found, np.abs(np.sin(t) - last), atol=1e-5)
+
+
+def test_travel_ignores_the_noise_of_the_encoder() -> None:
+    t = np.linspace(0.0, 4 * np.pi, 200_001)
+    noise = 1e-4 * np.random.default_rng(0).uniform(-1.0, 1.0, t.size)
+    clean = travel_since_reversal(np.sin(t))
+    found = travel_since_reversal(np.sin(t) + noise, 1e-3)
+    assert np.quantile(np.abs(found - clean), 0.95) < 1e-3
+    assert travel_since_reversal(np.sin(t) + noise).mean() < 0.01  # every wiggle would be a turn
+
+
+def test_travel_by_hand() -> None:
+    found = travel_since_reversal(np.array([0.0, 2.0, 3.0, 3.0, 1.0, 0.0, 0.0, 4.0]))
+    np.testing.assert_array_equal(found, [0.0, 2.0, 3.0, 0.0, 2.0, 3.0, 0.0, 4.0])
+    np.testing.assert_array_equal(travel_since_reversal(np.ones(3)), np.zeros(3))
+
+
+def with_travel(p: Prediction) -> Prediction:
+    parts = [np.column_stack([travel_since_reversal(q) for q in p.q[p.run == run].T])
+             for run in (0, 1)]  # fmt: skip
+    return dataclasses.replace(p, travel=np.concatenate(parts))
+
+
+def test_what_follows_the_travel_is_named() -> None:
+    p = with_travel(prediction(seed=5))
+    assert p.travel is not None
+    extra = 2.0 * np.exp(-p.travel[:, 1] / 0.3) * np.sign(p.qd[:, 1])
+    measured = p.measured.copy()
+    measured[:, 1] += extra
+    item = compare(dataclasses.replace(p, measured=measured)).joints[1]
+    found = best_pattern(item)
+    assert found is not None and found[0].id == "travel"
+    known = float(np.var(extra))
+    assert found[1] == pytest.approx(known / (known + NOISE**2), abs=0.08)
+    assert "repeatable function of travel since the last reversal" in joint_verdict(item)
+
+
+def with_temperature(p: Prediction, slope: float) -> Prediction:
+    """20 to 40 degrees over each log; friction of joint 2 changes by `slope` N m per degree."""
+    each = 20.0 + 20.0 * (p.time % 30.0) / 30.0
+    measured = p.measured.copy()
+    measured[:, 1] += slope * (each - 30.0) * np.sign(p.qd[:, 1])
+    return dataclasses.replace(p, measured=measured, temperature=np.repeat(each[:, None], 3, 1))
+
+
+def test_friction_that_changes_with_temperature() -> None:
+    p = with_temperature(prediction(seed=5), 0.15)
+    assert p.temperature is not None
+    found = compare(p)
+    share = found.joints[1].structure
+    assert share is not None
+    known = float(np.var(0.15 * (p.temperature[:, 1] - 30.0)))
+    assert share.share("temperature") == pytest.approx(known / (known + NOISE**2), abs=0.08)
+    assert "repeatable function of temperature" in joint_verdict(found.joints[1])
+    titles = [panel.title for picture in all_pictures(found) for row in picture.panels
+              for panel in row]  # fmt: skip
+    assert sum(title.startswith("Temperature") for title in titles) == 3
+    heat = all_pictures(found)[0].panels[2][0].series[0]
+    assert "temperature" in heat.columns
+
+
+def test_friction_of_one_temperature_is_no_function_of_it() -> None:
+    """Missing Coulomb friction: the direction explains it, and temperature adds nothing."""
+    p = with_temperature(prediction(lambda q, qd, qdd, tau, t: np.sign(qd), seed=5), 0.0)
+    share = compare(p).joints[1].structure
+    assert share is not None
+    assert share.share("direction") > 0.7 and share.share("temperature") < 0.02
+
+
+def test_no_temperature_where_a_log_lacks_it() -> None:
+    p = with_temperature(prediction(rows=1500), 0.0)
+    assert p.temperature is not None
+    part = p.temperature.copy()
+    part[p.run == 1] = np.nan
+    found = compare(dataclasses.replace(p, temperature=part))
+    share = found.joints[1].structure
+    assert share is not None and np.isnan(share.share("temperature"))
+    assert "temperature" not in found.to_json()["joints"]["1"]["structure"]["shares"]
+    assert "temperature [" not in page_text(comparison_page(found))
+
+
+def at_full_rate(p: Prediction, joint: int, waves: float, amplitude: float) -> Prediction:
+    """20 000 samples behind the rows, with a ripple that the rows are too few to show."""
+    rng = np.random.default_rng(1)
+    time = np.arange(20_000) * 0.001
+    q = np.column_stack([np.sin(2 * np.pi * 0.11 * (k + 1) * time) for k in range(3)])
+    left = NOISE * rng.normal(size=q.shape)
+    left[:, joint] += amplitude * np.cos(waves * q[:, joint] + 0.4)
+    run = np.repeat([0, 1], 10_000)
+    return dataclasses.replace(p, full=FullRate(run, time, q, left, left))
+
+
+@pytest.mark.parametrize(
+    ("unit", "per", "shown"), [("rad", "turn", 47.0), ("m", "m", 47 / 6.283185)]
+)
+def test_a_known_order_is_found(unit: str, per: str, shown: float) -> None:
+    p = at_full_rate(prediction(rows=1500), 1, 47.0, 0.6)
+    p = dataclasses.replace(p, joints=tuple(JointInfo(n, unit, "N m") for n in "123"))
+    found = compare(p)
+    line = found.to_json()["joints"]["2"]["orders"][0]
+    assert line["waves"] == pytest.approx(shown, rel=0.02)
+    assert line["amplitude"] == pytest.approx(0.6, rel=0.25)  # the sine dwells at its ends
+    # 0.6^2 / 2 over that and the noise
+    assert line["share"] == pytest.approx(0.18 / (0.18 + 0.25), abs=0.15)
+    assert f"waves per {per}, 0." in joint_verdict(found.joints[1])
+    assert kind_of_residual(found.joints[1]) == "pattern"
+    assert "ripples" not in joint_verdict(found.joints[0])
+    orders = all_pictures(found)[4].panels[-1]
+    panel = next(panel for panel in orders if panel.title.startswith("Order spectrum"))
+    assert f"waves per {per}" in panel.title
+
+
+def test_amplitude_of_a_wave_passed_evenly() -> None:
+    q = np.linspace(0.0, 6.0, 50_000)
+    found = order_spectrum(q, 0.3 * np.sin(33.0 * q), "rad", np.inf)
+    assert found is not None
+    assert found.peaks[0] == pytest.approx(33.0, abs=0.3)
+    assert found.amplitude.max() == pytest.approx(0.3, rel=0.02)
+    assert order_spectrum(np.ones(500), np.zeros(500), "rad", np.inf) is None
+
+
+def coupled(motors: tuple[Motor, ...]) -> Prediction:
+    """The motor of joints 2 and 3 rubs: on joint 2 with the sign of the sum of both speeds."""
+    p = prediction(seed=2)
+    measured = p.measured.copy()
+    measured[:, 1] += 2.0 * np.sign(p.qd[:, 1] + 2.0 * p.qd[:, 2])
+    return dataclasses.replace(p, measured=measured, motors=motors)
+
+
+def test_the_speed_of_a_motor_is_told_from_that_of_a_joint() -> None:
+    item = compare(coupled((Motor("2+3", (0.0, 1.0, 2.0)),))).joints[1]
+    assert "follows the velocity of the motor that turns with joints 2 and 3" in joint_verdict(item)
+    assert item.structure is not None
+    assert dict(item.structure.motors)["2+3"] == pytest.approx(4.0 / 4.25, abs=0.06)
+
+
+def test_without_a_coupling_the_other_joint_is_named_and_where_to_write_one() -> None:
+    text = joint_verdict(compare(coupled(())).joints[1])
+    assert "follows the velocity of joint 3 more than its own, as where one motor turns" in text
+    assert "[coupling] in the robot file" in text
+
+
+def test_errors_of_each_log() -> None:
+    p = prediction(rows=1500)
+    p = dataclasses.replace(p, logs=("a_log_with_a_name_much_longer_than_most.parquet", "b"))
+    found = compare(p)
+    told = found.to_json()["by_log"]
+    e = p.measured - p.predicted
+    for run, log in enumerate(told):
+        rows = p.run == run
+        assert log["log"] == p.logs[run] and log["samples"] == 750
+        assert log["relative_error"] == pytest.approx(
+            np.linalg.norm(e[rows]) / np.linalg.norm(p.measured[rows])
+        )
+        for j, name in enumerate("123"):
+            assert log["joints"][name] == pytest.approx(
+                np.linalg.norm(e[rows, j]) / np.linalg.norm(p.measured[rows, j])
+            )
+    assert percent(told[1]["relative_error"]) in found.summary().splitlines()[-1]
+    assert "Relative error by log" in page_text(comparison_page(found))
+
+
+# Machado, Oliveira and Fernandes 2009, severity 1.0, for linear RGB.
+_SEEN = {
+    "all": np.eye(3),
+    "protan": np.array([[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
+                        [-0.003882, -0.048116, 1.051998]]),
+    "deutan": np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413],
+                        [-0.011820, 0.042940, 0.968881]]),
+    "tritan": np.array([[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602],
+                        [0.004733, 0.691367, 0.303900]]),
+}  # fmt: skip
+
+
+def lab(colour: str, eye: str) -> np.ndarray:
+    """CIE L*a*b* of an sRGB colour as that eye sees it."""
+    srgb = np.array([int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)])
+    linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+    linear = np.clip(_SEEN[eye] @ linear, 0.0, 1.0)
+    to_xyz = np.array([[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750],
+                       [0.0193339, 0.1191920, 0.9503041]])  # fmt: skip
+    xyz = to_xyz @ linear / np.array([0.95047, 1.0, 1.08883])
+    f = np.where(xyz > 216 / 24389, np.cbrt(xyz), (24389 / 27 * xyz + 16) / 116)
+    return np.array([116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])])
+
+
+@pytest.mark.parametrize("eye", list(_SEEN))
+def test_colours_of_one_panel_are_told_apart_by_every_eye(eye: str) -> None:
+    """A difference of 20 in L*a*b* is seen at a glance; just noticeable is about 2."""
+    together = [(BLUE, VERMILLION, SLATE), (BLUE, VERMILLION, GREY), (BLACK, ORANGE),
+                (BLUE, ORANGE)]  # fmt: skip
+    for colours in together:
+        for k, one in enumerate(colours):
+            for other in colours[k + 1 :]:
+                assert np.linalg.norm(lab(one, eye) - lab(other, eye)) > 20.0, (one, other)

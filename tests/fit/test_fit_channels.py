@@ -1,42 +1,47 @@
-"""Signs, units and exchanged channels in logs to which the model itself is fitted."""
+"""Signs, units, exchanged channels in logs to which the model itself is fitted; channels of another
+time: named with their delay, physics is not called late.
+"""
 
+import dataclasses
 import json
 from collections import Counter
 from dataclasses import replace
+from functools import cache
 from types import SimpleNamespace
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
+from scipy.signal import lfilter
 
 from modeler.api import observe
 from modeler.cli import main
+from modeler.estimation import findings
 from modeler.estimation.findings import log_findings
 from modeler.estimation.identify import identify
 from modeler.estimation.verdict import with_verdict
-from modeler.observation.read import read_log
-from modeler.simulation import SimulationSettings, simulate, write_log
+from modeler.observation.log import Log
+from modeler.robot.read import robot_from_text
+from modeler.simulation import SimulationSettings, hidden_from_text, simulate
+from tests.in_turn import in_turn
+from tests.link_data import compiled as compiled_text
 from tests.modules import compiled, module
+from tests.rotation import ROTATING
 
-ROBOTS = ("demo-arm", "puma560", "scara")
+ROBOTS = ["demo-arm", *in_turn("puma560", "scara")]
 
 
-@pytest.fixture(scope="module")
-def runs(tmp_path_factory):
-    """Compiled robots, each with two simulated logs."""
-    folder, found = tmp_path_factory.mktemp("channels"), {}
-    for name in ROBOTS:
-        logs = []
-        for seed in (1, 2):
-            settings = SimulationSettings(
-                duration=12.0, rate=250.0, seed=seed, torque_noise=0.01 * seed
-            )
-            place = folder / f"{name}{seed}.parquet"
-            write_log(place, simulate(module(name).model.robot, settings))
-            logs.append(read_log(place, compiled(name).spec))
-        found[name] = compiled(name), logs
-    return found
+def log_of(name, **settings):
+    made = simulate(module(name).model.robot, SimulationSettings(**settings))
+    return Log(f"{name}.csv", made.joints, made.time, made.q, made.tau)
+
+
+@cache
+def runs(name):
+    """A compiled robot and two simulated logs."""
+    kinds = ({"seed": seed, "torque_noise": 0.01 * seed} for seed in (1, 2))
+    return compiled(name), [log_of(name, duration=12.0, rate=250.0, **own) for own in kinds]
 
 
 def unit(machine, j):
@@ -68,8 +73,8 @@ UNSEEN = {"zero": "90 degrees", "twice": "scale error of 2", "torque sign": "wro
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_a_fit_to_sound_channels_is_not_doubted(runs, name):
-    machine, logs = runs[name]
+def test_a_fit_to_sound_channels_is_not_doubted(name):
+    machine, logs = runs(name)
     for log in logs:
         observation = observe(machine, [log])
         assert all(found.unseen for found in log_findings(machine, observation))
@@ -77,15 +82,15 @@ def test_a_fit_to_sound_channels_is_not_doubted(runs, name):
 
 @pytest.mark.rotating
 @pytest.mark.parametrize("mistake", MISTAKES)
-def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(runs, mistake):
-    """Of two for each robot one is missed, in words that name the joint or the swap.
+def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(mistake):
+    """Of two for each of two robots one is missed, in words that name the joint or the swap.
 
     What these logs cannot show is said too.
     """
     change, words = MISTAKES[mistake]
     random, seen = np.random.default_rng(list(MISTAKES).index(mistake)), Counter()
-    for name in ROBOTS:
-        machine, logs = runs[name]
+    for name in ("demo-arm", "scara"):
+        machine, logs = runs(name)
         for _ in range(2):
             log = logs[int(random.integers(2))]
             j, k = random.permutation(len(log.joints))[:2]
@@ -107,23 +112,14 @@ def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(runs, mistak
     assert seen[False] <= 1, seen
 
 
-def test_the_torque_in_another_unit_is_named_where_joints_are_coupled(runs):
-    machine, (log, _) = runs["demo-arm"]
+def test_the_torque_in_another_unit_is_named_where_joints_are_coupled():
+    machine, (log, _) = runs("demo-arm")
     observation = observe(machine, [replace(log, tau=log.tau * [1.0, 1.0, 1000.0])])
     (found, *_) = log_findings(machine, observation)
     assert found.certain
     head, _, tail = found.line.partition(" times what it should be (is it in mN m?)")
     assert head.startswith("joint 3: the measured torque is ") and tail
     assert float(head.split()[-1]) == pytest.approx(1000.0, rel=0.05)
-
-
-@pytest.mark.parametrize("name", ROBOTS)
-def test_torques_in_mN_m_make_no_machine(runs, name):
-    machine, (log, _) = runs[name]
-    observation = observe(machine, [replace(log, tau=1e3 * log.tau)])
-    fit = with_verdict(machine, observation, identify(observation, "weighted", machine))
-    assert fit.verdict.line.startswith("Not valid: the links would weigh ")
-    assert "mN m" in fit.verdict.line
 
 
 PAN_TILT = """
@@ -149,26 +145,22 @@ Fv2 = 0.5
 """
 
 
-def test_links_that_reach_beyond_their_frames_are_a_machine(capsys, tmp_path):
+def test_links_that_reach_beyond_their_frames_are_a_machine():
     """A camera of 3 kg in 0.12 m from the tilting axis; the frames are 0.05 m apart."""
-    robot, log = tmp_path / "pan.toml", tmp_path / "pan.parquet"
-    robot.write_text(PAN_TILT)
-    assert main(["simulate", str(robot), "--duration", "10", "--seed", "3", "--out", str(log)]) == 0
+    robot, machine = robot_from_text(PAN_TILT, "pan"), compiled_text(PAN_TILT)
+    made = simulate(robot, SimulationSettings(duration=10.0, seed=3))
     for factor, usable in ((1.0, True), (1e3, False)):
-        table = pq.read_table(log).to_pydict()
-        scaled = {n: factor * np.array(v) if n[:3] == "tau" else v for n, v in table.items()}
-        pq.write_table(pa.table(scaled), log)
-        capsys.readouterr()
-        out = str(tmp_path / "model.json")
-        assert main(["fit", str(robot), str(log), "--out", out, "--json", "-"]) == 0
-        found = json.loads(capsys.readouterr().out)
-        assert found["usable"] == usable, found["doubts"]
+        log = Log("pan.csv", made.joints, made.time, made.q, factor * made.tau)
+        observation = observe(machine, [log])
+        fit = with_verdict(machine, observation, identify(observation, "weighted", machine))
+        assert fit.verdict.usable == usable, fit.verdict.doubts
+        assert usable or "mN m" in fit.verdict.line
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_a_clock_that_is_wrong_is_named_without_speeds(runs, name):
+def test_a_clock_that_is_wrong_is_named_without_speeds(name):
     """By the rule, or, where rotors of any inertia would do, by inertias beyond all measure."""
-    machine, (log, _) = runs[name]
+    machine, (log, _) = runs(name)
     observation = observe(machine, [replace(log, time=20.0 * log.time)])
     told = log_findings(machine, observation)
     fit = with_verdict(machine, observation, identify(observation, "weighted", machine), told)
@@ -178,8 +170,8 @@ def test_a_clock_that_is_wrong_is_named_without_speeds(runs, name):
     )
 
 
-def test_compare_says_what_diagnose_says(runs):
-    machine, (train, other) = runs["demo-arm"]
+def test_compare_says_what_diagnose_says():
+    machine, (train, other) = runs("demo-arm")
     model = SimpleNamespace(beta=identify(observe(machine, [train])).beta, logs=())
     swapped = observe(machine, [replace(other, tau=other.tau[:, [1, 0, 2]])])
     lines = [found.line for found in log_findings(machine, swapped, model)]
@@ -189,62 +181,45 @@ def test_compare_says_what_diagnose_says(runs):
 
 @pytest.fixture(scope="module")
 def arm(tmp_path_factory):
-    """A folder with a simulated log, one in degrees with a spike, and a model of the first."""
+    """A folder with two simulated logs and a model of the first."""
     tmp_path = tmp_path_factory.mktemp("arm")
     for name, seed in (("run", "1"), ("other", "2")):
-        main(["simulate", "demo-arm", "--duration", "10", "--rate", "250", "--seed", seed,
+        main(["simulate", "demo-arm", "--duration", "8", "--rate", "200", "--seed", seed,
               "--out", str(tmp_path / f"{name}.parquet")])  # fmt: skip
-    table = pq.read_table(tmp_path / "other.parquet")
-    columns = {name: table[name].to_numpy().copy() for name in table.column_names}
-    columns["q2"] = np.degrees(columns["q2"])
-    columns["tau1"][1000] += 2000.0
-    pq.write_table(pa.table(columns), tmp_path / "bad.parquet")
     words = ["fit", "demo-arm", tmp_path / "run.parquet", "--out", tmp_path / "m.json"]
     assert main([str(word) for word in words]) == 0
     return tmp_path
 
 
-@pytest.mark.parametrize("command", ["fit", "compare"])
-def test_the_commands_print_and_write_the_doubts(arm, capsys, command):
-    words = {
-        "fit": ["fit", "demo-arm", arm / "bad.parquet", "--out", arm / "b.json"],
-        "compare": ["compare", arm / "m.json", arm / "bad.parquet"],
-    }[command]
-    assert main([str(word) for word in (*words, "--json", arm / "out.json")]) == 0
-    out = capsys.readouterr().out
-    content = json.loads((arm / "out.json").read_text())
-    said = "joint 2: its position looks like degrees"
-    assert said in out and any(said in line for line in content["doubts"])
-    confirmed = any(line.startswith("bad.parquet: tau1: spike") for line in content["doubts"])
-    assert confirmed == (command == "fit")  # compare mends nothing that the fit did not try
+SAID = {
+    "turns": "joint 2: its position looks like turns",
+    "late": "joint 2: its position comes ",
+    "sign": "joint 1: the measured torque has the other sign of what a machine",
+}
 
 
-@pytest.mark.parametrize("mistake", ["late", "turns", "sign"])
+@pytest.mark.parametrize("mistake", ["turns", *in_turn("late", "sign")])
 def test_every_command_says_the_same(arm, capsys, mistake):
     """Of a log beside a model of another one, and of a log beside its own model."""
     table = pq.read_table(arm / "other.parquet")
     columns = {name: table[name].to_numpy().copy() for name in table.column_names}
-    columns["q2"] = {
-        "late": np.interp(columns["time"] - 0.03, columns["time"], columns["q2"]),
-        "turns": columns["q2"] / (2.0 * np.pi),
-        "sign": columns["q2"],
-    }[mistake]
-    columns["tau1"] *= -1.0 if mistake == "sign" else 1.0
-    log, own = arm / f"{mistake}.parquet", arm / f"{mistake}.json"
+    if mistake == "sign":
+        columns["tau1"] *= -1.0
+    elif mistake == "turns":
+        columns["q2"] /= 2.0 * np.pi
+    else:
+        columns["q2"] = np.interp(columns["time"] - 0.03, columns["time"], columns["q2"])
+    log, own, told = arm / f"{mistake}.parquet", arm / f"{mistake}.json", arm / "told.json"
     pq.write_table(pa.table(columns), log)
-    said = {
-        "late": "joint 2: its position comes ",
-        "turns": "joint 2: its position looks like turns",
-        "sign": "joint 1: the measured torque has the other sign of what a machine",
-    }[mistake]
     for words in (
-        ["fit", "demo-arm", log, "--out", own],
+        ["fit", "demo-arm", log, "--out", own, "--json", told],
         ["log", log, "--robot", "demo-arm"],
-        *([command, model, log] for command in ("compare", "diagnose")
-          for model in (arm / "m.json", own)),
+        ["compare", arm / "m.json", log, "--json", told], ["diagnose", arm / "m.json", log],
+        ["compare", own, log, "--json", told],
     ):  # fmt: skip
         assert main([str(word) for word in words]) == 0
-        assert said in capsys.readouterr().out, words
+        assert SAID[mistake] in capsys.readouterr().out, words
+        assert any(SAID[mistake] in line for line in json.loads(told.read_text())["doubts"])
 
 
 def test_sound_logs_leave_the_doubts_empty(arm, capsys):
@@ -253,17 +228,9 @@ def test_sound_logs_leave_the_doubts_empty(arm, capsys):
     assert json.loads((arm / "out.json").read_text())["doubts"] == []
 
 
-def test_damaged_values_are_used_when_asked_for(arm, capsys):
-    words = ["fit", "demo-arm", arm / "bad.parquet", "--out", arm / "b.json", "--keep-damaged"]
-    assert main([str(word) for word in words]) == 0
-    assert "all values are used as logged" in capsys.readouterr().out
-
-
-def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(runs, monkeypatch):
+def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(monkeypatch):
     """Told per joint, far below the longest that is looked for where a robot moves well."""
-    from modeler.estimation import findings
-
-    machine, (log, _) = runs["demo-arm"]
+    machine, (log, _) = runs("demo-arm")
     monkeypatch.setattr(findings, "_DELAY", 0.0)
     noisy = np.random.default_rng(3).normal(size=log.tau.shape) * log.tau.std(axis=0)
     observation = observe(machine, [replace(log, tau=log.tau + noisy)])
@@ -280,3 +247,68 @@ def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(runs, monk
         late = findings._machine_data(seen, seen.rows.shifted(machine, shift), beta)
         made = np.hypot(seen.judge.errors(late, False)[place], seen.errors[place])
         assert made / seen.errors[place] == pytest.approx(4.0 / 3.0, rel=0.1)
+
+
+LATE_RATE = 200.0
+
+
+def told_late(name, rng, hidden=(), lagged=((), 0.0), **late):
+    """What is said of the time of channels; late: {column of `Log`: (joints, samples)}.
+
+    lagged: joints whose torque passes a filter, and its time constant, s.
+    """
+    seed, effects = int(rng.integers(1000)), tuple(map(hidden_from_text, hidden))
+    log = log_of(name, duration=10.0, rate=LATE_RATE, seed=seed, hidden=effects)
+    tau = log.tau.copy()
+    for j in lagged[0]:
+        late_by = lagged[1] * LATE_RATE + 0.5  # samples; of the bilinear filter
+        b, a = np.full(2, 0.5 / late_by), [1.0, 1.0 / late_by - 1.0]
+        tau[:, j] = lfilter(b, a, tau[:, j], zi=[tau[0, j] * (1.0 - b[0])])[0]
+    log = dataclasses.replace(log, tau=tau)
+    for column, (joints, samples) in late.items():
+        values = getattr(log, column).copy()
+        for j in joints:
+            values[samples:, j] = values[:-samples, j]
+        log = dataclasses.replace(log, **{column: values})
+    found = log_findings(compiled(name), observe(compiled(name), [log]))
+    return [one.line for one in found if "late" in one.line or "filter" in one.line]
+
+
+@pytest.mark.parametrize("name", ["demo-arm", pytest.param("puma560", marks=ROTATING)])
+def test_whose_time_and_by_how_much(name):
+    rng, names = np.random.default_rng([8, *name.encode()]), runs(name)[1][0].joints
+    for column, what in (("q", "position"), ("tau", "torque"), ("tau", "all")):
+        joints = range(len(names)) if what == "all" else [int(rng.integers(3))]
+        samples = int(rng.integers(5, 17))
+        (line,) = told_late(name, rng, **{column: (joints, samples)})
+        whose = "all torques" if what == "all" else f"joint {names[joints[0]]}: its"
+        assert line.startswith(whose) and what in line and " late, by" in line
+        assert milliseconds(line) == pytest.approx(1e3 * samples / LATE_RATE, abs=5.0)
+
+
+def milliseconds(line):
+    return float(line.partition(" ms")[0].split()[-1])
+
+
+def test_a_filtered_torque_is_told_with_its_time_and_not_as_late():
+    rng = np.random.default_rng(10)
+    for joints, whose in (([1], "joint 2: its torque comes"), (range(3), "all torques come")):
+        seconds = float(rng.uniform(0.03, 0.05))
+        (line,) = told_late("demo-arm", rng, lagged=(joints, seconds))
+        assert line.startswith(f"{whose} through a first-order low-pass filter"), line
+        assert milliseconds(line) == pytest.approx(1e3 * seconds, rel=0.15)
+
+
+EFFECTS = ("", "elasticity", "backlash", "cable_hysteresis", "counterbalance", "external_force")
+MORE = ("stribeck", "presliding", "load_friction", "asymmetric_viscous", "payload", "motor_ripple")
+
+
+@pytest.mark.parametrize(
+    ("name", "hidden"),
+    [("demo-arm", hidden) for hidden in EFFECTS[:3]]
+    + in_turn(*(("demo-arm", hidden) for hidden in EFFECTS[3:]))
+    + [pytest.param("ur10e", hidden, marks=ROTATING) for hidden in EFFECTS[1::2] + MORE[::2]],
+)
+def test_physics_is_not_late(name, hidden):
+    rng = np.random.default_rng([9, *name.encode(), *hidden.encode()])
+    assert told_late(name, rng, hidden=[hidden] if hidden else []) == []

@@ -1,4 +1,4 @@
-"""`modeler fit --method consistent`: all standard parameters, and a robot file that simulates."""
+"""`--method consistent` gives one machine; how far another fit is from one."""
 
 import json
 
@@ -9,14 +9,17 @@ from pyarrow import parquet
 
 from modeler.cli import main
 from modeler.estimation.model_file import load_model
+from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
 from modeler.robot.edit import with_parameters
 from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL
 from modeler.simulation.rigid import pseudo_inertia
+from tests.bodies import buildable
+from tests.in_turn import in_turn
 from tests.modules import compiled
 
 
-@pytest.fixture(scope="module", params=["two-link", "five-bar"])
+@pytest.fixture(scope="module", params=["two-link", *in_turn("five-bar")])
 def fitted(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("consistent")
     log, model, robot, told = (
@@ -112,3 +115,70 @@ def test_what_is_put_at_zero_is_not_called_negative(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "Ia2 cannot be told from ZZ2 and is put at 0" in said
     assert "\nFv1 held at 0, which would be negative" in said
+
+
+@pytest.mark.parametrize("name", ["two-link", *in_turn("sr400", "dvrk-psm", "orthoglide-2003")])
+def test_a_machine_that_could_be_built_is_at_no_distance(name):
+    machine = machine_of(compiled(name).spec)
+    chi = buildable(compiled(name).spec, np.random.default_rng(41))
+    beta = machine.K[:, : len(chi)] @ chi
+    np.testing.assert_allclose(beta, compiled(name).base_parameters(chi), rtol=1e-9)
+    root = np.diag(1.0 / (0.01 * np.abs(beta) + 1e-6))  # one percent
+    found = nearest_possible(machine, beta, root)
+    assert found is not None and found.distance < 1e-2  # standard deviations
+
+
+def test_a_friction_below_zero_is_as_far_as_it_is_below():
+    spec = compiled("two-link").spec
+    machine = machine_of(spec)
+    names = [base.name for base in spec.base]
+    chi = buildable(spec, np.random.default_rng(42))
+    beta = machine.K[:, : len(chi)] @ chi
+    sigma = 0.05 * np.ones(len(beta))
+    beta[names.index("Fv2")] = -0.4
+    found = nearest_possible(machine, beta, np.diag(1.0 / sigma))
+    assert found is not None
+    assert found.distance == pytest.approx(0.4 / 0.05, rel=1e-3)
+    assert found.beta[names.index("Fv2")] == pytest.approx(0.0, abs=1e-4)
+    assert carried_by(machine, beta, np.diag(1.0 / sigma), found.distance) == ["Fv2"]
+
+
+def test_a_moment_of_inertia_below_zero_and_who_carries_it():
+    # ZZ2 is a base parameter by itself; however heavy link 2 is, ZZ2 M2 >= MX2^2 keeps it above 0.
+    spec = compiled("two-link").spec
+    machine = machine_of(spec)
+    names = [base.name for base in spec.base]
+    chi = buildable(spec, np.random.default_rng(43))
+    beta = machine.K[:, : len(chi)] @ chi
+    beta[names.index("ZZ2")] = -0.3
+    weights = np.full(len(beta), 1e-3)  # all else is free to follow
+    weights[names.index("ZZ2")] = 10.0
+    root = np.diag(weights)
+    found = nearest_possible(machine, beta, root)
+    assert found is not None
+    assert found.distance == pytest.approx(3.0, rel=1e-2)
+    assert carried_by(machine, beta, root, found.distance) == ["2"]
+
+
+def test_links_share_their_faults_as_their_parameters_do():
+    # M2 is in ZZ1R and MX1R, with L1: a body of link 2 cannot take what it has not.
+    spec = compiled("two-link").spec
+    machine = machine_of(spec)
+    chi = buildable(spec, np.random.default_rng(44))
+    beta = machine.K[:, : len(chi)] @ chi
+    names = [base.name for base in spec.base]
+    beta[names.index("MX1R")] *= 40.0  # far out, with the inertia that it had
+    alone = nearest_possible(machine, beta, 100.0 * np.eye(len(beta)))
+    assert alone is not None
+    free = nearest_possible(machine, beta, 100.0 * np.eye(len(beta)), machine.bounds)
+    assert free is not None and free.distance < 1e-2  # nothing bounds it then
+    some = nearest_possible(machine, beta, 100.0 * np.eye(len(beta)), ["1"])
+    assert some is not None and some.distance <= alone.distance + 1e-3
+
+
+def test_links_have_ten_parameters_each_even_if_torques_feel_two():
+    machine = machine_of(compiled("scara").spec)
+    for link, own in machine.links.items():
+        assert {machine.names[place] for place in own} == {f"{p}{link}" for p in INERTIAL}
+    places = [place for own in machine.links.values() for place in own]
+    assert len(set(places)) == len(places) <= machine.K.shape[1]

@@ -15,7 +15,7 @@ from modeler.estimation.result import fit_from_json
 from modeler.observation.observe import observe
 
 NOISE = np.array([0.2, 0.5])
-SEEDS = 30
+SEEDS = 16
 
 
 @pytest.fixture(scope="module")

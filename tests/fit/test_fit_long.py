@@ -1,10 +1,11 @@
-"""Logs read in chunks: the rows, the fit and the report are those of the whole log."""
+"""Logs read in chunks, fits whose W is never built: rows, fit and report are those of the whole."""
 
 import dataclasses
 import pickle
 import subprocess
 import sys
-from functools import reduce
+from functools import cache, reduce
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -19,15 +20,23 @@ from modeler.estimation import long_logs as streamed
 from modeler.estimation.doubts import unexplained_joints
 from modeler.estimation.identify import CrossValidation, identify
 from modeler.estimation.long_logs import Partial, identify_long, reduce_chunk, stream
+from modeler.estimation.result import FitResult
 from modeler.estimation.verdict import with_verdict
 from modeler.numerics.filters import spacing
+from modeler.observation import reduce as passing, stretch
+from modeler.observation.channels import thinned
 from modeler.observation.chunk import chunks, margin
+from modeler.observation.log import Log
 from modeler.observation.motion import low_pass
+from modeler.observation.observation import Evaluated, Observation
 from modeler.observation.observe import observe
 from modeler.observation.read import MemorySource, cut
 from modeler.observation.segments import split
 from modeler.observation.settings import Processing
 from modeler.observation.survey import FactsSoFar, WholeLogNeeded, survey
+from modeler.runtime.model import CompiledModel
+from tests.in_turn import in_turn
+from tests.modules import compiled
 from tests.rotation import rotating_with
 
 ROWS = 1024  # of a chunk
@@ -35,6 +44,7 @@ ARM = planar_arm()
 BETA = some_beta(ARM)
 
 
+@cache
 def noisy_log(seconds=40.0, rate=200, logged=False, seed=0):
     """A motion with noise on torque and position, so that every choice of rows leaves a trace."""
     log = exact_log(ARM, BETA, seed=seed, seconds=seconds, rate=rate, logged=logged)
@@ -78,8 +88,7 @@ def same_counts(whole, chunked):
     assert whole.processing == chunked.processing
 
 
-@pytest.mark.parametrize("logged", [False, True])
-@pytest.mark.parametrize("cutoff", [None, 0.0])
+@pytest.mark.parametrize(("logged", "cutoff"), [(False, None), *in_turn((True, 0.0), (True, None))])
 def test_a_log_in_chunks_gives_the_fit_of_the_whole_log(logged, cutoff):
     """To 1e-9 of sigma: what the position filter forgot beyond a margin is 3e-13 of the motion."""
     processing = Processing(parallel_cutoff=cutoff)
@@ -156,7 +165,7 @@ def test_windows_choose_for_all_rows(small_windows):
     assert np.sqrt(np.mean(((fit.beta - BETA) / sigma) ** 2)) < 2.5
 
 
-@pytest.mark.parametrize("zero", [-450.0, 1.7e9])
+@pytest.mark.parametrize("zero", [1.7e9, *in_turn(-450.0)])
 def test_the_zero_of_the_clock_changes_nothing(zero, monkeypatch):
     """Stamps differ by their rounding: 1e-13 s, or 2.4e-7 s where they count from 1970."""
     for name, value in (("WINDOW", 512), ("SECONDS", 0.0), ("WINDOWS", 8)):
@@ -358,7 +367,7 @@ def test_an_error_or_an_interrupt_ends_the_threads(monkeypatch):
 
 def test_sigmas_of_windows_are_those_of_all_rows(small_windows):
     """Coloured residuals: the factor on the sigmas of all rows, from a sixth of them."""
-    log = noisy_log(seconds=120.0)
+    log = noisy_log(seconds=80.0)
     pole = np.exp(-log.step / 0.2)
     white = np.random.default_rng(8).normal(size=log.tau.shape)
     noise = np.sqrt(1.0 - pole**2) * lfilter([1.0], [1.0, -pole], white, axis=0)
@@ -370,19 +379,7 @@ def test_sigmas_of_windows_are_those_of_all_rows(small_windows):
     assert long.essential is not None
 
 
-def test_uneven_stamps_fit_as_well_in_chunks():
-    """Each chunk has a uniform grid of its own; whole or not, stamps that are true cost nothing."""
-    fine, random = noisy_log(rate=2000), np.random.default_rng(6)
-    rows = np.arange(10, fine.rows - 10, 10) + random.integers(-2, 3, (fine.rows - 20) // 10)
-    uneven = dataclasses.replace(fine, time=fine.time[rows], q=fine.q[rows], tau=fine.tau[rows])
-    whole, chunked, told, told_chunked = both(uneven)
-    sigma = np.array([parameter.sigma for parameter in whole.parameters])
-    assert np.abs((chunked.beta - whole.beta) / sigma).max() < 3.0
-    assert told_chunked.logs[0].resampled == 1
-    assert told_chunked.logs[0].jitter == pytest.approx(told.logs[0].jitter, rel=0.05)
-
-
-@pytest.mark.parametrize("each", [1.25, 2.0, 3.3])
+@pytest.mark.parametrize("each", [1.25, *in_turn(2.0, 3.3)])
 def test_rows_that_repeat_are_left_out_of_chunks_as_of_the_whole_log(each):
     """A recorder that is `each` times as fast as the robot; its rows lie elsewhere."""
     log = noisy_log(rate=100)
@@ -444,3 +441,123 @@ def test_logs_of_other_columns_are_reported_together():
     report = long.observation.report
     assert [one.rows for one in report.logs] == [log.rows for log in logs]
     assert [joint.samples for joint in report.joints] == [sum(log.rows for log in logs)] * 2
+
+
+PASSED_RATE = 200.0
+
+
+def passed_log(model: CompiledModel, memory: float, size: float = 1.0, seed: int = 1) -> Log:
+    """Twelve seconds with a gap, missing torques and noise of that memory, s."""
+    rng = np.random.default_rng(seed)
+    n, time = len(model.spec.joints), np.arange(12 * PASSED_RATE) / PASSED_RATE
+    time = np.where(time < 5.0, time, time + 0.7)
+    w = 2 * np.pi * rng.uniform(0.2, 2.0, (n, 4))
+    angle = time[:, None, None] * w + rng.uniform(0, 6.28, (n, 4))
+    a = size * rng.uniform(0.1, 0.4, (n, 4))
+    q, qd, qdd = (x.sum(2) for x in (np.sin(angle) * a, np.cos(angle) * a * w,
+                                     -np.sin(angle) * a * w * w))  # fmt: skip
+    if model.spec.closure is not None:
+        q = q + [model.spec.closure.home[i] for i in model.spec.closure.given]
+    tau = model.inverse_dynamics(q, qd, qdd, rng.uniform(0.5, 2.0, len(model.spec.base)))
+    pole = np.exp(-1.0 / (PASSED_RATE * memory)) if memory else 0.0
+    noise = np.sqrt(1 - pole**2) * lfilter([1.0], [1.0, -pole], rng.normal(size=q.shape), axis=0)
+    tau = tau + 0.05 * np.std(tau, axis=0) * noise
+    tau[700:720, 0] = np.nan
+    return Log("x.csv", tuple(j.name for j in model.spec.joints), time, q, tau, qd, qdd)
+
+
+def fitted(
+    model: CompiledModel, log: Log, processing: Processing, method: Any
+) -> tuple[Observation, FitResult]:
+    observation = observe(model, [log], processing)
+    result = identify(observation, method, model)
+    return observation, with_verdict(model, observation, result)
+
+
+def same(kept: Any, passed: Any, where: str = "") -> None:
+    """Equal but for the rounding of numbers."""
+    if isinstance(kept, dict):
+        assert kept.keys() == passed.keys(), where
+        for key in kept:
+            same(kept[key], passed[key], f"{where}.{key}")
+    elif isinstance(kept, list | tuple):
+        assert len(kept) == len(passed), where
+        for one, other in zip(kept, passed, strict=True):
+            same(one, other, where)
+    elif isinstance(kept, float):
+        assert passed == pytest.approx(kept, rel=1e-9, abs=1e-12), where
+    else:
+        assert passed == kept, where
+
+
+PLAIN = Processing(position_cutoff=0.0, parallel_cutoff=0.0, decimation=1, derivatives="log")
+THIRD = Processing(position_cutoff=0.0, parallel_cutoff=0.0, decimation=3, derivatives="log")
+SMOOTH = Processing(position_cutoff=0.0, parallel_cutoff=20.0, derivatives="log")
+
+
+@pytest.mark.parametrize(
+    ("name", "processing", "memory", "method"),
+    [
+        ("wrist", PLAIN, 0.2, "weighted"),  # residuals that remember
+        ("wrist", SMOOTH, 0.1, "ordinary"),
+        ("five-bar", PLAIN, 0.0, "weighted"),
+        *in_turn(("wrist", THIRD, 0.0, "weighted"), ("wrist", PLAIN, 0.0, "ordinary")),
+    ],
+)
+def test_a_fit_without_w_is_the_fit_with_it(monkeypatch, name, processing, memory, method):
+    model = compiled(name)
+    log = passed_log(model, memory, 1.0 if name == "wrist" else 0.1)
+    kept, expected = fitted(model, log, processing, method)
+    monkeypatch.setattr(passing, "KEPT", 0)
+    monkeypatch.setattr(stretch, "_BLOCK", 50)  # fewer samples than lags
+    observation, found = fitted(model, log, processing, method)
+    assert len(kept.stretches) == 2 and not kept.used.all()
+    assert "columns" in vars(kept) and "columns" not in vars(observation)
+    same(expected.to_json(), found.to_json())
+
+
+@pytest.mark.parametrize("processing", [PLAIN, THIRD, SMOOTH])
+def test_rows_are_picked_and_explained_without_w(monkeypatch, processing):
+    model = compiled("wrist")
+    log = passed_log(model, 0.0)
+    kept = observe(model, [log], processing)
+    columns, rows = kept.columns, thinned(model, kept)
+    monkeypatch.setattr(passing, "KEPT", 0)
+    observation = observe(model, [log], processing)
+    np.testing.assert_array_equal(thinned(model, observation).W, rows.W)
+    beta = np.arange(1.0, columns.shape[2] + 1)
+    scale = np.abs(columns * beta).max()
+    keep = np.arange(len(columns))[:, None] % 3 == [0, 1, 1]
+    for own in (keep | True, keep, keep & False):
+        found = passing.fitted_torque(observation, beta, own)
+        assert np.abs(found - np.where(own, columns @ beta, 0.0)).max() < 1e-12 * scale
+    assert passing.is_streamed(observation)
+
+
+def test_a_regressor_of_another_kind_is_kept(monkeypatch):
+    """One that picks columns of the robot's: no compiled function evaluates it."""
+    model = compiled("wrist")
+    observation = observe(model, [passed_log(model, 0.0)], PLAIN)
+    whole = observation.regressor
+    assert isinstance(whole, Evaluated)
+    fewer = dataclasses.replace(
+        observation,
+        names=observation.names[2:],
+        units=observation.units[2:],
+        regressor=lambda segment, window: whole(segment, window)[..., 2:],
+    )
+    expected = identify(dataclasses.replace(fewer))
+    monkeypatch.setattr(passing, "KEPT", 0)
+    found = identify(fewer)
+    assert "columns" in vars(fewer)
+    same(expected.to_json(), found.to_json())
+
+
+def test_a_method_that_reads_rows_has_them(monkeypatch):
+    model = compiled("wrist")
+    log = passed_log(model, 0.0)
+    _, expected = fitted(model, log, PLAIN, "robust")
+    monkeypatch.setattr(passing, "KEPT", 0)
+    observation, found = fitted(model, log, PLAIN, "robust")
+    assert "columns" in vars(observation)
+    same(expected.to_json(), found.to_json())

@@ -6,6 +6,7 @@ them stand in EXCEPTIONS. Verdicts are those of an expert.
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import pytest
 
@@ -22,8 +23,7 @@ from modeler.api import (
 )
 from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Robot
-from tests.measured_sets.sets import DATA
+from tests.measured_sets.sets import DATA, SETS
 from tests.rotation import ROTATING, rotating_with
 
 pytestmark = [
@@ -37,54 +37,26 @@ HALVES = ("prediction", "tell different F")
 
 
 @dataclass(frozen=True)
-class Run:
-    """A built-in robot, its logs, the README's held-out residual per joint, %, and the verdict."""
+class Published:
+    """The README's held-out residual per joint of a measured set, %, and the verdict of a fit."""
 
-    robot: str
-    folder: str
-    training: tuple[str, ...]
-    held_out: tuple[str, ...]
-    readme: tuple[float, ...]
+    residuals: tuple[float, ...]
     verdict: tuple[str, str] = LIKE_MOTION
     processing: Processing | None = None
 
 
-RUNS = {
-    run.robot: run
-    for run in (
-        Run("emps", "emps", ("train.parquet",), ("pulses.parquet",), (5.63,), HALVES),
-        Run(
-            "odrive", "odrive_cogging",
-            ("slow2__nocomp_0.parquet", "slow2__nocomp_1.parquet"),
-            ("slow2__nocomp_2.parquet",), (93.5,), ("nothing", "joint 1: "),
-        ),
-        Run(
-            "tx40", "tx40", ("log_joint.parquet@0:4.6",), ("log_joint.parquet@4.6:7.45",),
-            (7.3, 6.6, 12.9, 11.5, 22.1, 16.3),
-        ),
-        Run(
-            "ur10e", "ur10e",
-            ("ur-20_02_19_14harm50sec.parquet", "ur-20_02_12-50sec_12harm.parquet",
-             "ur-20_02_05-20sec_8harm.parquet"),
-            ("ur-20_02_19_15harm50sec.parquet", "ur-20_01_17-ptp_10_points.parquet"),
-            (10.4, 3.3, 3.4, 7.2, 11.3, 18.3),
-        ),
-        Run(
-            "kinova_gen3", "kinova_gen3",
-            ("traj_1.parquet", "traj_3.parquet", "traj_5.parquet"),
-            ("traj_2.parquet", "traj_4.parquet"),
-            (28.8, 16.0, 15.0, 9.2, 12.5, 15.7, 6.9), LIKE_MOTION,
-        ),
-        # Near the README's filter of 5.4 Hz. Automatic: 5.1 15.0 13.2 14.7 19.5 19.3 21.2 %.
-        Run(
-            "dvrk-psm", "dvrk_psm", ("one.parquet",), ("two.parquet",),
-            (4.9, 14.8, 13.8, 15.9, 22.1, 21.6, 23.5), LIKE_MOTION,
-            Processing(position_cutoff=8.0, parallel_cutoff=5.4),
-        ),
-    )
+PUBLISHED = {
+    "emps": Published((5.63,), HALVES),
+    "odrive_cogging": Published((93.5,), ("nothing", "joint 1: ")),
+    "tx40": Published((7.3, 6.6, 12.9, 11.5, 22.1, 16.3)),
+    "ur10e": Published((10.4, 3.3, 3.4, 7.2, 11.3, 18.3)),
+    "kinova_gen3": Published((28.8, 16.0, 15.0, 9.2, 12.5, 15.7, 6.9)),
+    # Near the README's filter of 5.4 Hz. Automatic: 5.1 15.0 13.2 14.7 19.5 19.3 21.2 %.
+    "dvrk_psm": Published((4.9, 14.8, 13.8, 15.9, 22.1, 21.6, 23.5),
+                          processing=Processing(position_cutoff=8.0, parallel_cutoff=5.4)),
 }  # fmt: skip
 
-QUICK = ("emps", "odrive", "tx40")
+QUICK = ("emps", "odrive_cogging", "tx40")
 
 EXCEPTIONS = {("kinova_gen3", 3): 15.7, ("kinova_gen3", 4): 11.7}
 """(robot, joint) -> %, above the README.
@@ -96,44 +68,30 @@ below 11 %; a parallel filter of 2 Hz brings joint 3 to 14.8 % and joint 4 to 14
 """
 
 
-def places(run: Run, names: tuple[str, ...]) -> list[str]:
-    return [str(DATA / run.folder / name) for name in names]
-
-
-def chain(run: Run, robot: Robot | None = None) -> tuple[IdentifiedModel, Comparison]:
-    """Fit and comparison; `robot` stands in for the built-in one."""
-    derivation = derive(robot or load(run.robot))
+def chain(name: str, text: str = "") -> tuple[IdentifiedModel, Comparison]:
+    """Fit and comparison of a set; `text` in place of its robot file."""
+    derivation = derive(robot_from_text(text or SETS[name].robot(), name))
     emitted = generate(derivation)
-    logs = places(run, run.training)
-    observation = observe(compile_model(emitted), logs, run.processing)
+    training, held_out = SETS[name].logs(DATA, "forward")
+    observation = observe(compile_model(emitted), training, PUBLISHED[name].processing)
     model = fit(derivation, emitted, observation)
-    return model, compare(model, places(run, run.held_out))
+    return model, compare(model, held_out)
 
 
-@pytest.fixture(scope="module")
-def results():
-    """Robot -> (model, comparison), each made once."""
-    made = {}
-
-    def result(robot: str) -> tuple[IdentifiedModel, Comparison]:
-        if robot not in made:
-            made[robot] = chain(RUNS[robot])
-        return made[robot]
-
-    return result
+results = cache(chain)
 
 
 @pytest.mark.parametrize(
-    "robot", [r if r in QUICK else pytest.param(r, marks=ROTATING) for r in RUNS]
+    "robot", [r if r in QUICK else pytest.param(r, marks=ROTATING) for r in PUBLISHED]
 )
-def test_held_out_errors_are_below_the_published_ones(results, robot):
+def test_held_out_errors_are_below_the_published_ones(robot):
     model, comparison = results(robot)
     found = {item.joint.name: 100 * item.relative_error for item in comparison.joints}
-    limits = {str(j): limit for j, limit in enumerate(RUNS[robot].readme, start=1)}
+    limits = {str(j): limit for j, limit in enumerate(PUBLISHED[robot].residuals, start=1)}
     limits |= {str(j): limit for (name, j), limit in EXCEPTIONS.items() if name == robot}
     assert found.keys() == limits.keys()
     assert {joint: error for joint, error in found.items() if error >= limits[joint]} == {}
-    verdict, (valid_for, words) = model.fit.verdict, RUNS[robot].verdict
+    verdict, (valid_for, words) = model.fit.verdict, PUBLISHED[robot].verdict
     assert verdict.valid_for == valid_for and words in verdict.line, verdict.line
     assert verdict.usable is (valid_for != "nothing")
 
@@ -157,17 +115,17 @@ def test_other_measured_logs_make_no_model(robot, log, words):
 
 
 @rotating_with("fits of measured logs")
-def test_every_exception_is_still_needed(results):
+def test_every_exception_is_still_needed():
     for (robot, joint), limit in EXCEPTIONS.items():
         found = 100 * results(robot)[1].joints[joint - 1].relative_error
-        assert RUNS[robot].readme[joint - 1] < found < limit
+        assert PUBLISHED[robot].residuals[joint - 1] < found < limit
 
 
 def values(model: IdentifiedModel) -> dict[str, float]:
     return {parameter.name: parameter.value for parameter in model.fit.parameters}
 
 
-def test_emps_published_values(results):
+def test_emps_published_values():
     """Janot, Gautier, Brunot 2019: M 95.1, Fv 203.5, Fc 20.4, offset -3.16, error 4.08 %.
 
     They filter at 100 Hz and decimate to 40 Hz, a parallel cut-off of 16 Hz.
@@ -184,7 +142,7 @@ def test_emps_published_values(results):
     assert model.fit.processing.parallel_cutoff == pytest.approx(16.0, rel=0.2)
 
 
-def test_tx40_published_values(results):
+def test_tx40_published_values():
     """Janot, Vandanjon, Gautier 2014, of the same robot and log: the columns that are excited."""
     found = values(results("tx40")[0])
     published = {
@@ -197,13 +155,12 @@ def test_tx40_published_values(results):
 
 
 @rotating_with("fits of measured logs")
-def test_the_readme_offsets_of_kinova_do_not_carry_over(results):
+def test_the_readme_offsets_of_kinova_do_not_carry_over():
     """With the README's offsets on all joints, joint 1 is as bad as there: 28.8 % in the README."""
-    run = RUNS["kinova_gen3"]
-    text = load(run.robot).text
+    text = SETS["kinova_gen3"].robot()
     everywhere = text.replace('offset = ["7"]', 'offset = "all"')
     assert everywhere != text
-    _, with_offsets = chain(run, robot_from_text(everywhere, "kinova with offsets"))
-    _, without = results(run.robot)
+    _, with_offsets = chain("kinova_gen3", everywhere)
+    _, without = results("kinova_gen3")
     assert with_offsets.joints[0].relative_error == pytest.approx(0.288, rel=0.05)
     assert with_offsets.joints[0].relative_error > 1.5 * without.joints[0].relative_error

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.core.errors import TWO_STEPS
 from modeler.core.estimators import ABOUT
+from tests.in_turn import in_turn
 from tests.modules import compiled
 from tests.rotation import ROTATING
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
-RESTING = [(1,), pytest.param((0, 1, 2), marks=pytest.mark.rotating)]
 
 
 def written(place, rest, seed, load=0.0, kind="tau"):
@@ -49,31 +48,46 @@ def folder(tmp_path_factory):
     return place
 
 
-FITS = [f"fit {ROBOT} R --method {method} --out X" for method in (*ABOUT, TWO_STEPS)]
-FITS += [f"fit {ROBOT} R --model energy --out X"]
+LONG = ("didim-robust", "iv-direct-consistent", "didim-consistent")
+SHORT_FITS = [
+    f"fit {ROBOT} R --method weighted --out X", f"fit {ROBOT} R --method two-step --out X",
+    f"fit {ROBOT} R --payload-log loaded.csv --payload-mass {MASS} --out X",
+]  # fmt: skip
+SHORT = [
+    f"log R --robot {ROBOT}", "diagnose m.json full.csv --holdout R", "add m.json spring R --out Y",
+    f"fit {ROBOT} R --out own.json", "physical own.json", "compare own.json full.csv",
+]  # fmt: skip
+FITS, LONG_FITS = (
+    [f"fit {ROBOT} R --method {m} --out X" for m in ABOUT if (m in LONG) == long]
+    for long in (False, True)
+)
 LOADED = [
     f"fit {ROBOT} {logs} --payload-mass {MASS} --method {method} --out X"
     for logs, method in (
         ("R --payload-log RL", "weighted"), ("full.csv --payload-log RL", "robust"),
-        ("R --payload-log loaded.csv", "weighted"), ("bare_i.csv --payload-log RLI", "tls"),
-        ("RI --payload-log loaded_i.csv", "tls"),
+        ("bare_i.csv --payload-log RLI", "tls"),
     )
 ]  # fmt: skip
-BOTH = [f"fit {ROBOT} RI --payload-log RLI --payload-mass {MASS} --method tls --out X"]
+BOTH = [
+    f"fit {ROBOT} RI --payload-log {log} --payload-mass {MASS} --method tls --out X"
+    for log in ("loaded_i.csv", "RLI")
+]
 OTHERS = [
-    f"log R --robot {ROBOT}", f"fit {ROBOT} R --holdout other.csv --method weighted,ridge",
-    f"fleet {ROBOT} R full.csv", "compare m.json R", "compare m.json R --free-run",
-    "diagnose m.json R", "diagnose m.json full.csv --holdout R",
-    "add m.json spring R --out Y", f"fit {ROBOT} R --out own.json", "physical own.json",
-    "compare own.json full.csv", "generate own.json --out own_c --force",
+    f"fit {ROBOT} R --model energy --out X", f"fleet {ROBOT} R full.csv",
+    f"fit {ROBOT} R --holdout other.csv --method weighted,ridge", "compare m.json R",
+    "compare m.json R --free-run", "diagnose m.json R", f"fit {ROBOT} R --out own.json",
+    "generate own.json --out own_c --force",
 ]  # fmt: skip
+ONE, ALL = (1,), (0, 1, 2)
 
 
-@pytest.mark.rotating
-@pytest.mark.parametrize("rest", RESTING)
 @pytest.mark.parametrize(
-    "commands", [FITS, LOADED, OTHERS, pytest.param(BOTH, marks=ROTATING)],
-    ids=["fits", "loaded", "others", "currents"],
+    ("rest", "commands"),
+    [(ONE, SHORT), (ONE, SHORT_FITS),
+     *in_turn(*((ONE, own) for own in (FITS[::2], FITS[1::2], LOADED, OTHERS))),
+     *in_turn(*((ALL, own) for own in (SHORT + OTHERS, SHORT_FITS + FITS, LOADED))),
+     *(pytest.param(rest, own, marks=ROTATING)
+       for rest in (ONE, ALL) for own in (LONG_FITS, BOTH))],
 )  # fmt: skip
 def test_a_result_or_one_clear_line(folder, rest, commands, capsys, monkeypatch):
     """`main` raises whatever is no ModelerError: a traceback fails."""

@@ -1,7 +1,6 @@
 """The two-step fit: exact on exact logs, honest about its sigmas, plain where logs do not tell."""
 
 import dataclasses
-import json
 
 import numpy as np
 import pytest
@@ -26,6 +25,7 @@ from modeler.robot.robot import Limits
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate
 from modeler.simulation.trajectory import one_joint_reference, point_to_point_reference
+from tests.in_turn import in_turn
 from tests.modules import compiled, module
 
 _AS_THEY_ARE = Processing(
@@ -33,7 +33,7 @@ _AS_THEY_ARE = Processing(
     keep_contradicted=True, keep_damaged=True,
 )  # fmt: skip
 _LIMITS = (Limits(-1.4, 1.4, 4.0, 25.0),) * 3
-_SEEDS = 20
+_SEEDS = 10
 _ROBOT = "wrist-coupled"
 
 
@@ -167,7 +167,7 @@ def test_pieces_of_several_joints_are_left_out(exact):
     assert exact.steps.several == several
 
 
-@pytest.mark.parametrize("name", ["scara", "emps"])
+@pytest.mark.parametrize("name", ["emps", *in_turn("scara")])
 def test_joints_that_feel_nothing_of_each_other(name):
     """A slider beside a turning column, a single joint: fewer functions, honest sigmas."""
     model, spec = compiled(name), module(name).emitted.spec
@@ -229,49 +229,20 @@ def test_missing_torques_are_left_out():
     assert np.abs(steps.estimate.beta - _beta(_ROBOT)).max() < 1e-9
 
 
-@pytest.fixture(scope="module")
-def simulated(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("two_step")
-    log = str(folder / "one.parquet")
-    line = ["simulate", "wrist-coupled", "--motion", "one-joint", "--duration", "100"]
-    assert main([*line, "--rate", "250", "--seed", "2", "--out", log]) == 0
-    return folder
-
-
-@pytest.mark.slow
-def test_the_command_fits_motor_side_logs(simulated, capsys):
-    out = simulated / "two.json"
-    line = ["fit", "wrist-coupled", str(simulated / "one.parquet"), "--method", "two-step"]
-    assert main([*line, "--out", str(simulated / "m.json"), "--json", str(out)]) == 0
-    printed = capsys.readouterr().out
-    assert "step 1: one joint moves" in printed and "singular values of Phi" in printed
-    told = json.loads(out.read_text())
-    assert told["method"] == "two-step"
-    truth = _beta(_ROBOT)
-    for parameter, value in zip(told["parameters"], truth, strict=True):
-        if parameter["status"] == "estimated":
-            assert abs(parameter["value"] - value) < 6 * parameter["sigma"], parameter["name"]
-    assert {c["joint"] for c in told["two_step"]["configurations"]} == {"1", "2", "3"}
-    assert len(told["two_step"]["one_step"]) == len(truth)
-    assert main(["compare", str(simulated / "m.json"), str(simulated / "one.parquet")]) == 0
-    assert "m3" in capsys.readouterr().out
-
-
-def test_logs_of_joints_are_told_from_logs_of_motors(simulated, capsys):
+def test_logs_of_joints_are_told_from_logs_of_motors(tmp_path, capsys):
     log = _log("wrist", 20.0)
-    path = simulated / "joints.csv"
+    path = tmp_path / "joints.csv"
     names = ["time", *(f"q{j}" for j in log.joints), *(f"tau{j}" for j in log.joints)]
     np.savetxt(path, np.column_stack([log.time, log.q, log.tau]), delimiter=",",
                header=",".join(names), comments="")  # fmt: skip
-    out = str(simulated / "x.json")
+    out = str(tmp_path / "x.json")
     assert main(["fit", "wrist-coupled", str(path), "--method", "two-step", "--out", out]) == 1
     assert "no column qm1" in capsys.readouterr().err
 
 
-def test_loads_are_not_known_to_it(simulated, capsys):
-    log = str(simulated / "one.parquet")
-    line = ["fit", "wrist-coupled", log, "--payload-log", log, "--method", "two-step"]
-    assert main([*line, "--out", str(simulated / "x.json")]) == 1
+def test_loads_are_not_known_to_it(tmp_path, capsys):
+    words = "fit wrist-coupled a.csv --payload-log b.csv --method two-step --out"
+    assert main([*words.split(), str(tmp_path / "x.json")]) == 1
     assert "--payload-log: got it with --method two-step" in capsys.readouterr().err
 
 

@@ -12,6 +12,7 @@ from modeler.numerics.noise import lattice_step
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
+from tests.in_turn import in_turn
 
 COUNTS = 2 * np.pi / 2**14
 STEP = 2e-3
@@ -42,7 +43,7 @@ def held(values, rows):
     return values[np.arange(len(values)) // rows * rows]
 
 
-def told(seen):
+def report_text(seen):
     return "\n".join([*seen.report.lines(), *seen.report.doubts()])
 
 
@@ -55,14 +56,15 @@ def relative_error(log, beta, processing=None):
 WRONG = ("jumps", "rings", "stays at", "stuck at its limit", "repeats", "spike")
 
 
-@pytest.mark.parametrize("channel", ["q", "tau", "qd"])
-@pytest.mark.parametrize("rows", [4, 10])
+@pytest.mark.parametrize(
+    ("channel", "rows"), [("q", 4), *in_turn(("tau", 10), ("qd", 4), ("q", 10), ("tau", 4))]
+)
 def test_a_held_channel_is_named_with_its_rate_and_interpolated(channel, rows):
     log, beta = recorded(rows)
     log = dataclasses.replace(log, qd=motion(seed=rows)[2])
     log = dataclasses.replace(log, **{channel: held(getattr(log, channel), rows)})
     seen = observe(planar_arm(), [log])
-    text = told(seen)
+    text = report_text(seen)
     assert f"holds each value for {rows} rows: sampled at {500 / rows:.3g} Hz, not 500 Hz" in text
     assert not any(word in text.replace("repeats it", "") for word in WRONG), text
     if channel != "qd":  # of logged speeds, positions may serve as well
@@ -91,7 +93,7 @@ def test_clean_channels_coarse_encoders_and_switched_torques_are_not_held():
     assert rows_held(noisy) == rows_held(np.sign(np.sin(9.0 * t))) == rows_held(0.0 * t) == 1
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *in_turn(1, 2)])
 def test_a_pause_of_the_bus_and_a_step_of_stick_slip_are_no_new_zero(seed):
     log, _ = recorded(seed)
     random = np.random.default_rng(seed)
@@ -103,7 +105,7 @@ def test_a_pause_of_the_bus_and_a_step_of_stick_slip_are_no_new_zero(seed):
     q[:, 1] += np.round(slip / COUNTS) * COUNTS
     log = dataclasses.replace(log, time=log.time[keep], q=q[keep], tau=log.tau[keep])
     seen = observe(planar_arm(), [log])
-    assert not any(word in told(seen) for word in ("jumps", "rows are missing", "stays"))
+    assert not any(word in report_text(seen) for word in ("jumps", "rows are missing", "stays"))
     raw = observe(planar_arm(), [log], Processing(keep_damaged=True))
     np.testing.assert_array_equal(seen.q, raw.q)
 
@@ -128,7 +130,7 @@ def test_a_claim_that_the_fit_does_not_confirm_changes_nothing():
     log.q[4000:, 1] -= 0.9 * np.sign(qd[4000, 1])
     log = dataclasses.replace(log, qd=qd)
     seen = observe(planar_arm(), [log], Processing(derivatives="position"))
-    text = told(seen)
+    text = report_text(seen)
     assert (
         "qd1: jumps by 8.99 rad/s and back, at 2 s; used as logged, held-out error x 1.00" in text
     )
@@ -158,7 +160,7 @@ def test_no_low_speed_is_masked_where_none_is_asked_for():
     log, _ = recorded(3)
     seen = observe(planar_arm(), [log], Processing(low_speed=0.0))
     assert {*seen.report.processing.speed_floors.values()} == {0.0}
-    assert "never moves" not in told(seen) and seen.used.all()
+    assert "never moves" not in report_text(seen) and seen.used.all()
 
 
 def test_a_lattice_is_found_below_single_precision_and_no_rounding_is_one():
@@ -214,7 +216,7 @@ def test_positions_without_noise_are_planned_filtered_or_simulated(tmp_path, cap
     assert "noise of the positions" not in text
 
 
-@pytest.mark.parametrize("coarse", [0.02, 0.1])
+@pytest.mark.parametrize("coarse", [0.02, *in_turn(0.1)])
 def test_coarse_speeds_and_coarse_positions_belong_together(tmp_path, capsys, coarse):
     log, _ = recorded(8)
     q = np.round(0.1 * log.q / 4e-4) * 4e-4

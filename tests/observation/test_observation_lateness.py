@@ -1,4 +1,4 @@
-"""The logged velocity of one joint that comes late: told with its delay, and not used."""
+"""Which velocity is taken: one that comes late or is noisier than that of the position is not."""
 
 import dataclasses
 
@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 from stand_in import planar_arm
 
-from modeler.observation.consistency import consistency
+from modeler.observation.consistency import consistency, quieter
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
+from modeler.observation.prepare import without_speeds
 from modeler.observation.read import read_log
-from modeler.observation.segments import split
+from modeler.observation.segments import Piece, split
 from modeler.observation.settings import Processing
+from tests.in_turn import in_turn
 
 ARM = planar_arm()
 
@@ -38,20 +40,19 @@ def drawn(random, rate, lags, joints=2):
     return Log("run", names, t, measured, tau, late), beta
 
 
-def told(log, cutoff=5.0):
+def consistency_of(log, cutoff=5.0):
     pieces, _ = split(log, 0, True)
     return consistency(log, pieces, cutoff)
 
 
-@pytest.mark.parametrize("rate", [100, 1000])
-@pytest.mark.parametrize("joints", [2, 7])
+@pytest.mark.parametrize(("rate", "joints"), [(100, 7), *in_turn((1000, 2), (1000, 7))])
 def test_the_late_joint_is_named_with_its_delay(rate, joints):
     """12 to 80 ms, drawn; three of each."""
     random = np.random.default_rng([rate, joints])
     for _ in range(3):
         j, lag = int(random.integers(joints)), random.uniform(0.012, 0.08)
         log, _ = drawn(random, rate, [lag * (k == j) for k in range(joints)], joints)
-        found = told(log)
+        found = consistency_of(log)
         (late,) = found.late
         assert late.column == f"qd{j + 1}" and late.of == f"q{j + 1}"
         assert late.seconds == pytest.approx(lag, abs=max(0.1 * lag, 0.2 / rate))
@@ -65,12 +66,12 @@ def test_velocities_in_time_are_believed(joints):
     random = np.random.default_rng(joints)
     for rate in (100, 250, 1000):
         log, _ = drawn(random, rate, [0.0] * joints, joints)
-        assert told(log).late == ()
+        assert consistency_of(log).late == ()
 
 
 def test_two_joints_late_by_different_times_are_told_apart():
     log, _ = drawn(np.random.default_rng(2), 500, [0.05, 0.0, 0.02, 0.0], 4)
-    late = {one.column: one.seconds for one in told(log).late}
+    late = {one.column: one.seconds for one in consistency_of(log).late}
     assert late == {"qd1": pytest.approx(0.05, abs=2e-3), "qd3": pytest.approx(0.02, abs=2e-3)}
 
 
@@ -109,22 +110,55 @@ def test_a_small_delay_does_no_harm_and_the_velocities_are_used():
 
 
 @pytest.mark.measured
-def test_only_the_panda_filters_its_velocities(measured_folder):
+@pytest.mark.parametrize(
+    ("folder", "joints"),
+    [("panda", 7), *in_turn(("ur10e", 6), ("dualarm7", 7), ("kinova_gen3", 7), ("dvrk_psm", 7))],
+)
+def test_only_the_panda_filters_its_velocities(measured_folder, folder, joints):
     """5 ms in all joints, which its controller's filter makes; told, and small enough to use."""
-    for path in sorted(measured_folder.glob("*/*.parquet")):
-        joints = {"ur10e": 6, "dualarm7": 7, "kinova_gen3": 7, "panda": 7, "dvrk_psm": 7}
-        if path.parent.name not in joints:
-            continue
-        first = ARM.spec.joints[0]
-        spec = dataclasses.replace(
-            ARM.spec,
-            joints=tuple(dataclasses.replace(first, name=str(j + 1), drive_gain=1.0)
-                         for j in range(joints[path.parent.name])),
-        )  # fmt: skip
-        log = read_log(path, spec)
-        late = told(log, 10.0).late
-        if path.parent.name == "panda":
+    own = [
+        dataclasses.replace(ARM.spec.joints[0], name=str(j + 1), drive_gain=1.0)
+        for j in range(joints)
+    ]
+    for path in sorted((measured_folder / folder).glob("*.parquet")):
+        late = consistency_of(
+            read_log(path, dataclasses.replace(ARM.spec, joints=tuple(own))), 10.0
+        ).late
+        if folder == "panda":
             (one,) = late
             assert one.column == "qd" and 0.004 < one.seconds < 0.007 and one.share < 0.02
         else:
             assert late == (), path.name
+
+
+TIME = np.arange(2000) * 0.002
+CUTOFF = 50.0  # Hz
+
+
+def piece(position_noise, velocity_noise, seed=1):
+    draw = np.random.default_rng(seed).normal
+    q, qd = np.sin(2.0 * TIME), 2.0 * np.cos(2.0 * TIME)
+    both = [q + position_noise * draw(size=len(q)), qd + velocity_noise * draw(size=len(q))]
+    flags = np.zeros(len(TIME), dtype=bool)
+    return Piece(
+        run=0, time=TIME, step=0.002, q=both[0][:, None], tau=np.zeros((len(TIME), 1)),
+        qd=both[1][:, None], qdd=None, extra={}, valid=np.ones((len(TIME), 1), dtype=bool),
+        bridged=flags, contradicted=flags, clipped=np.zeros((len(TIME), 1), dtype=bool),
+        resampled=False,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("position", "velocity", "taken"),
+    [(1e-6, 1e-2, True), (1e-4, 1e-2, False), (1e-5, 1e-3, False), (1e-6, 1e-5, False)],
+)
+def test_the_position_is_differentiated_where_that_is_clearly_quieter(position, velocity, taken):
+    """Noise s_q of the position is 2 pi f s_q / sqrt 3 = 181 s_q on the velocity."""
+    assert quieter([piece(position, velocity)], CUTOFF) is taken
+
+
+def test_without_logged_velocities_there_is_no_choice():
+    pieces = tuple(map(without_speeds, [piece(1e-6, 1e-2)]))
+    assert pieces[0].qd is None
+    assert not quieter(pieces, CUTOFF)
+    assert not quieter([], CUTOFF)

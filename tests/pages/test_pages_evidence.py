@@ -1,4 +1,4 @@
-"""The data behind the evidence of a diagnosis: does it convince, and is it called by its name?"""
+"""What the page of a diagnosis shows of an effect: does it convince, is it called by its name?"""
 
 import dataclasses
 import html
@@ -10,24 +10,34 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.core.figure import Curve, Means, Panel, Picture
+from modeler.core.figure import Band, Curve, Means, Panel, Picture
 from modeler.core.style import COLOR_NAMES
 from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.ranking import base_of
 from modeler.diagnosis.result import Diagnosis
 from modeler.effects.catalogue import CATALOGUE
 from modeler.effects.effect import VARIABLES
 from modeler.observation.log import Log
 from modeler.observation.low_speed import bristle
 from modeler.report.diagnosis import diagnosis_page
-from modeler.report.effect_evidence import evidence_of, figures
-from modeler.report.evidence import EFFECT, MEANS, RIVAL, ROWS, evidence_picture
+from modeler.report.effect_evidence import Evidence, covariance_of, evidence_of, figures
+from modeler.report.evidence import (
+    EFFECT,
+    MEANS,
+    RIVAL,
+    ROWS,
+    evidence_picture,
+    rivals_of,
+    rivals_table,
+)
 from modeler.report.evidence_axes import bins_of, calm_rows
 from modeler.report.page import write_page
-from modeler.report.torque_picture import play_picture
+from modeler.report.torque_picture import play_picture, torque_picture, worst_stretch
 from modeler.robot.read import robot_from_text
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.test_diagnose_effects import drift, motor_ripple, spring, stribeck
+from tests.in_turn import in_turn
 from tests.rotation import ROTATING
 
 
@@ -61,7 +71,7 @@ HIDDEN: dict[str, tuple[Callable[..., np.ndarray], str]] = {
 
 
 @cache
-def found(case: Case, torque: Callable[[Log], np.ndarray]) -> Diagnosis:
+def diagnosis_of(case: Case, torque: Callable[[Log], np.ndarray]) -> Diagnosis:
     """What is found of a hidden torque; several tests look at the same."""
     model, train, _ = case.hidden(torque)
     return diagnose(model, case.compiled, [train])
@@ -75,13 +85,14 @@ def series(panel: Panel, kind: type, label: str):
     return next(s for s in panel.series if isinstance(s, kind) and s.label.startswith(label))
 
 
-@pytest.mark.rotating
 @pytest.mark.parametrize(
-    "effect", [pytest.param(e, marks=ROTATING * (e in ("drift", "presliding"))) for e in HIDDEN]
-)
+    "effect",
+    ["stribeck", "spring", "motor_ripple", *in_turn("load_friction"),
+     *(pytest.param(e, marks=ROTATING) for e in ("drift", "presliding"))],
+)  # fmt: skip
 def test_the_picture_convinces(case: Case, effect: str) -> None:
     torque, label = HIDDEN[effect]
-    search = found(case, load_friction(case) if effect == "load_friction" else torque).search
+    search = diagnosis_of(case, load_friction(case) if effect == "load_friction" else torque).search
     step = search.steps[0]
     assert step.pick.effect.id == effect
     picture = evidence_picture(evidence_of(search, step))
@@ -107,7 +118,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
 
 def test_the_law_is_drawn_as_it_is(case: Case) -> None:
     """What the model imitates of a spring is not seen in residuals, but it is in its law."""
-    search = found(case, spring).search
+    search = diagnosis_of(case, spring).search
     law = panels(evidence_picture(evidence_of(search, search.steps[0])))["its law"]
     means = series(law, Means, "mean")
     slope, rest = np.polyfit(means.x, means.y, 1)
@@ -116,7 +127,7 @@ def test_the_law_is_drawn_as_it_is(case: Case) -> None:
 
 
 def test_the_spectrum_of_a_ripple_loses_its_line(case: Case) -> None:
-    search = found(case, motor_ripple).search
+    search = diagnosis_of(case, motor_ripple).search
     spectrum = panels(evidence_picture(evidence_of(search, search.steps[0])))["order spectrum"]
     before, after = spectrum.series
     place = np.argmax(before.y)
@@ -126,7 +137,7 @@ def test_the_spectrum_of_a_ripple_loses_its_line(case: Case) -> None:
 
 @pytest.mark.parametrize("effect", ["stribeck", "motor_ripple"])
 def test_captions_name_the_colours_that_are_drawn(case: Case, effect: str) -> None:
-    search = found(case, HIDDEN[effect][0]).search
+    search = diagnosis_of(case, HIDDEN[effect][0]).search
     assert_all_named(evidence_picture(evidence_of(search, search.steps[0])))
     assert_all_named(play_picture(search.end, 0))
 
@@ -138,7 +149,7 @@ def test_the_colours_have_different_names() -> None:
 
 
 def test_figures_stand_by_the_picture(case: Case, tmp_path: Path) -> None:
-    diagnosis = found(case, stribeck)
+    diagnosis = diagnosis_of(case, stribeck)
     item = evidence_of(diagnosis.search, diagnosis.search.steps[0])
     text = figures(item)
     sizes = [float(size) for size in re.findall(r"([\d.]+) N m \(", text)]
@@ -158,7 +169,7 @@ def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:
         torque[(log.time > 9.0) & (log.time < 9.04), 1] -= 350.0
         return torque
 
-    quiet, loud = (found(case, torque) for torque in (stribeck, torn))
+    quiet, loud = (diagnosis_of(case, torque) for torque in (stribeck, torn))
     assert [f.effect for f in loud.effects] == ["stribeck"]  # a spike is no push
     assert any("8.9 to 9.2 s: torques that come only once" in line for line in loud.data)
     pictures = [evidence_picture(evidence_of(s, s.steps[0])) for s in (quiet.search, loud.search)]
@@ -218,3 +229,97 @@ def test_an_effect_of_a_robot_file_shows_itself_on_its_variable(
     text = case.derivation.robot.text + f'\n[own_effects.brake]\ncolumns = {{Keb = "{equation}"}}\n'
     robot = robot_from_text(text, "own")
     assert dataclasses.replace(robot.own_effects[0]).shows == axis
+
+
+@pytest.fixture(scope="module")
+def item(case: Case) -> Evidence:
+    search = diagnosis_of(case, stribeck).search
+    return evidence_of(search, search.steps[0])
+
+
+def test_the_model_after_is_nearer_where_the_model_before_was_worst(item: Evidence) -> None:
+    picture = torque_picture(item)
+    above, below = (row[0] for row in picture.panels)
+    assert all(isinstance(series, Curve) for series in (*above.series, *below.series))
+    measured, before, after = (series.y for series in above.series)
+    np.testing.assert_allclose(measured - before, below.series[0].y, atol=1e-9)
+    np.testing.assert_allclose(measured - after, below.series[1].y, atol=1e-9)
+    start, end = above.shade
+    inside = (above.series[0].x >= start) & (above.series[0].x <= end)
+    left = [np.sqrt(np.nanmean(series.y[inside] ** 2)) for series in below.series]
+    assert left[1] < 0.3 * left[0]
+    assert f"falls from {left[0]:.3g} to {left[1]:.3g} N m" in picture.caption
+    assert_all_named(picture)
+
+
+def test_no_other_half_second_is_worse(item: Evidence) -> None:
+    log, start, end = worst_stretch(item)
+    assert 0.3 < end - start <= 0.5
+    time, square = item.without.rows.time[item.j], np.where(item.calm, item.before, 0.0) ** 2
+    worst = square[(time >= start) & (time <= end)].sum()
+    sums = [square[(time >= t) & (time <= t + 0.5)].sum() for t in time]
+    assert worst == pytest.approx(max(sums))
+    assert log == 0
+
+
+def test_rivals_are_of_the_same_joint(item: Evidence) -> None:
+    step = item.step
+    assert {rival.candidate.joint for rival in rivals_of(step)} == {step.pick.joint}
+    other = next(
+        (r for r in step.rivals if r.candidate.joint != step.pick.joint), None
+    )  # the search has some, the page does not
+    assert other is not None
+    rows = rivals_table(step).rows
+    own = [step.pick.effect.id, *(r.candidate.effect.id for r in rivals_of(step)[:7])]
+    assert [row[0] for row in rows] == own
+
+
+@pytest.mark.parametrize("hold", [1, 10])
+def test_a_law_is_as_sure_as_repetition_shows(hold: int) -> None:
+    """80 draws of white noise, and of noise that lasts for half a block, on two joints."""
+    random = np.random.default_rng(1)
+    W = [random.normal(size=(600, 4)) + np.array([0.0, 0.0, 1.0, 0.0]) for _ in range(2)]
+    W = [w.cumsum(axis=0) / np.sqrt(np.arange(1, 601))[:, None] for w in W]
+    block, truth = np.repeat(np.arange(30), 20), np.array([1.0, -2.0, 0.5, 3.0])
+    found, said = [], []
+    for _ in range(80):
+        noise = [np.repeat(random.normal(size=600 // hold), hold) for _ in W]
+        y = [w @ truth + e for w, e in zip(W, noise, strict=True)]
+        base = base_of(W, y, np.ones(2), [block, block], np.arange(30) % 8)
+        theta = np.linalg.lstsq(np.vstack(W), np.concatenate(y), rcond=None)[0]
+        found.append(theta)
+        said.append(np.diag(covariance_of(base)))
+    spread = np.std(found, axis=0)
+    np.testing.assert_allclose(np.sqrt(np.mean(said, axis=0)), spread, rtol=0.25)
+
+
+def test_a_spring_is_as_sure_as_its_coefficient(case: Case) -> None:
+    """Its law is k (q - q0): far out its band grows as the deviation of k does."""
+    diagnosis = diagnosis_of(case, spring)
+    search = diagnosis.search
+    step = next(s for s in search.steps if s.pick.effect.id == "spring")
+    own = evidence_of(search, step)
+    assert own.own_sigma is not None
+    finding = next(f for f in diagnosis.effects if f.effect == "spring")
+    widest = int(np.argmax(np.abs(own.bins.centre)))
+    ratio = own.own_sigma[widest] / abs(own.bins.centre[widest])
+    assert 0.3 < ratio / next(iter(finding.sigmas.values())) < 3.0
+
+
+def test_the_band_is_drawn_and_named(item: Evidence) -> None:
+    picture = evidence_picture(item)
+    law = picture.panels[0][-1]
+    bands = [series for series in law.series if isinstance(series, Band)]
+    assert len(bands) == 1 and np.all((bands[0].high >= bands[0].low)[np.isfinite(bands[0].low)])
+    assert "two standard deviations of the law" in picture.caption
+    assert_all_named(picture)
+
+
+def test_no_line_is_drawn_over_rows_that_do_not_count(item: Evidence) -> None:
+    """Filtered rows of joint 2 leave out its reversals: the curves break there."""
+    time = item.without.rows.time[item.j]
+    step = np.median(np.diff(time))
+    for row in torque_picture(item).panels:
+        for series in row[0].series:
+            whole = np.isfinite(series.y[:-1]) & np.isfinite(series.y[1:])
+            assert np.all(np.diff(series.x)[whole] <= 1.5 * step)

@@ -90,13 +90,6 @@ def test_a_line_for_every_channel(noisy, capsys):
     assert all("mrad above" in line and "Hz" in line for line in lines)
 
 
-@pytest.mark.parametrize(("name", "columns"), [("fit", 2), ("log_robot", 2), ("log", 1)])
-def test_pages_draw_it(noisy, name, columns):
-    page = (noisy / f"{name}.html").read_text()
-    assert "Noise of the motion" in page and "Noise_of_the_motion".lower() in page
-    assert ("torque of that noise" in page) == (columns == 2)
-
-
 def test_the_picture_crosses_where_the_numbers_say(noisy):
     model = load_model(noisy / "model.json")
     picture = noise_picture(model.fit.bands)

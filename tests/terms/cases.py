@@ -7,6 +7,7 @@ from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
+from modeler.formulas.closed_form import ClosedForm, closed_form
 from modeler.formulas.coefficients import CoefficientTable, coefficient_table
 from modeler.robot.read import robot_from_text
 from tests.modules import module
@@ -104,6 +105,11 @@ def model_of(name: str) -> SymbolicModel:
 @cache
 def base_of(name: str) -> BaseParameters:
     return base_parameters(model_of(name)) if name in {**TEXTS, **TIED} else module(name).base
+
+
+@cache
+def closed_of(name: str) -> ClosedForm:
+    return closed_form(model_of(name))
 
 
 @cache

@@ -24,13 +24,26 @@ def example() -> dict[str, float]:
     return {name: float(value) for name, value in found.items()}
 
 
-def data_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:
-    """The identified quantities of a robot with these parameters."""
+def point_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:
+    """The system's variables of a robot with these parameters."""
     point = np.zeros(len(system.names))
     for name, value in (*system.constants.items(), *letters.items()):
         if name in system.place:
             point[system.place[name]] = value
+    return point
+
+
+def data_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:
+    """The identified quantities of a robot with these parameters."""
+    point = point_of(system, letters)
     return np.array([SolvedNumbers(system.definitions[name]).value(point) for name in system.data])
+
+
+def slopes_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:
+    """(data, letters) of the identified quantities by the letters."""
+    point = point_of(system, letters)
+    J = np.array([SolvedNumbers(system.definitions[d]).slopes(point) for d in system.data])
+    return J[:, [system.place[x] for x in system.letters]]
 
 
 def random_letters(system: PhysicalSystem, rng: np.random.Generator) -> dict[str, float]:

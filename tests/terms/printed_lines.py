@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.api import compile_model, derive, generate, load
+from modeler.api import derive, generate, load
 from modeler.codegen.workflow import Derivation
 from modeler.formulas.closed_form import function_name
 from modeler.runtime.model import CompiledModel
@@ -15,7 +15,6 @@ from tests import modules
 from tests.robots import ROBOTS
 from tests.terms.cases import base_of, model_of
 
-SAMPLES = 5
 FUNCTIONS = {"sin": sin, "cos": cos, "sqrt": sqrt, "pi": pi, "sign": np.sign, "abs": abs}
 
 
@@ -30,8 +29,8 @@ def derived(name: str | Path) -> Derivation:
 @cache
 def compiled(name: str | Path) -> CompiledModel:
     if name in ROBOTS:
-        return modules.compiled(str(name))
-    return compile_model(generate(derived(name)))
+        return modules.plain(str(name))
+    return modules.loaded(generate(derived(name)))
 
 
 def run_lines(lines: Sequence[str], values: Mapping[str, float]) -> dict[str, float]:
@@ -83,9 +82,7 @@ def torque(
         tau[i] = value("g", i) + found.get(f"e{names[i]}", 0.0)
         for j in range(len(names)):
             tau[i] += value("J", min(i, j), max(i, j)) * udd[j]
-            tau[i] += sum(
-                christoffel(i, j, k) * ud[j] * ud[k] for k in range(j, len(names))
-            )  # fmt: skip
+            tau[i] += sum(christoffel(i, j, k) * ud[j] * ud[k] for k in range(j, len(names)))
     return tau
 
 

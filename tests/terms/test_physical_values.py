@@ -1,14 +1,24 @@
-"""Values with sigma, known parameters tested, CAD compared: Monte Carlo with the truth known."""
+"""Known parameters: sets counted by brute force and elsewhere, values with sigma, CAD compared."""
+
+from itertools import combinations
 
 import numpy as np
 import pytest
 
-from modeler.core.errors import DataError, RobotError
+from modeler.core.errors import DataError, ModelerError, RobotError
 from modeler.formulas.cad import check_known, chi_squared_limit, compare_cad, limit
 from modeler.formulas.solve import solve
-from modeler.formulas.values import cad_from_file, cad_from_robot, derive_values, known_from_text
+from modeler.formulas.sufficient_sets import EASE, easiest_set, known_sets, smallest_number
+from modeler.formulas.values import (
+    cad_from_file,
+    cad_from_robot,
+    derive_values,
+    known_from_text,
+    rated,
+)
+from tests.in_turn import in_turn
 from tests.terms.cases import model_of
-from tests.terms.physical_cases import SEVEN, data_of, example, random_letters, system_of
+from tests.terms.physical_cases import SEVEN, data_of, example, random_letters, slopes_of, system_of
 
 
 def covariance_of(data: np.ndarray, rng: np.random.Generator, share: float) -> np.ndarray:
@@ -22,7 +32,7 @@ def covariance_of(data: np.ndarray, rng: np.random.Generator, share: float) -> n
 CASES = [
     ("two-link", ("m1", "m2"), 0.01),
     ("wrist", (*SEVEN, "cm"), 0.001),
-    ("wrist", (*SEVEN, "cJ11"), 0.001),
+    pytest.param("wrist", (*SEVEN, "cJ11"), 0.001, marks=pytest.mark.rotating),
     ("wrist", (*SEVEN, "bJ11"), 0.0001),
 ]
 
@@ -92,13 +102,13 @@ def test_known_parameters_are_tested_and_the_test_is_honest():
     C = covariance_of(data, rng, 0.001)
     L, z = np.linalg.cholesky(C), []
     sigmas = {"cm": 0.004}
-    for _ in range(30):
+    for _ in range(12):
         given = {x: truth[x] + sigmas.get(x, 0.0) * rng.normal() for x in solution.known}
         sample = data + L @ rng.normal(size=len(data))
         rows = check_known(solution, sample, C, given, sigmas)
         assert {"cm", "ct2", "bt1"} <= {row.letter for row in rows}
         z.append([row.z for row in rows])
-    assert 0.8 < np.sqrt(np.mean(np.square(z))) < 1.2
+    assert 0.75 < np.sqrt(np.mean(np.square(z))) < 1.25
     wrong = {x: truth[x] for x in solution.known} | {"ct2": truth["ct2"] * 1.05}
     told = {row.letter: row for row in check_known(solution, data, C, wrong, sigmas)}
     assert told["ct2"].contradicts and told["ct2"].implied == pytest.approx(truth["ct2"], rel=0.01)
@@ -116,7 +126,7 @@ def test_cad_false_alarms_are_as_rare_as_told():
     assert alarms <= 6  # 1.5 expected
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_wrong_cad_entry_is_found(seed):
     """A parameter by chance, changed by 15 sigma of what shows it best: among those named, and
     the best of them, or one that enters in the same way, has the value of the truth.
@@ -169,10 +179,8 @@ def test_cad_tolerances_widen_and_missing_values_are_told():
     [
         ("am=nan", "--known, am: got 'nan'; expected a finite number"),
         ("am=12+-", "--known, am, standard deviation: got ''; expected a finite number"),
-        ("am=12+--1", "am: got the standard deviation -1; expected 0 or more"),
         ("am,am", "--known: am is given twice"),
         ("aM=3", r'--known: got "aM" \(did you mean "am"\?\); expected physical parameters of wr'),
-        ("am=heavy", "--known, am: got 'heavy'; expected a finite number"),
     ],
 )
 def test_known_parameters_that_are_none(text, message):
@@ -193,11 +201,8 @@ def test_known_parameters_as_they_are_typed():
         ("mass = 12", 'cad.toml: got "mass"'),
         ("am = [12, 0.1, 3]", r"cad.toml, am: got \[12, 0.1, 3\]; expected \[value, standard dev"),
         ("am = 'heavy'", "cad.toml, am: got 'heavy'; expected a finite number"),
-        ("am = true", "cad.toml, am: got True; expected a finite number"),
-        ("am = inf", "cad.toml, am: got inf; expected a finite number"),
         ("relative_sigma = -1\nam = 2", "relative_sigma: got the standard deviation -1"),
         ("al1 = 0.2", "cad.toml: no value of a parameter with an effect"),
-        ("", "cad.toml: no value of a parameter with an effect"),
     ],
 )
 def test_cad_files_that_are_none(tmp_path, text, message):
@@ -219,3 +224,111 @@ def test_cad_files_as_they_are_written(tmp_path):
         cad_from_robot(model_of("two-link").robot, system_of("two-link"), "here")
     nominal = cad_from_robot(model_of("wrist").robot, system_of("wrist"), "here")
     assert nominal.values["bl1"] == 0.1 and set(nominal.values) == set(system_of("wrist").letters)
+
+
+# Counted by another program: exact ranks modulo 2147483647 and 2147483629 at two points.
+CLASSES = {
+    (4, 2, 2): 44, (3, 3, 2): 286, (2, 4, 2): 605, (1, 5, 2): 462, (0, 6, 2): 88,
+    (4, 1, 3): 166, (3, 2, 3): 1441, (2, 3, 3): 3877, (1, 4, 3): 3801, (0, 5, 3): 1084,
+    (4, 0, 4): 129, (3, 1, 4): 1992, (2, 2, 4): 7538, (1, 3, 4): 9618, (0, 4, 4): 3587,
+    (3, 0, 5): 765, (2, 1, 5): 5251, (1, 2, 5): 9426, (0, 3, 5): 4559,
+    (2, 0, 6): 1043, (1, 1, 6): 3344, (0, 2, 6): 2203, (1, 0, 7): 285, (0, 1, 7): 285,
+}  # fmt: skip
+
+
+def jacobian(system) -> np.ndarray:
+    """(data, letters) at a random robot."""
+    return slopes_of(system, random_letters(system, np.random.default_rng(1)))
+
+
+def brute_force(system, size: int) -> list[tuple[str, ...]]:
+    """Sets whose complement has independent columns, by singular values."""
+    J, n = jacobian(system), len(system.letters)
+    found = []
+    for known in combinations(range(n), size):
+        others = [k for k in range(n) if k not in known]
+        if len(others) <= len(J) and np.linalg.matrix_rank(J[:, others], tol=1e-9) == len(others):
+            found.append(tuple(system.letters[k] for k in known))
+    return found
+
+
+def test_the_wrist_as_counted_elsewhere():
+    found = known_sets(system_of("wrist"))
+    assert (found.size, found.smallest, found.count, found.possible) == (8, 8, 61879, 1081575)
+    assert dict(found.classes) == CLASSES
+    contains = found.contains
+    assert contains["cm"] == 9062 and contains["bl1"] == contains["ct1"] == 34516
+    assert contains["aJ11"] == 34077 and contains["bt3"] == 14327 and contains["cJ12"] == 14306
+
+
+def test_seven_never_suffice():
+    found = known_sets(system_of("wrist"), 7)
+    assert (found.count, found.possible, found.smallest) == (0, 480700, 8)
+
+
+def class_of(system, members):
+    """(masses, lengths and rotor inertias, centres, inertias) of a set."""
+    eases = [EASE[system.kinds[x]] for x in members]
+    return sum(e < 2 for e in eases), eases.count(2), eases.count(3)
+
+
+@pytest.mark.parametrize(
+    ("name", "size"), [("two-link", 1), ("two-link", 2), ("two-link", 4), ("two-link", 8),
+                       ("scara", 8), ("emps", 0), ("emps", 1), ("weightless", 4)],
+)  # fmt: skip
+def test_counts_by_brute_force(name, size):
+    system = system_of(name)
+    expected = brute_force(system, size)
+    found = known_sets(system, size)
+    assert found.count == len(expected)
+    assert found.contains == {} or all(
+        found.contains[x] == sum(x in s for s in expected) for x in system.letters
+    )
+    for key, count in found.classes.items():
+        members = [s for s in expected if class_of(system, s) == key]
+        assert len(members) == count
+        if key == next(iter(found.classes)):
+            assert set(found.easiest) == set(members)
+
+
+@pytest.mark.parametrize("name", ["scara", *in_turn("puma560", "orthoglide-2003")])
+def test_the_easiest_set_suffices_and_is_smallest(name):
+    system, known = system_of(name), set(easiest_set(system_of(name)))
+    J = jacobian(system)
+    others = [k for k, x in enumerate(system.letters) if x not in known]
+    assert len(known) == smallest_number(system) == len(system.letters) - len(others)
+    assert np.linalg.matrix_rank(J[:, others]) == len(others) == np.linalg.matrix_rank(J)
+
+
+def test_too_many_sets_and_sizes_that_are_none():
+    with pytest.raises(ModelerError, match=r"puma560: about .*e\+13 sets to look at, more than 3e"):
+        known_sets(system_of("puma560"))
+    for size in (-1, 9):
+        with pytest.raises(ModelerError, match=rf"got sets of {size}; expected 0 to 8"):
+            known_sets(system_of("two-link"), size)
+
+
+def test_rating_against_finite_differences():
+    """One set, one input at a time: change it by 1 %, solve the quantities by Newton's method."""
+    system, truth = system_of("wrist"), example()
+    known = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33", "cm")
+    (row,) = rated(system, [known], truth)
+    unknown = [x for x in system.letters if x not in known]
+    at = [system.letters.index(x) for x in unknown]
+    data = data_of(system, truth)
+    squares = np.zeros(len(unknown))
+    for k in range(len(data) + len(known)):
+        wanted, letters = data.copy(), dict(truth)
+        if k < len(data):
+            wanted[k] *= 1 + 1e-6
+        else:
+            letters[known[k - len(data)]] *= 1 + 1e-6
+        for _ in range(5):
+            J = slopes_of(system, letters)[:, at]
+            step = np.linalg.solve(J, wanted - data_of(system, letters))
+            letters |= {x: letters[x] + dx for x, dx in zip(unknown, step, strict=True)}
+        squares += [((letters[x] - truth[x]) / truth[x] / 1e-6) ** 2 for x in unknown]
+    grown = dict(zip(unknown, np.sqrt(squares), strict=True))
+    assert row.middle == pytest.approx(np.median(list(grown.values())), rel=1e-3)
+    assert row.letter == max(grown, key=grown.__getitem__)
+    assert row.worst == pytest.approx(grown[row.letter], rel=1e-3)

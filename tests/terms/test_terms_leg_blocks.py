@@ -1,6 +1,9 @@
-"""The blocks of Guegan, Khalil and Lemoine 2003, eqs. (1), (2), (23) to (30), as printed."""
+"""Printed forms of robots with loops: blocks of Guegan, Khalil and Lemoine 2003 (eqs. (1), (2),
+(23) to (30)), J_t, J_p and the torque, against the compiled C.
+"""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,9 +11,11 @@ import pytest
 from modeler.core.errors import RobotError
 from modeler.formulas import block_form
 from modeler.formulas.function_sheet import sheet_latex, sheet_lines
+from modeler.formulas.regressor_form import regressor_form, short_form
+from tests.in_turn import in_turn
 from tests.terms.cases import base_of, model_of
-from tests.terms.printed_lines import compiled, derived, known, run_lines
-from tests.terms.test_terms_loop_form import motor_states
+from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines
+from tests.terms.test_terms_whole_torque import check, motions_of, printed_columns
 
 
 def printed(name):
@@ -54,7 +59,7 @@ def states(name):
     derivation, model = derived(name), compiled(name)
     closure = derivation.model.closure
     solved, given = list(closure.solved), list(closure.given)
-    for q, qd, qdd in motor_states(name):
+    for q, qd, qdd in motions_of(derived(name)):
         u, ud = model.close(q[None]), model.coupling(q[None])[0] @ qd
         F = closure.jacobians(u)[0]
         drift = closure.evaluate(closure.drift, u, ud[None])[0]
@@ -75,12 +80,11 @@ def distance(name, turned=np.array):
     return worst
 
 
+QUICK = in_turn("orthoglide-2003", "orthoglide-2012")
 SLOW = [pytest.param(n, marks=pytest.mark.slow) for n in ("3rrr", "delta", "stewart")]
 
 
-@pytest.mark.parametrize(
-    "name", ["orthoglide-2003", "orthoglide-2003-similar-legs", "orthoglide-2012", *SLOW]
-)
+@pytest.mark.parametrize("name", ["orthoglide-2003-similar-legs", *QUICK, *SLOW])
 def test_blocks_make_the_regressor_of_the_c(name):
     assert distance(name) < 1e-12
 
@@ -132,12 +136,103 @@ def test_latex_has_the_names_of_the_paper():
 
 @pytest.mark.parametrize(
     ("name", "what"),
-    [
-        ("five-bar", "no platform"),
-        ("puma560", "no platform"),
-        pytest.param("evra", "all its motors", marks=pytest.mark.slow),
-    ],
+    [("five-bar", "no platform"), pytest.param("evra", "all its motors", marks=pytest.mark.slow)],
 )
 def test_robots_without_such_blocks_are_refused(name, what):
     with pytest.raises(RobotError, match=what):
         block_form(model_of(name), base_of(name))
+
+
+@pytest.mark.slow
+def test_a_block_of_four_equations(loop_robots_folder):
+    check(loop_robots_folder / "rccc.toml")
+
+
+def test_guegan_relations_stand_beside_the_formulas():
+    """Eq. 42: G says q4 = -q3, q5 = -q2 - pi/2, q7 = q3 of every leg."""
+    form = short_form(derived("orthoglide-2003").model, derived("orthoglide-2003").base)
+    assert form.loops is not None
+    told = "\n".join(form.loops)
+    assert "q41 = -q31; q51 = -q21 - pi/2; q71 = q31" in told
+    assert "rows of J_t: Jp<p>_<a> of p, Jt<u>_<a> of the others; of motors: 1 and 0" in told
+    assert "tau = J_t' t, t: torques of the opened tree along u" in told
+
+
+# S. Briot, M. Gautier, 2012, part 2: f_p, the spheres on which the bars hold the platform.
+SPHERES = [
+    "x**2 + y**2 + (z - q11 - d6)**2 - d4**2",
+    "(x - q12 - d6 + a)**2 + y**2 + (z - a)**2 - d4**2",
+    "x**2 + (y - q13 - d6 + a)**2 + (z - a)**2 - d4**2",
+]
+
+
+def test_spheres_are_those_of_the_paper():
+    derivation = derived("orthoglide-2012")
+    lines = sheet_lines(short_form(derivation.model, derivation.base).sheet)
+    names, rng = [j.name for j in derivation.model.robot.free], np.random.default_rng(2)
+    u = rng.uniform(-1, 1, len(names))
+    found = run_lines(lines, known(derivation, u, u, beta=[0.0] * derivation.base.rank))
+    values = found | {"x": found["q6x"], "y": found["q6y"], "z": found["q6"]}
+    for k, text in enumerate(SPHERES, start=1):
+        assert found[f"fp{k}"] == pytest.approx(eval(text, {}, values), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "orthoglide-2003",
+        pytest.param("3rrr", marks=pytest.mark.rotating),
+        *(pytest.param(n, marks=pytest.mark.slow) for n in ("delta", "stewart")),
+    ],
+)
+def test_spheres_vanish_where_the_loops_are_closed(name):
+    derivation, model = derived(name), compiled(name)
+    none = replace(derivation.base, parameters=())
+    lines = sheet_lines(short_form(derivation.model, none).sheet)
+    closure = derivation.model.closure
+    for q, _, _ in motions_of(derived(name)):
+        for step in (0.0, 1e-3):
+            u = model.close(q[None] + step)[0]
+            found = run_lines(lines, known(derivation, u, 0 * u))
+            spheres = [found[f"fp{k + 1}"] for k in range(len(closure.given))]
+            assert np.max(np.abs(spheres)) < 1e-12
+
+
+def test_six_motors_leave_the_inverse_of_k_to_a_solver():
+    """J_t = L K^-1 of a Stewart platform, L and K printed, against the closure's Jacobian."""
+    model = model_of("stewart")
+    none = replace(derived("five-bar").base, parameters=())
+    form = short_form(model, none)
+    assert any("F J_t = 0" in line for line in form.loops)
+    closure, names = model.closure, [joint.name for joint in model.robot.free]
+    assert closure is not None and closure.platform is not None
+    posture = {f"q{name}": u for name, u in zip(names, closure.home, strict=True)}
+    still = {f"qd{name}": 0.0 for name in names}
+    found = run_lines(sheet_lines(form.sheet), {**model.geometry.values, **posture, **still})
+    L = np.array(
+        [
+            [found.get(f"L{x}_{names[p]}", float(x == names[p])) for p in closure.platform]
+            for x in names
+        ]
+    )
+    entries = [entry for line in closure.jacobian for entry in line]
+    inputs = {f"q[{k}]": u for k, u in enumerate(closure.home)}
+    values = model.graph.evaluate(entries, {**model.geometry.values, **inputs})
+    F = np.array(values, dtype=float).reshape(len(closure.equations), len(names))
+    expected = -np.linalg.solve(F[:, list(closure.solved)], F[:, list(closure.given)])
+    J = L @ np.linalg.inv(L[list(closure.given)])
+    assert np.max(np.abs(J[list(closure.solved)] - expected)) < 1e-11 * np.max(np.abs(expected))
+
+
+def test_columns_of_a_loop_robot_are_the_tree_s_projected():
+    name = "five-bar"
+    derivation, model = derived(name), compiled(name)
+    lines = sheet_lines(regressor_form(derivation.model, derivation.base).sheet)
+    for q, qd, qdd in motions_of(derived(name)):
+        u, G = model.close(q[None])[0], model.coupling(q[None])[0]
+        first = run_lines(lines, known(derivation, u, G @ qd, [0.0] * len(u)))
+        J, bias = printed_coupling(derivation, first)
+        found = run_lines(lines, known(derivation, u, J @ qd, J @ qdd + bias))
+        expected = model.base_regressor(q[None], qd[None], qdd[None])[0]
+        printed = J.T @ printed_columns(derivation, found)
+        assert np.max(np.abs(printed - expected)) < 1e-12 * np.max(np.abs(expected))

@@ -1,24 +1,35 @@
 """Coefficient tables of other robots: names, relations, physical letters, the map."""
 
 import random
+from fractions import Fraction
+from typing import Any
 
+import numpy as np
 import pytest
 import sympy
+from sympy.polys.domains import QQ
+from sympy.polys.orderings import lex
+from sympy.polys.rings import PolyRing
 
 from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.field import value_modulo
-from modeler.formulas.coefficients import coefficient_table
+from modeler.formulas.coefficients import coefficient_table, independent_coefficients
 from modeler.formulas.physical import random_point
-from modeler.formulas.ring import inverse_map
+from modeler.formulas.render import backward_lines, forward_lines
+from modeler.formulas.ring import base_map, inverse_map, motions_of
 from modeler.robot.read import robot_from_text
-from tests.terms.cases import TEXTS, edited_wrist, robot_text, table_of
+from tests.base.formulas import text_value
+from tests.in_turn import in_turn
+from tests.terms.cases import TEXTS, closed_of, edited_wrist, model_of, robot_text, table_of
+from tests.terms.closed_form_values import evaluate
+from tests.terms.printed_lines import compiled, derived
 
-ROBOTS = ["two-link", "scara", "general3", "odd", "weightless", "emps", "demo-arm"]
+ROBOTS = ["two-link", "odd", "emps", *in_turn("scara", "general3", "weightless", "demo-arm")]
 
 
-@pytest.mark.parametrize("name", [*ROBOTS, "orthoglide-leg"])
+@pytest.mark.parametrize("name", [*ROBOTS, *in_turn("orthoglide-leg")])
 def test_combinations_hold_at_a_random_point(name):
     """Exactly, modulo a prime: every coefficient is the combination that the table states."""
     table = table_of(name)
@@ -109,3 +120,85 @@ def test_symbol_that_is_a_generic_letter_is_refused():
     model = derive_model(robot_from_text(text, "weightless"))
     with pytest.raises(RobotError, match=r"symbol m12 is also the name of a physical parameter"):
         coefficient_table(model, base_parameters(model))
+
+
+@pytest.mark.parametrize("name", ["wrist", *in_turn("odd")])
+def test_the_printed_map_and_its_printed_inverse_undo_each_other(name):
+    table, random = table_of(name), np.random.default_rng(14)
+    lengths = {name: random.uniform(0.3, 1.4) for name in table.closed.algebra.geometry.values}
+    base = {name: random.uniform(0.3, 1.4) for name in table.base_names}
+    forward = [line.split(" = ") for line in forward_lines(table)]
+    coefficients = {name: text_value(right, lengths | base) for name, right in forward}
+    assert list(coefficients) == list(table.map.rows)
+    backward = [line.split(" = ") for line in backward_lines(table)]
+    if table.map.determinant is None:
+        assert backward == []
+        return
+    found = {name: text_value(right, lengths | coefficients) for name, right in backward}
+    assert found.keys() == set(table.map.columns)
+    for name, value in found.items():
+        assert value == pytest.approx(base[name], rel=1e-10), name
+
+
+TIED_ROBOTS = ["orthoglide-leg", *in_turn("geared", "sr400")]
+
+
+@pytest.mark.parametrize("name", TIED_ROBOTS)
+def test_expanded_form_of_a_tied_robot_gives_the_torque_of_the_c(name):
+    derivation, model = derived(name), compiled(name)
+    columns = derivation.base.columns
+    closed = closed_of(name)
+    rng = np.random.default_rng(4)
+    chi = dict.fromkeys(derivation.model.names, 0.0)
+    for column in columns:
+        if column.kind in ("inertial", "rotor_inertia"):
+            chi[column.name] = float(rng.normal())
+    for _ in range(3):
+        q, qd, qdd = rng.uniform(-2, 2, (3, derivation.model.geometry.coordinates))
+        found = np.array(evaluate(closed, list(q), chi).torque(qd, qdd))
+        phi = model.regressor(q[None], qd[None], qdd[None])[0]
+        expected = phi @ np.array([chi[name] for name in derivation.model.names])
+        assert np.max(np.abs(found - expected)) < 1e-12 * np.max(np.abs(expected))
+
+
+def test_a_leg_has_34_coefficients_of_rank_12():
+    """As many as its inertial base parameters (eq. 18); gravity acts on q3 alone."""
+    table = table_of("orthoglide-leg")
+    assert len(table.coefficients) == 34 and table.relations.rank == 12
+    assert len(table.known_geometry) == len(table.map.columns) == 12 and table.map.determinant
+    assert [c.monomial for c in table.coefficients if c.function == "g3"] == ["s3", "c3"]
+    assert "m5" not in table.physical.letters  # link 5 has no body
+
+
+def test_motions_of_gears_screws_and_sums():
+    """q2 = q1/2 makes q1/2 the angle; 1.37 q3 is an angle of its own; q3 - 2 q1 too long a sum."""
+    found = motions_of(model_of("geared").geometry)
+    assert found.names == ("s1_2", "c1_2", "s3", "c3", "s7", "c7", "q1", "s5", "c5", "s6", "c6")
+    assert found.turns[0] == {0: 2} and found.turns[1] == {0: 1}
+    assert found.each[0].form == {0: Fraction(1, 2)}
+    assert found.each[4].form == {1: Fraction(137, 100)} and found.travel(0) == 6
+
+
+def test_parallelograms_need_no_angles_of_their_own():
+    found = motions_of(model_of("sr400").geometry)
+    assert [motion.joint for motion in found.each] == ["1", "2", "4", "5", "6", "7"]
+
+
+def test_long_tables_are_cut_to_what_the_others_follow_from():
+    table = table_of("wrist")
+    short = independent_coefficients(table)
+    assert len(table.coefficients) == 101
+    assert [c.name for c in short.coefficients] == list(table.relations.independent)
+
+
+def test_a_determinant_that_nobody_would_read_is_not_expanded():
+    """That of seven joints with general angles takes minutes."""
+    ring = PolyRing(["a", "b"], QQ, lex)
+    names = [str(k) for k in range(13)]
+    a, b = ring.gens
+
+    def entries(size: int) -> list[dict[int, Any]]:
+        return [{j: a**j + b**i * (i + j) for j in range(size)} for i in range(size)]
+
+    assert base_map(names[:2], entries(2), names[:2], ring).determinant
+    assert base_map(names, entries(13), names, ring).determinant is None

@@ -1,13 +1,20 @@
-"""What people and machines read says the same as the formulas."""
+"""What people, machines and TeX read says the same as the formulas."""
 
 import re
+import shutil
+import subprocess
 from fractions import Fraction
 from math import cos, sin
+from pathlib import Path
 
+import numpy as np
 import pytest
-import sympy
 
-from modeler.formulas.closed_form import closed_form
+from modeler.api import load
+from modeler.cli import main
+from modeler.derivation.relations import as_latex
+from modeler.formulas.function_sheet import SheetPrinter, sheet_latex, sheet_lines
+from modeler.formulas.regressor_form import regressor_form, short_form
 from modeler.formulas.render import (
     closed_form_latex,
     closed_form_markdown,
@@ -19,11 +26,11 @@ from modeler.formulas.render import (
     table_lines,
 )
 from modeler.formulas.text import LATEX, combination_text, latex_symbol, signed_sum
-from tests.base.formulas import written_value
-from tests.terms.cases import model_of, table_of
+from tests.base.formulas import text_value, written_value
+from tests.effects.test_effects_in_c import REFERENCE, SHAPES, written
+from tests.terms.cases import closed_of, model_of, table_of
 from tests.terms.closed_form_values import evaluate
-
-ROBOTS = ["odd"]
+from tests.terms.printed_lines import derived, known, run_lines
 
 
 def numbers_of(name: str) -> tuple[dict[str, float], list[float], dict[str, float]]:
@@ -50,62 +57,52 @@ def printed_functions(text: str) -> dict[str, str]:
     }
 
 
-def value(text: str, names: dict[str, float]) -> float:
-    local = {n: sympy.Symbol(n) for n in names}
-    expression = sympy.sympify(text, locals=local)
-    return float(expression.subs({local[n]: v for n, v in names.items()}))
+def expected(name: str) -> dict[str, float]:
+    """{function: value}, gravity with its letter taken out."""
+    closed, (_, q, chi) = closed_of(name), numbers_of(name)
+    at = evaluate(closed, q, chi)
+    factor = closed.algebra.geometry.values.get(closed.gravity_factor, 1.0)
+    values = {("gravity", (i,)): value / factor for i, value in at.gravity.items()}
+    values |= {("inertia", place): value for place, value in at.inertia.items()}
+    values |= {("christoffel", place): value for place, value in at.christoffel.items()}
+    return {f.name: values[f.kind, f.joints] for f in closed.functions}
 
 
-def expected(name: str, function: str, q: list[float], chi: dict[str, float]) -> float:
-    closed = closed_form(model_of(name))
-    found, at = evaluate(closed, q, chi), closed.by_name[function]
-    if at.kind == "gravity":
-        factor = closed.algebra.geometry.values.get(closed.gravity_factor, 1.0)
-        return found.gravity[at.joints[0]] / factor
-    return found.inertia[at.joints] if at.kind == "inertia" else found.christoffel[at.joints]
-
-
-@pytest.mark.parametrize("name", ROBOTS)
-def test_text_can_be_read_back(name):
-    names, q, chi = numbers_of(name)
-    printed = printed_functions(closed_form_text(closed_form(model_of(name))))
+def test_text_can_be_read_back():
+    names, told = numbers_of("odd")[0], expected("odd")
+    printed = printed_functions(closed_form_text(closed_of("odd")))
     for function, text in list(printed.items())[::8]:
-        assert value(text, names) == pytest.approx(expected(name, function, q, chi), rel=1e-9)
+        assert text_value(text, names) == pytest.approx(told[function], rel=1e-9)
 
 
 def test_equation_names_the_factored_letter():
-    assert "+ g*g_i" in closed_form_text(closed_form(model_of("wrist")))
-    assert "+ g_i" in closed_form_text(closed_form(model_of("odd")))
+    assert "+ g*g_i" in closed_form_text(closed_of("wrist"))
+    assert "+ g_i" in closed_form_text(closed_of("odd"))
 
 
 def test_markdown_has_a_row_per_monomial():
-    closed = closed_form(model_of("wrist"))
+    closed = closed_of("wrist")
     page = closed_form_markdown(closed)
     assert page.count("\n| `") == closed.monomials == 101
     assert "| `s2**2*s3**2` | `-XX3 + YY3` |" in page
 
 
-@pytest.mark.parametrize("name", ["odd"])
-def test_latex_has_the_values_of_the_text(name):
-    closed = closed_form(model_of(name))
-    names, _, _ = numbers_of(name)
-    letters = {latex_symbol(key): value for key, value in names.items()}
+def test_latex_of_a_closed_form_has_its_values():
+    closed, told = closed_of("odd"), expected("odd")
+    letters = {latex_symbol(key): value for key, value in numbers_of("odd")[0].items()}
     blocks = closed_form_latex(closed).split("\\begin{align*}\n")[1:]
-    text = printed_functions(closed_form_text(closed))
-    assert len(blocks) >= len(closed.functions) == len(text)
-    for block, function in zip(blocks, text.values(), strict=False):
+    assert len(blocks) >= len(closed.functions) == len(told)
+    for block, function in list(zip(blocks, told, strict=False))[::4]:
         _, right = block.split("\n\\end{align*}")[0].split(" ={}& ")
         found = written_value(right.replace(" \\\\\n& ", " "), letters)
-        assert found == pytest.approx(value(function, names), rel=1e-9, abs=1e-12)
+        assert found == pytest.approx(told[function], rel=1e-9, abs=1e-12)
 
 
 def test_combinations_and_sums_are_known():
     table = table_of("wrist")
-    assert table.relations.rank == 17 and len(table.coefficients) == 101
     assert combination_text(table.relations.combinations["PS41"]) == "-PJ4/2"
     base = next(line[4] for line in table_lines(table) if line[0] == "PJ4")
     assert base == "-2*YZ3 + 2*bl1*MY3" and determinant_text(table) == "-16"
-    assert table.identifiability.sums == ({"ct1": 1, "bl1": 1},)
 
 
 def test_coefficients_as_tables():
@@ -122,33 +119,126 @@ def test_coefficients_as_tables():
 
 @pytest.mark.parametrize(
     ("name", "expected"),
-    [
-        ("cJ23", r"\mathit{cJ}_{23}"),
-        ("XX3R", r"\mathit{XX}_{3R}"),
-        ("g", "g"),
-        ("al1", r"\mathit{al}_{1}"),
-        ("alpha2", r"\alpha_{2}"),
-        ("cos(al)", r"\cos{(\mathit{al})}"),
-        ("two_words", r"\mathit{two\_words}"),
-    ],
-)
+    [("XX3R", r"\mathit{XX}_{3R}"), ("g", "g"), ("alpha2", r"\alpha_{2}"),
+     ("cos(al)", r"\cos{(\mathit{al})}"), ("two_words", r"\mathit{two\_words}")],
+)  # fmt: skip
 def test_latex_names(name, expected):
     assert latex_symbol(name) == expected
 
 
-@pytest.mark.parametrize(
-    ("terms", "text"),
-    [
-        ([], "0"),
-        ([(1, "a"), (-1, "b")], "a - b"),
-        ([(-2, "a"), (3, "")], "-2*a + 3"),
-        ([(Fraction(-1, 2), "a"), (Fraction(3, 2), "b"), (Fraction(-1, 3), "")],
-         "-a/2 + 3*b/2 - 1/3"),
-    ],
-)  # fmt: skip
-def test_signed_sums(terms, text):
-    assert signed_sum([(Fraction(value), name) for value, name in terms]) == text
-
-
-def test_signed_sum_in_latex():
+def test_signed_sums():
+    half = [(Fraction(-1, 2), "a"), (Fraction(3, 2), "b"), (Fraction(-1, 3), "")]
+    assert signed_sum(half) == "-a/2 + 3*b/2 - 1/3" and signed_sum([]) == "0"
+    assert signed_sum([(Fraction(1), "a"), (Fraction(-1), "b")]) == "a - b"
     assert signed_sum([(Fraction(-3, 2), "a")], LATEX) == r"-\tfrac{3}{2}\,a"
+
+
+FRAGMENT = "\\documentclass{article}\n\\usepackage{amsmath}\n\\begin{document}\n%s\\end{document}\n"
+ALL_FORMS = ("--closed-form", "--regressor", "--terms")
+
+
+def text_with_every_effect() -> str:
+    """The demonstration arm with all that a robot file may put on a joint, and awkward names."""
+    entries = []
+    for effect, form in written():
+        if form == 0:
+            shapes = "".join(f", {s.name} = {SHAPES[s.name]}" for s in effect.forms[0].free)
+            entries.append(f'{effect.id} = [{{joint = "2"{shapes}}}]')
+    text = load("demo-arm").text
+    text = text[: text.index("[effects]")].replace("D2", "upper_arm_2").replace("D3", "Omega3")
+    text = text.replace("Demonstration arm, 3R:", "100 % R&D_3 \u2013 #1 \u03b1 {~^}:")
+    return text + "\n".join(["[effects]", *entries]) + REFERENCE
+
+
+@pytest.fixture(scope="module")
+def every(tmp_path_factory) -> Path:
+    path = tmp_path_factory.mktemp("robot") / "every.toml"
+    path.write_text(text_with_every_effect())
+    return path
+
+
+def typeset(text: str, folder: Path) -> str:
+    """The log of pdfTeX."""
+    if shutil.which("pdflatex") is None:
+        pytest.skip("NOT CHECKED: no pdflatex (Debian: apt install texlive-latex-base)")
+    (folder / "page.tex").write_text(text)
+    command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "page.tex"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, timeout=120)
+    log = (folder / "page.log").read_text(errors="replace")
+    assert done.returncode == 0, log[-3000:]
+    return log
+
+
+def check_log(log: str) -> None:
+    wide = [float(points) for points in re.findall(r"Overfull \\hbox \((.*?)pt too wide", log)]
+    assert max(wide, default=0.0) <= 1.0
+    for complaint in ("Missing character", "\n!", "Undefined", "Overfull \\vbox"):
+        assert complaint not in log
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("wrist", "--closed-form", "--terms", "--expanded", "--kane", "--energy", "--document"),
+        pytest.param(
+            ("orthoglide-2003", "--closed-form", "--regressor"), marks=pytest.mark.rotating
+        ),
+        pytest.param(("stewart", "--document"), marks=pytest.mark.slow),
+        ("every", *ALL_FORMS, "--document"),
+    ],
+    ids="".join,
+)
+def test_what_derive_prints_compiles(capsys, tmp_path, every, words) -> None:
+    robot = str(every) if words[0] == "every" else words[0]
+    assert main(["derive", robot, *words[1:], "--format", "latex"]) == 0
+    printed = capsys.readouterr().out
+    check_log(typeset(printed if "--document" in words else FRAGMENT % printed, tmp_path))
+
+
+def test_what_physical_prints_compiles(capsys, tmp_path) -> None:
+    known = "am,bm,bl1,bt2,ct1,bJ33,cJ33,cm"
+    assert main(["physical", "wrist", "--known", known, "--format", "latex"]) == 0
+    check_log(typeset(FRAGMENT % capsys.readouterr().out, tmp_path))
+
+
+def test_a_line_too_wide_would_be_seen(tmp_path) -> None:
+    """The relations of the Orthoglide without breaks are wider than the page."""
+    page = as_latex(derived("orthoglide-2003").base).replace(" \\notag \\\\\n&\\quad {}", " ")
+    with pytest.raises(AssertionError):
+        check_log(typeset(FRAGMENT % page, tmp_path))
+
+
+def equations(page: str) -> list[tuple[str, str]]:
+    """Left and right sides, continued lines joined."""
+    blocks = re.findall(r"\\begin\{align\*\}\n(.*?)\n\\end\{align\*\}", page, re.DOTALL)
+    lines = [line for block in blocks for line in block.replace(" \\\\\n& ", " ").split(" \\\\\n")]
+    return [tuple(line.split(" ={}& ")) for line in lines]
+
+
+@pytest.mark.parametrize(
+    "name", ["every", pytest.param("orthoglide-2003", marks=pytest.mark.rotating)]
+)
+@pytest.mark.parametrize("form", [short_form, regressor_form])
+def test_latex_has_the_values_of_the_text(every, name, form) -> None:
+    """Both are evaluated line after line; names of LaTeX stay apart."""
+    derivation = derived(every if name == "every" else name)
+    free, rng = len(derivation.model.robot.free), np.random.default_rng(5)
+    numbers = rng.uniform(0.2, 1.4, (3, free))
+    start = known(derivation, *numbers, rng.uniform(0.2, 1.4, derivation.base.rank))
+    sheet = form(derivation.model, derivation.base).sheet
+    start |= {f"{signal}{j}": 0.5 for signal in "tTz" for j in "123"}
+    text = run_lines(sheet_lines(sheet), start | {"exp": np.exp, "tanh": np.tanh})
+    latex = {SheetPrinter(sheet, LATEX).letter(key): value for key, value in start.items()}
+    assert len(latex) == len(start)
+    sides = equations(sheet_latex(sheet))
+    assert len({left for left, _ in sides}) == len(sides)
+    for left, right in sides:
+        latex[left] = float(written_value(right, latex))
+    values = [latex[left] for left, _ in sides][-len(sheet.definitions) :]
+    expected = [text[definition.name] for definition in sheet.definitions]
+    np.testing.assert_allclose(values, expected, rtol=1e-9, atol=1e-12)
+
+
+def test_a_document_is_latex(capsys) -> None:
+    assert main(["derive", "two-link", "--document"]) == 1
+    assert "add --format latex" in capsys.readouterr().err
