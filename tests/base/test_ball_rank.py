@@ -16,8 +16,8 @@ from modeler.derivation.result import BallRank, ModularRank, SampledRank
 from modeler.derivation.walks import closed_walk
 from modeler.robot.read import robot_from_text
 from tests.base.test_hard_tables import CASES, model_of
-from tests.loops.texts import BENNETT, FOUR_BAR
 from tests.modules import module
+from tests.robot_texts import BENNETT, FOUR_BAR
 from tests.robots import ROBOTS
 
 SEED = 11

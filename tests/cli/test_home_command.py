@@ -13,8 +13,8 @@ from modeler.api import home, load
 from modeler.cli import main
 from modeler.core.builtin import builtin_text
 from modeler.robot.read import read_robot
-from tests.loops.test_loops_mistakes import CRANK
 from tests.robot.par_files import par_text
+from tests.robot_texts import CRANK
 
 BARE = CRANK[: CRANK.index("[home]")].rstrip() + "\n"
 

@@ -11,7 +11,7 @@ ROBOTS = ("wrist", "puma560", "rx90", "panda", "scara", "sr400-tree")
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_standard_regressor_and_base_torque(name):
-    from tests.symbolic.oracles import pinocchio_regressor
+    from tests.oracles.pinocchio_dynamics import pinocchio_regressor
 
     robot, model = read_robot(name), plain(name)
     rng = np.random.default_rng(21)

@@ -12,7 +12,7 @@ from modeler.codegen import Control, Derivation, derive
 from modeler.codegen.workflow import generate
 from modeler.robot.robot import INERTIAL, Robot
 from tests.codegen.fitted_library import FittedParameter, FittedSpec
-from tests.control.own_oracle import Oracle
+from tests.oracles.complex_step import Oracle
 
 OWN = {"Ia": 0.3, "Iam": 0.2, "Fv": 0.5, "Fvm": 0.4, "Fs": 0.8, "Fsm": 0.3, "Off": 0.2, "Fva": 0.1,
        "Fst": 0.4}  # fmt: skip

@@ -6,20 +6,22 @@ import zlib
 import numpy as np
 import pytest
 
-from modeler.codegen import derive, generate
+from modeler.codegen import derive, generate, load
 from modeler.codegen.control import Control
 from modeler.robot import INERTIAL
-from tests.control.robots import controlled, in_pinocchio, physical, robot_of
-from tests.modules import STRICT, compiler
+from modeler.robot.read import read_robot
+from tests.bodies import buildable
+from tests.control.draw import emitted
+from tests.modules import STRICT, compiler, loaded, plain
 
-NAME = "tree-1"
+NAME = "two-link"
 PROGRAM = r"""
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
-#include "tree_1_control.h"
+#include "two_link_control.h"
 
-static tree_1_store store;
+static two_link_store store;
 static int over;
 
 /* A cycle: all of one set, or none. */
@@ -27,10 +29,10 @@ static void *reader(void *counted)
 {
     int cycles = 0;
     while (!__atomic_load_n(&over, __ATOMIC_ACQUIRE)) {
-        const tree_1_set *const set = tree_1_set_current(&store);
+        const two_link_set *const set = two_link_set_current(&store);
         if (set != NULL) {
             const double first = set->beta[0];
-            for (int i = 0; i < TREE_1_BASE_PARAMETERS; i++)
+            for (int i = 0; i < TWO_LINK_BASE_PARAMETERS; i++)
                 if (set->beta[i] < first || set->beta[i] > first)
                     return NULL;
             cycles++;
@@ -42,52 +44,54 @@ static void *reader(void *counted)
 
 int main(void)
 {
-    tree_1_set set, other;
+    two_link_set set, other;
     pthread_t thread;
     int cycles = 0, published = 0;
 
     memset(&set, 0, sizeof(set));
-    if (tree_1_set_current(&store) != NULL || tree_1_set_publish(&store, &set) != MODELER_FOREIGN)
+    if (two_link_set_current(&store) != NULL ||
+        two_link_set_publish(&store, &set) != MODELER_FOREIGN)
         return 1;
-    for (int i = 0; i < TREE_1_BASE_PARAMETERS; i++)
+    for (int i = 0; i < TWO_LINK_BASE_PARAMETERS; i++)
         set.beta[i] = 0.5 + i;
     for (size_t i = 0; i < sizeof(set.widths) / sizeof(*set.widths); i++)
         set.widths[i] = 0.01;
-    tree_1_set_seal(&set);
+    two_link_set_seal(&set);
     printf("%lu %u", (unsigned long)set.checksum, (unsigned)(sizeof(set.widths) / sizeof(double)));
-    if (tree_1_set_check(&set) != MODELER_DONE)
+    if (two_link_set_check(&set) != MODELER_DONE)
         return 2;
-    for (size_t byte = 0; byte < offsetof(tree_1_set, checksum); byte++) {
+    for (size_t byte = 0; byte < offsetof(two_link_set, checksum); byte++) {
         other = set;
         ((unsigned char *)&other)[byte] ^= 4;
-        if (tree_1_set_check(&other) != MODELER_FOREIGN)
+        if (two_link_set_check(&other) != MODELER_FOREIGN)
             return 3;
     }
     other = set;
     other.beta[1] = 1e300 * 1e300;
-    tree_1_set_seal(&other);
-    if (tree_1_set_check(&other) != MODELER_NOT_FINITE)
+    two_link_set_seal(&other);
+    if (two_link_set_check(&other) != MODELER_NOT_FINITE)
         return 4;
-    if (tree_1_set_publish(&store, &set) != MODELER_DONE)
+    if (two_link_set_publish(&store, &set) != MODELER_DONE)
         return 5;
-    if (tree_1_set_publish(&store, &set) != MODELER_UNFINISHED) /* nobody has taken it */
+    if (two_link_set_publish(&store, &set) != MODELER_UNFINISHED) /* nobody has taken it */
         return 6;
-    if (tree_1_set_publish(&store, &other) != MODELER_NOT_FINITE)
+    if (two_link_set_publish(&store, &other) != MODELER_NOT_FINITE)
         return 7;
-    if (memcmp(tree_1_set_current(&store), &set, sizeof(set)) != 0)
+    if (memcmp(two_link_set_current(&store), &set, sizeof(set)) != 0)
         return 8;
-    for (int i = 0; i < TREE_1_BASE_PARAMETERS; i++)
+    for (int i = 0; i < TWO_LINK_BASE_PARAMETERS; i++)
         set.beta[i] = 0.0;
-    tree_1_set_seal(&set);
-    while (tree_1_set_publish(&store, &set) != MODELER_DONE || tree_1_set_current(&store) == NULL)
+    two_link_set_seal(&set);
+    while (two_link_set_publish(&store, &set) != MODELER_DONE ||
+           two_link_set_current(&store) == NULL)
         ;
     if (pthread_create(&thread, NULL, reader, &cycles) != 0)
         return 9;
     while (published < 100) {
-        for (int i = 0; i < TREE_1_BASE_PARAMETERS; i++)
+        for (int i = 0; i < TWO_LINK_BASE_PARAMETERS; i++)
             set.beta[i] = published;
-        tree_1_set_seal(&set);
-        published += tree_1_set_publish(&store, &set) == MODELER_DONE;
+        two_link_set_seal(&set);
+        published += two_link_set_publish(&store, &set) == MODELER_DONE;
     }
     __atomic_store_n(&over, 1, __ATOMIC_RELEASE);
     pthread_join(thread, NULL);
@@ -99,7 +103,7 @@ int main(void)
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     where = tmp_path_factory.mktemp("set")
-    generate(derive(robot_of(NAME)), where, control=Control())
+    generate(derive(load(NAME)), where, control=Control())
     (where / "hammer.c").write_text(PROGRAM)
     return where
 
@@ -110,7 +114,7 @@ def folder(tmp_path_factory):
     [("gcc", ["-fsanitize=thread"]), ("gcc", ["-fsanitize=address,undefined"]), ("clang", [])],
 )
 def test_sets_are_checked_and_never_torn(folder, cc, flags):
-    sources = ["hammer.c", "tree_1.c", "tree_1_base_regressor.c", "tree_1_control.c"]
+    sources = ["hammer.c", "two_link.c", "two_link_base_regressor.c", "two_link_control.c"]
     strict = [flag for flag in STRICT if flag != "-Wpedantic"]
     made = folder / f"hammer-{cc}{len(flags)}"
     command = [compiler(cc), *strict, "-O1", "-g", *flags, "-o", made, *sources]
@@ -118,7 +122,7 @@ def test_sets_are_checked_and_never_torn(folder, cc, flags):
     done = subprocess.run([made], capture_output=True, text=True, check=False, timeout=60)
     assert done.returncode == 0, done.stderr
     checksum, widths = map(int, done.stdout.split())
-    spec = controlled(NAME).spec
+    spec = emitted(NAME)[1].spec
     numbers = [0.5 + i for i in range(len(spec.base))] + [0.01] * widths
     words = [int(spec.signature()[i : i + 8], 16) for i in (0, 8)]
     stated = np.array(words, np.uint32).tobytes() + np.array(numbers).tobytes()
@@ -126,9 +130,10 @@ def test_sets_are_checked_and_never_torn(folder, cc, flags):
 
 
 def test_widths_at_run_time():
-    model, random = controlled(NAME), np.random.default_rng(4)
-    chi = physical(model.spec, random)
-    beta, n = model.base_parameters([*chi.values()]), len(model.spec.joints)
+    model, random = loaded(emitted(NAME)[1]), np.random.default_rng(4)
+    values = buildable(model.spec, random)
+    chi = dict(zip([p.name for p in model.spec.standard], values, strict=True))
+    beta, n = model.base_parameters(values), len(model.spec.joints)
     q, qd, qdd = random.normal(size=(3, 20, n))
     specs = {f.name.removeprefix(f"{model.spec.prefix}_"): f for f in model.spec.control.functions}
     count = specs["smooth_friction"].inputs[-1].size
@@ -149,16 +154,17 @@ def test_widths_at_run_time():
 
 def test_a_payload_is_added_to_the_parameters():
     """beta += K chi_load, against Pinocchio's robot with that body on its last link."""
-    pin = pytest.importorskip("pinocchio")
-    model, random = controlled("puma560"), np.random.default_rng(5)
-    chi, load = (physical(model.spec, random) for _ in range(2))
-    last = model.spec.joints[-1].name
-    inertial = {f"{prefix}{last}" for prefix in INERTIAL}
-    load = {name: v if name in inertial else 0.0 for name, v in load.items()}
-    beta = model.base_parameters([*chi.values()]) + model.base_parameters([*load.values()])
+    from tests.oracles.pinocchio_dynamics import pin, places_of
+
+    model, random = plain("puma560"), np.random.default_rng(5)
+    chi, load = (buildable(model.spec, random) for _ in range(2))
+    felt = {f"{prefix}{model.spec.joints[-1].name}" for prefix in INERTIAL}
+    load[[p.name not in felt for p in model.spec.standard]] = 0.0
+    beta = model.base_parameters(chi) + model.base_parameters(load)
     q, qd, qdd = random.normal(size=(3, 10, len(model.spec.joints)))
     tau = model.inverse_dynamics(q, qd, qdd, beta) - model.friction(qd, beta)
-    other, rows = in_pinocchio(robot_of("puma560"), {k: chi[k] + load[k] for k in chi})
+    both = dict(zip([p.name for p in model.spec.standard], chi + load, strict=True))
+    other, rows = places_of(read_robot("puma560"), both)
     data = other.createData()
     theirs = np.array([pin.rnea(other, data, *state) for state in zip(q, qd, qdd, strict=True)])
     assert rows == list(range(6))

@@ -69,7 +69,7 @@ def about_centre(body):
 
 @pytest.mark.parametrize("name", ["two-link", TURN[0]])
 def test_pinocchio_gives_the_same_torques(name):
-    from tests.symbolic.oracles import pin, pinocchio_model
+    from tests.oracles.pinocchio_dynamics import pin, pinocchio_model
 
     rng = np.random.default_rng(2)
     model, whole, _ = rows_of(name, rng, 60, 0.2)

@@ -5,7 +5,6 @@ import json
 
 import numpy as np
 import pytest
-from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
@@ -13,6 +12,7 @@ from modeler.estimation.energy_fit import identify_energy, unequal_least_squares
 from modeler.estimation.identify import base_equations, crossed, identify
 from modeler.estimation.result import fit_from_json
 from modeler.observation.observe import observe
+from tests.oracles.numpy_model import planar_arm
 
 NOISE = np.array([0.2, 0.5])
 SEEDS = 16

@@ -11,7 +11,7 @@ from operator import getitem
 
 import numpy as np
 import pytest
-from stand_in import Row, StandIn, planar_arm
+from numpy_model import NumpyModel, Row, planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.api import recompile
@@ -109,7 +109,7 @@ LOAD = {"M": 2.8, "MX": 0.3, "MY": -0.1, "MZ": 0.2, "ZZ": 0.05, "XX": 0.03, "YY"
 @cache
 def loaded_robot():
     """A 3R arm, bare and with a load on link 3; (model, bare log, loaded log)."""
-    robot = StandIn([Row(), Row(-np.pi / 2), Row(0.0, 0.4)])
+    robot = NumpyModel([Row(), Row(-np.pi / 2), Row(0.0, 0.4)])
     beta = some_beta(robot)
     bare = exact_log(robot, beta, "bare", seconds=15)
     log = exact_log(robot, beta, "loaded", seconds=15, seed=8)
@@ -155,7 +155,7 @@ def test_impossible_payloads():
     for payloads, words in (
         ([Payload(("other",))], "payload load: no log other; there are bare, loaded"),
         ([Payload(())], "no log is named"),
-        ([Payload(("loaded",), "7")], "no link 7; stand_in has 1, 2, 3"),
+        ([Payload(("loaded",), "7")], "no link 7; numpy_model has 1, 2, 3"),
         ([Payload(("loaded",), mass=-1.0)], "mass -1.0 kg; expected above 0"),
         ([Payload(("bare",)), Payload(("loaded",))], "same name"),
         ([Payload(("bare",)), Payload(("loaded",), name="b")], "every log carries a load"),

@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from stand_in import Row, StandIn
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
@@ -14,6 +13,7 @@ from modeler.observation.observe import observe
 from modeler.observation.read import read_log
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.modules import compiled, module
+from tests.oracles.numpy_model import NumpyModel, Row
 
 
 @pytest.mark.parametrize(
@@ -40,7 +40,7 @@ def test_a_simulated_robot_with_passive_joints_comes_back(name, tmp_path):
 @pytest.fixture(scope="module")
 def arm():
     """A 3R arm, values and log with 1 % noise."""
-    robot = StandIn([Row(), Row(-np.pi / 2), Row(0.0, 0.4)])
+    robot = NumpyModel([Row(), Row(-np.pi / 2), Row(0.0, 0.4)])
     beta = some_beta(robot)
     log = exact_log(robot, beta, seconds=20)
     noise = np.random.default_rng(5).normal(size=log.tau.shape)

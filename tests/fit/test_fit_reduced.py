@@ -7,8 +7,8 @@ from functools import cache
 
 import numpy as np
 import pytest
+from numpy_model import planar_arm
 from scipy.signal import lfilter
-from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError

@@ -12,9 +12,15 @@ from tests.loops.drawn_robots import DRAWN, drawn
 from tests.modules import loaded
 from tests.rotation import ROTATING
 
+TURN = pytest.mark.rotating
+
+ALWAYS = ("slider_crank", "rscr")
 LONG = ("swinging_four_bar", "watt", "stephenson", "rssr_universal", "rccc")
-WEIGHED = [pytest.param(kind, marks=ROTATING) if kind in LONG else kind for kind in DRAWN]
-"""All kinds that are drawn, some of them slow."""
+WEIGHED = [
+    kind if kind in ALWAYS else pytest.param(kind, marks=ROTATING if kind in LONG else TURN)
+    for kind in DRAWN
+]
+"""All kinds that are drawn: one in the plane and one in space always, some slow."""
 
 
 @cache

@@ -7,7 +7,8 @@ the frame that it meets, moved as far as the joint between them allows.
 import numpy as np
 
 from modeler.robot.read import robot_from_text
-from tests.loops.table_kinematics import Table, turned
+from tests.oracles.closed_ways import regularity
+from tests.oracles.complex_step import Oracle, rotation
 
 ATTEMPTS = 200
 REGULAR = 0.1  # smallest singular value of the solved columns at home
@@ -79,9 +80,8 @@ class _Drawing:
 
     def close(self, name: str, on: str, frame: str, kind: str) -> None:
         """The fixed row `name` where `frame` is, in the drawn posture, and the loop there."""
-        table = Table(robot_from_text(self.text(), "drawn"))
-        u = [[self.home[joint.variable] for joint in table.robot.free]]
-        frames = table.frames(np.array(u))
+        tree = Oracle(robot_from_text(self.text(), "drawn"))
+        frames = tree.frames(np.array([self.home[joint.variable] for joint in tree.robot.free]))
         (R, p), (S, o) = ((x[0][0], x[1][0]) for x in (frames[frame], frames[on]))
         R, p = self._freed(R, p, kind)
         cells = placed(S.T @ R, S.T @ (p - o))
@@ -96,11 +96,11 @@ class _Drawing:
         if kind == "planar":
             p = p + x * R[:, 0] + y * R[:, 1]
         if kind in ("cylindrical", "planar"):
-            R = R @ turned(2, angle)
+            R = R @ rotation(2, angle)
         if kind in ("spherical", "position"):
-            R = R @ turned(2, angle) @ turned(0, x) @ turned(2, y)
+            R = R @ rotation(2, angle) @ rotation(0, x) @ rotation(2, y)
         if kind == "universal":
-            R = R @ turned(2, angle) @ turned(0, np.pi / 2) @ turned(2, x)
+            R = R @ rotation(2, angle) @ rotation(0, np.pi / 2) @ rotation(2, x)
         return R, p
 
     def text(self) -> str:
@@ -249,8 +249,8 @@ def drawn(kind: str, seed: int) -> str:
     for attempt in range(ATTEMPTS):
         draw = _Drawing([seed, attempt])
         DRAWN[kind](draw)
-        table = Table(robot_from_text(draw.text(), "drawn"))
-        home = np.array([[draw.home[joint.variable] for joint in table.robot.free]])
-        if np.linalg.svd(table.slopes(home, table.solved)[0], compute_uv=False)[-1] > REGULAR:
+        oracle = Oracle(robot_from_text(draw.text(), "drawn"))
+        home = np.array([draw.home[joint.variable] for joint in oracle.robot.free])
+        if regularity(oracle, home) > REGULAR:
             return draw.text()
     raise AssertionError(f"no {kind} with a regular home among {ATTEMPTS}")

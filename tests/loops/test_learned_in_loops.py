@@ -12,7 +12,7 @@ from modeler.diagnosis import LawAsked
 
 def test_a_law_of_the_load_is_refused_in_loops(tmp_path: Path) -> None:
     log = tmp_path / "run.csv"
-    words = ["--duration", "6", "--rate", "100", "--seed", "1", "--out", str(log)]
+    words = ["--duration", "3", "--rate", "100", "--seed", "1", "--out", str(log)]
     assert main(["simulate", "five-bar", *words]) == 0
     model = api.identify(api.load("five-bar"), [log])
     told = "of load: five-bar has loops, and there a law reads the q, v and a of its joint"

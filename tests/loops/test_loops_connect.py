@@ -296,7 +296,7 @@ def test_there_are_as_many_base_parameters_as_mujoco_feels(name, folder):
     """tau is linear in each body's values and rotor; columns of one at a time."""
     loop = Loop(mjcf(name))
     m = loop.model
-    motions = list(zip(*states(loop, 40), strict=True))
+    motions = list(zip(*states(loop, 30), strict=True))
     m.body_mass[:], m.body_inertia[:], m.dof_armature[:] = 0.0, 0.0, 0.0
     m.body_sameframe[:], m.body_simple[:], m.dof_simplenum[:] = 0, 0, 0
     columns = []

@@ -1,15 +1,27 @@
-"""Base parameters of robots with loops drawn from a seed, against a dynamics of its own."""
+"""Base parameters of robots with loops drawn from a seed, against the oracle of complex steps."""
 
 import numpy as np
 import pytest
 
 from modeler.derivation.numeric_rank import grouping_matrix
 from tests.loops.derived import WEIGHED, of_drawing
-from tests.loops.own_dynamics import Dynamics, rank, reached
+from tests.oracles.closed_ways import reached
+from tests.oracles.complex_step import Oracle
 
-POSTURES, REACH = 120, 3.0
+POSTURES, REACH = 80, 3.0
+ZERO = 1e-11  # length of a column without effect, of the longest
+CERTAIN = 1e-10  # singular value of what torques tell, of the largest
 EXACT = ("four_bar", "slider_crank", "watt", "stephenson", "double_parallelogram", "rusr",
          "rssr_universal", "rscr", "rccc")  # fmt: skip
+
+
+def rank(W: np.ndarray) -> tuple[int, float, float]:
+    """Rank of (rows, columns) scaled to length 1, last singular value kept and first dropped."""
+    lengths = np.linalg.norm(W, axis=0)
+    W = W[:, lengths > ZERO * lengths.max()]
+    singular = np.linalg.svd(W / np.linalg.norm(W, axis=0), compute_uv=False)
+    kept = int(np.sum(singular > CERTAIN * singular[0]))
+    return kept, singular[kept - 1], singular[kept] if kept < len(singular) else 0.0
 
 
 @pytest.mark.parametrize("kind", WEIGHED)
@@ -17,11 +29,11 @@ def test_base_parameters_of_drawn_robots(kind: str) -> None:
     """The rank is that of the torques, and the base parameters give the same torques."""
     found = of_drawing(kind)
     assert found.base.proof.kind == "exact" or kind not in EXACT
-    dynamics = Dynamics(found.robot)
+    oracle = Oracle(found.robot)
     home = np.array([found.robot.home[joint.name] for joint in found.robot.free])
-    u = reached(dynamics.table, home, POSTURES, 1, REACH)
-    qd, qdd = np.random.default_rng(2).normal(size=(2, len(u), len(dynamics.table.given)))
-    torques = dynamics.regressor(u, qd, qdd)
+    u = reached(oracle, home, POSTURES, 1, REACH)
+    qd, qdd = np.random.default_rng(2).normal(size=(2, len(u), oracle.n))
+    torques = oracle.regressor(u, qd, qdd)
     W = np.stack([torques[name] for name in found.model.names], axis=2)
     W = W.reshape(-1, W.shape[2])
     count, kept, dropped = rank(W)

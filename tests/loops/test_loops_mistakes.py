@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 
 from modeler.core.builtin import builtin_text
-from modeler.core.errors import DataError, LoopError, ModelerError
+from modeler.core.errors import LoopError, ModelerError
 from modeler.derivation.derive import derive_model
 from modeler.derivation.geometry import exact_geometry
 from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel
 from modeler.robot.read import robot_from_text
-from modeler.simulation import SimulationSettings, simulate
-from tests.loops.texts import CRANK, PARALLELOGRAM
+from tests.robot_texts import CRANK, PARALLELOGRAM
 
 MISTAKES = [
     ("two motors", '"3", "0", 0, 1', '"3", "0", 1, 1', "1 degree of freedom, 2 joints are actuated "
@@ -73,13 +72,6 @@ def test_opposite_axes_are_not_a_closed_loop():
     text = builtin_text("sr400").replace('q9 = "1.3 + pi"', "q9 = 1.3")
     relations = derive_model(robot_from_text(text, "sr400.toml")).robot.relations
     assert relations["9"].text in ("-q2 + q7 + pi", "-q2 + q7 - pi")
-
-
-def test_motion_out_of_reach_is_told_by_the_simulator():
-    text = builtin_text("orthoglide-2003").replace("[0.10, 0.28, 0.8, 8]", "[0.90, 1.40, 0.8, 8]")
-    robot = robot_from_text(text, "orthoglide.toml")
-    with pytest.raises(DataError, match=r"no motion of joints 11, 12, 13 of orthoglide-2003"):
-        simulate(robot, SimulationSettings(duration=4, rate=50))
 
 
 @pytest.mark.parametrize("asked", [("--terms",), ("--closed-form", "--expanded")])

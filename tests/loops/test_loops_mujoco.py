@@ -1,8 +1,6 @@
 """Closed robots against MuJoCo: our torques, replayed open loop, carry out our motion there.
 
-MuJoCo gets the opened tree from the table, loops as equality constraints between sites, and
-relations as tendons of fixed length; it solves for constraint forces itself. It knows neither our
-projection nor our closing. Its constraints are springs, as stiff here as its steps allow.
+It knows neither our projection nor our closing.
 """
 
 import numpy as np
@@ -12,76 +10,17 @@ from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL
 from modeler.simulation import motion_limits, plant_parameters
 from modeler.simulation.closing import constraints_of, followed
-from modeler.simulation.rigid import body_from_standard
-from tests.elementary_motions import placed
 from tests.modules import module, plain
+from tests.oracles.mujoco_machine import STEP, mujoco, mujoco_model
+from tests.robots import in_turn
 from tests.rotation import ROTATING
 
-mujoco = pytest.importorskip("mujoco", reason="MuJoCo (PyPI: mujoco-core) is not installed")
-
-STEP, STEPS = 2e-4, 1500
-STIFF = f'solref="{2 * STEP:g} 1" solimp="0.99999 0.99999 0.001 0.5 2"'
-LIGHT = 1e-6  # kg and kg m2 of rows without a body: MuJoCo wants some
+STEPS = 1500
 ROBOTS = [
-    "five-bar", "sr400", "orthoglide-2003",
+    "five-bar",
+    *(in_turn(name) for name in ("sr400", "orthoglide-2003")),
     *(pytest.param(name, marks=ROTATING) for name in ("3rrr", "delta", "stewart", "evra")),
 ]  # fmt: skip
-
-
-def numbers(values):
-    return " ".join(f"{x:.17g}" for x in np.ravel(values))
-
-
-def body_text(robot, standard, name, values):
-    """The rows on that row, as nested bodies and sites."""
-    text = ""
-    for row in robot.joints:
-        if row.antecedent != name:
-            continue
-        rotation, origin, sign = placed(row, values)
-        axes = numbers([rotation[:, 0], rotation[:, 1]])
-        text += f'<body name="{row.name}" pos="{numbers(origin)}" xyaxes="{axes}">'
-        text += f'<site name="{row.name}"/>'
-        if row.moves:
-            kind = "hinge" if row.angular else "slide"
-            text += f'<joint name="{row.name}" type="{kind}" axis="0 0 {sign:g}"/>'
-            ten = {p: standard.get(p + row.name, 0.0) for p in INERTIAL}
-            body = body_from_standard(ten)
-            mass, inertia = max(body.mass, LIGHT), body.inertia + LIGHT * np.eye(3)
-            full = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-            text += f'<inertial pos="{numbers(body.centre)}" mass="{mass:.17g}" '
-            text += f'fullinertia="{numbers(full)}"/>'
-        text += body_text(robot, standard, row.name, values) + "</body>"
-    return text
-
-
-def tie_text(robot, values):
-    """Relations as tendons of fixed length, loops of points as connected sites."""
-    tendons = equalities = ""
-    variables = {joint.variable: 0.0 for joint in robot.moving}
-    for name, relation in robot.relations.items():
-        constant = relation.number(values | variables)
-        tendons += f'<fixed name="{name}"><joint joint="{name}" coef="1"/>'
-        for variable in sorted(relation.names & variables.keys()):
-            slope = relation.number(values | variables | {variable: 1.0}) - constant
-            tendons += f'<joint joint="{variable[1:]}" coef="{-slope:.17g}"/>'
-        tendons += "</fixed>"
-        equalities += f'<tendon tendon1="{name}" polycoef="{constant:.17g} 0 0 0 0" {STIFF}/>'
-    for loop in robot.loops:
-        equalities += f'<connect site1="{loop.frame}" site2="{loop.meets}" {STIFF}/>'
-    return f"<tendon>{tendons}</tendon><equality>{equalities}</equality>"
-
-
-def mujoco_model(robot, standard):
-    values = robot.symbol_values()
-    gravity = numbers([component.number(values) for component in robot.gravity])
-    return mujoco.MjModel.from_xml_string(
-        f'<mujoco><compiler angle="radian" boundmass="0" inertiafromgeom="false"/>'
-        f'<option timestep="{STEP}" gravity="{gravity}" integrator="RK4" solver="Newton" '
-        f'iterations="200" tolerance="1e-14" jacobian="dense"/>'
-        f"<worldbody>{body_text(robot, standard, '0', values)}</worldbody>"
-        f"{tie_text(robot, values)}</mujoco>"
-    )
 
 
 def smooth_motion(robot, time):
@@ -118,7 +57,8 @@ def test_our_torques_carry_out_our_motion(name):
     robot, c = read_robot(name), plain(name)
     standard = plant_parameters(robot, motion_limits(robot)).standard
     columns = module(name).model.names
-    chi = np.array([standard[n] if n.startswith(INERTIAL) else 0.0 for n in columns])
+    felt = (*INERTIAL, "Ia")
+    chi = np.array([standard[n] if n.startswith(felt) else 0.0 for n in columns])
     time = STEP * np.arange(STEPS + 1)
     q, _, _ = smooth_motion(robot, time)
     middle = smooth_motion(robot, time[:-1] + STEP / 2)

@@ -128,7 +128,7 @@ def test_memory_of_zeros_is_no_state_and_a_first_cycle_that_fails_does_no_harm(n
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_one_cycle_of_a_controller_at_1_khz_evaluates_the_loops_at_most_4_times(name, robots):
-    """Torques, M, g, C, friction and regressor together; they are those of the plain functions."""
+    """Torques, M, g, C, friction and regressor together."""
     robot = robots(name)
     spec, n, c = robot.spec, len(robot.spec.joints), len(robot.spec.base)
     counter = ctypes.c_int.in_dll(robot.library, "evaluations")
@@ -139,7 +139,7 @@ def test_one_cycle_of_a_controller_at_1_khz_evaluates_the_loops_at_most_4_times(
         now = [np.ascontiguousarray(x[k]) for x in (q, qd, qdd)]
         counter.value = 0
         assert robot.state(*now[:2]) == 0
-        at = {
+        at = {  # their values: tests/control/test_every_function.py
             "inverse_dynamics": robot.call("inverse_dynamics_at", now[2], beta, out=(n,)),
             "inertia_matrix": robot.call("inertia_matrix_at", beta, out=(n, n)),
             "gravity": robot.call("gravity_at", beta, out=(n,)),
@@ -148,37 +148,7 @@ def test_one_cycle_of_a_controller_at_1_khz_evaluates_the_loops_at_most_4_times(
             "base_regressor": robot.call("base_regressor_at", now[2], out=(n, c)),
         }
         assert counter.value <= 4
-        if k % 50:
-            continue
-        given = {
-            "inverse_dynamics": (*now, beta), "inertia_matrix": (now[0], beta),
-            "gravity": (now[0], beta), "coriolis": (*now[:2], beta),
-            "friction": (*now[:2], beta), "base_regressor": now,
-        }  # fmt: skip
-        for role, (status, got) in at.items():
-            plain = robot.call(role, *given[role], out=got.shape)
-            assert status == plain[0] == 0
-            np.testing.assert_allclose(got, plain[1], atol=1e-9 * (1 + np.abs(plain[1]).max()))
-
-
-@pytest.mark.parametrize("name", ROBOTS)
-def test_the_rate_of_the_coupling_is_its_derivative(name, robots):
-    """Central differences of G along the motion; and u has the second derivative G qdd + G' qd."""
-    robot = robots(name)
-    spec, n = robot.spec, len(robot.spec.joints)
-    assert spec.closure is not None
-    shape, h = (len(spec.closure.home), n), 1e-4
-    q, qd, _ = motion(spec, np.array([0.02 - h, 0.02, 0.02 + h]), 12)
-    G = [robot.call("coupling", np.ascontiguousarray(x), out=shape)[1] for x in q]
-    assert robot.state(q[1], qd[1], first=True) == 0
-    status, rate = robot.call("coupling_rate_at", out=shape)
-    expected = (G[2] - G[0]) / (2 * h)
-    assert status == 0 and np.abs(expected).max() > 0.1
-    np.testing.assert_allclose(rate, expected, atol=1e-5 * np.abs(expected).max())
-    np.testing.assert_allclose(robot.call("coupling_at", out=shape)[1], G[1], atol=1e-9)
-    assert robot.state(q[1], 1e-9 * qd[1]) == 0  # linear in the speeds, down to small ones
-    slow = 1e9 * robot.call("coupling_rate_at", out=shape)[1]
-    np.testing.assert_allclose(slow, rate, atol=1e-9 * np.abs(rate).max())
+        assert all(status == 0 and np.isfinite(got).all() for status, got in at.values())
 
 
 def bounded(robot: Robot, q: np.ndarray, qd: np.ndarray, most: int, first: bool = False) -> int:

@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from stand_in import planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
@@ -14,6 +13,7 @@ from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 from tests.in_turn import in_turn
 from tests.modules import compiled
+from tests.oracles.numpy_model import planar_arm
 
 SWING = {"sr400-tree": 0.4, "five-bar": 0.15, "wrist": 0.8}
 BROAD = Processing(derivatives="log", position_cutoff=0.0, parallel_cutoff=10.0)

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from stand_in import planar_arm
+from numpy_model import planar_arm
 
 from modeler.cli import main
 from modeler.numerics.held import clips_of, repeated_rows, rows_held

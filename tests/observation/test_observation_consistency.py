@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from stand_in import Row, StandIn, planar_arm
+from numpy_model import NumpyModel, Row, planar_arm
 
 from modeler.core.errors import DataError
 from modeler.observation.consistency import consistency
@@ -227,7 +227,7 @@ def test_a_column_that_is_wrong_throughout_is_refused_with_a_guess(case):
 def kinova(name):
     alpha = np.array([2, 1, -1, 1, -1, 1, -1]) * np.pi / 2
     r = [-0.28481, -0.01175, -0.42076, -0.01275, -0.31436, -0.00035, -0.10593]
-    arm = StandIn([Row(a, r=x) for a, x in zip(alpha, r, strict=True)])
+    arm = NumpyModel([Row(a, r=x) for a, x in zip(alpha, r, strict=True)])
     return read_log(DATA / "kinova_gen3" / f"{name}.parquet", arm.spec)
 
 
@@ -255,7 +255,9 @@ def test_the_transients_at_both_ends_of_measured_runs(number):
 )
 def test_rounded_measured_velocities_are_believed(name):
     rows = [Row(), Row(1.0), Row(d=1.0), Row(d=1.0), Row(1.0), Row(1.0)]
-    log = read_log(DATA / "ur10e" / f"ur-20_{name}.parquet", StandIn(rows, gains=(1.0,) * 6).spec)
+    log = read_log(
+        DATA / "ur10e" / f"ur-20_{name}.parquet", NumpyModel(rows, gains=(1.0,) * 6).spec
+    )
     for cutoff in (5.0, 20.0):
         found, bad = checked(log, cutoff)
         assert not bad.any() and found.notes == ()

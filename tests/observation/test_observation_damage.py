@@ -7,8 +7,8 @@ from collections import Counter
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from rough_joint import KINDS, rough_log
-from stand_in import Row, StandIn, planar_arm, rotor, slider
 
 from modeler.core.manifest import JointSpec
 from modeler.observation.log import Log
@@ -22,7 +22,7 @@ ARMS = {
     "slider": slider(),
     "rotor": rotor(),
     "planar": planar_arm(),
-    "four": StandIn([Row(), Row(np.pi / 2), Row(d=0.4), Row(-np.pi / 2)]),
+    "four": NumpyModel([Row(), Row(np.pi / 2), Row(d=0.4), Row(-np.pi / 2)]),
 }
 
 

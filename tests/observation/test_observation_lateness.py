@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from stand_in import planar_arm
+from numpy_model import planar_arm
 
 from modeler.observation.consistency import consistency, quieter
 from modeler.observation.log import Log

@@ -6,7 +6,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from stand_in import planar_arm, slider
+from numpy_model import planar_arm, slider
 
 from modeler.core.errors import DataError
 from modeler.observation.chunk import window

@@ -4,8 +4,8 @@ import dataclasses
 
 import numpy as np
 import pytest
+from numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from scipy.signal import butter, sosfiltfilt
-from stand_in import Row, StandIn, planar_arm, rotor, slider
 
 from modeler.core.errors import DataError
 from modeler.numerics.filters import filter_at, forwards_and_backwards
@@ -137,7 +137,7 @@ def test_a_burst_on_masked_samples_does_not_reach_any_row():
 
 
 def test_shafts_are_found_from_the_columns_alone():
-    wrist = StandIn([Row(), Row(-np.pi / 2), Row(np.pi / 2)], coupling={2: (0.0, 1.0, 0.5)})
+    wrist = NumpyModel([Row(), Row(-np.pi / 2), Row(np.pi / 2)], coupling={2: (0.0, 1.0, 0.5)})
     found = {shaft.name: shaft for shaft in shafts(wrist)}
     assert set(found) == {"1", "2", "3", "2+3"}
     assert found["2"].joints == (1,) and found["2+3"].joints == (1, 2)
@@ -147,7 +147,7 @@ def test_shafts_are_found_from_the_columns_alone():
 
 
 def test_rows_are_masked_where_a_coupled_shaft_stands_still():
-    wrist = StandIn([Row(), Row(-np.pi / 2), Row(np.pi / 2)], coupling={2: (0.0, 1.0, 1.0)})
+    wrist = NumpyModel([Row(), Row(-np.pi / 2), Row(np.pi / 2)], coupling={2: (0.0, 1.0, 1.0)})
     t, q, qd, qdd = motion(3)
     q[:, 2], qd[:, 2], qdd[:, 2] = -q[:, 1], -qd[:, 1], -qdd[:, 1]  # the shaft never turns
     log = Log("a", ("1", "2", "3"), t, q, np.ones_like(q), qd, qdd)
@@ -185,7 +185,7 @@ def test_what_cannot_be_observed_is_refused():
     log = exact_log(model, some_beta(model), logged=False)
     with pytest.raises(DataError, match="no logs; give at least one"):
         observe(model, [])
-    with pytest.raises(DataError, match="run: joints 1, 2; stand_in has 1; read the log with"):
+    with pytest.raises(DataError, match="run: joints 1, 2; numpy_model has 1; read the log with"):
         observe(slider(), [log])
     with pytest.raises(DataError, match="no logged velocities qd1"):
         observe(model, [log], Processing(derivatives="log"))

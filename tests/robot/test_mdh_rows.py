@@ -17,9 +17,9 @@ from modeler.robot.mdh_rows import exact_length, exact_turn, mdh_table, roll_pit
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import INERTIAL, JointKind as Kind, Robot
 from modeler.robot.tree_text import tree_to_toml
+from tests.oracles.pinocchio_dynamics import pin, pinocchio_model
 from tests.robot.poses import link_poses
 from tests.robot.texts import ARM
-from tests.symbolic.oracles import pin, pinocchio_model
 
 TURNS, SLIDES, FIXED = Kind.REVOLUTE, Kind.PRISMATIC, Kind.FIXED
 

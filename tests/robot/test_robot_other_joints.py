@@ -11,7 +11,7 @@ from modeler.derivation.relations import as_json
 from modeler.robot.loops import OTHER_JOINTS
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import LOOP_KINDS
-from tests.loops.texts import CRANK
+from tests.robot_texts import CRANK
 
 
 def refused(kind: str) -> str:

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from closed_energy import energies, without_effects
+from closed_robots import LOOPS, energies, without_effects
 
 from modeler.api import compile_model, derive, fit, generate, observe
 from modeler.core.errors import DataError
@@ -20,10 +20,8 @@ from modeler.simulation import (
 )
 from modeler.simulation.closing import constraints_of, followed, rates, sampled
 from modeler.simulation.plant import build_plant, inner_states, tick_function
-from tests.robots import KINDS, TIED, kinds_first
 from tests.rotation import ROTATING
 
-LOOPS = kinds_first(name for name in TIED if read_robot(name).loops)
 DRIVEN = SimulationSettings(
     duration=1.5, rate=1000, encoder_counts=0, linear_resolution=0, torque_noise=0, controller=True
 )
@@ -49,11 +47,11 @@ def test_the_plant_is_the_tree_with_multipliers(name: str) -> None:
     np.testing.assert_allclose(qdd, truth.qdd, rtol=0, atol=1e-9 * np.abs(qdd).max())
 
 
-@pytest.mark.parametrize("name", [*KINDS[-3:], pytest.param("delta", marks=ROTATING)])
+@pytest.mark.parametrize("name", LOOPS)
 def test_the_motors_work_is_what_the_energy_gains(name: str) -> None:
     """Exact for torques held over each tick, but for the steps of the integration."""
     source = without_effects(name)
-    truth = simulate(source, DRIVEN).truth
+    truth = simulate(source, dataclasses.replace(DRIVEN, duration=0.8)).truth
     constraints = constraints_of(source)
     v = followed(source, constraints, truth.q)
     vd, _ = rates(constraints, v, truth.qd, truth.qdd)
@@ -88,10 +86,12 @@ def test_loops_stay_closed(name: str) -> None:
 @pytest.mark.parametrize("name", ["five-bar", pytest.param("sr400", marks=ROTATING)])
 def test_a_stiffer_controller_keeps_nearer_to_the_command(name: str) -> None:
     errors = []
-    for bandwidth in (4.0, 8.0, 16.0):
-        log = simulate(read_robot(name), dataclasses.replace(DRIVEN, bandwidth=bandwidth))
+    for bandwidth in (4.0, 16.0):
+        log = simulate(
+            read_robot(name), dataclasses.replace(DRIVEN, duration=0.8, bandwidth=bandwidth)
+        )
         errors.append(np.sqrt(np.mean((log.truth.q - log.qc) ** 2)))
-    assert errors[1] < 0.7 * errors[0] and errors[2] < 0.7 * errors[1]
+    assert errors[1] < 0.5 * errors[0]
     exact = simulate(read_robot(name), dataclasses.replace(DRIVEN, controller=False))
     assert np.array_equal(exact.truth.q, exact.qc)
 
@@ -114,7 +114,7 @@ def test_the_settings_of_other_robots_hold() -> None:
 
 def test_a_log_under_a_controller_gives_the_true_parameters(tmp_path) -> None:
     source = read_robot("five-bar")
-    settings = SimulationSettings(duration=20.0, rate=1000.0, controller=True, torque_noise=0.005)
+    settings = SimulationSettings(duration=6.0, rate=500.0, controller=True, torque_noise=0.005)
     log = simulate(source, settings)
     write_log(tmp_path / "a.parquet", log)
     derivation = derive(source)

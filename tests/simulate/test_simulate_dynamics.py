@@ -4,16 +4,21 @@ import dataclasses
 from collections.abc import Callable
 
 import numpy as np
-import pinocchio as pin
 import pytest
-from closed_energy import energies
-from simulated_robots import ARM, BACKWARDS, PENDULUM, SIX, TREE, TWO_LINK, pinocchio_model, robot
+from closed_robots import energies
 
 from modeler.core.errors import RobotError
 from modeler.robot.robot import EffectUse, Robot
 from modeler.simulation import PlantParameters, motion_limits, plant_parameters
 from modeler.simulation.plant import Plant, build_plant
+from tests.oracles.pinocchio_dynamics import pin, places_of
+from tests.robot_texts import ARM, BACKWARDS, PENDULUM, SIX, TREE, TWO_LINK, robot
 
+TEXTS = [
+    pytest.param(BACKWARDS, id="backwards"),
+    *(pytest.param(text, id=name, marks=pytest.mark.rotating)
+      for name, text in (("arm", ARM), ("six", SIX), ("tree", TREE))),
+]  # fmt: skip
 FRICTION = "Fv1 = 0.5\nFs1 = 0.7\nOff1 = -0.2\n"
 
 
@@ -42,14 +47,13 @@ def column(function, *arguments) -> np.ndarray:
     return (values[0] if isinstance(values, tuple) else values).full().ravel()
 
 
-@pytest.mark.parametrize(
-    "text", [ARM, SIX, TREE, BACKWARDS], ids=["arm", "six", "tree", "backwards"]
-)
+@pytest.mark.parametrize("text", TEXTS)
 def test_forward_dynamics_agree_with_pinocchio(text, seed=0):
     source = robot(text)
     plant, parameters = plant_of(source, seed)
     friction = friction_of(source, seed)
-    model = pinocchio_model(source, parameters)
+    model, places = places_of(source, parameters.standard)
+    assert places == list(range(model.nv))
     data = model.createData()
     rng = np.random.default_rng(seed)
     for _ in range(20):
@@ -63,13 +67,12 @@ def test_forward_dynamics_agree_with_pinocchio(text, seed=0):
         np.testing.assert_allclose(back, tau + resistance, rtol=0, atol=1e-10 * max(scale, 1))
 
 
-@pytest.mark.parametrize(
-    "text", [ARM, SIX, TREE, BACKWARDS], ids=["arm", "six", "tree", "backwards"]
-)
+@pytest.mark.parametrize("text", TEXTS)
 def test_energies_agree_with_pinocchio(text):
     source = dataclasses.replace(robot(text), effects=())
     parameters = plant_parameters(source, motion_limits(source))
-    model = pinocchio_model(source, parameters)
+    model, places = places_of(source, parameters.standard)
+    assert places == list(range(model.nv))
     data = model.createData()
     q, qd = np.random.default_rng(3).normal(size=(2, model.nv))
     theirs = pin.computeKineticEnergy(model, data, q, qd)
@@ -77,9 +80,7 @@ def test_energies_agree_with_pinocchio(text):
     assert energies(source, parameters, q[None], qd[None])[0] == pytest.approx(theirs, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    "text", [ARM, SIX, TREE, BACKWARDS], ids=["arm", "six", "tree", "backwards"]
-)
+@pytest.mark.parametrize("text", TEXTS)
 def test_power_of_motors_and_friction_changes_the_energy(text):
     """qd . (tau - friction) = d(T + U)/dt, with T and U formed apart from the torques."""
     source = robot(text)

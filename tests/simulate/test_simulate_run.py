@@ -8,8 +8,7 @@ import casadi as ca
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from closed_energy import energies
-from simulated_robots import ARM, PENDULUM, SIX, TREE, TWO_LINK, robot
+from closed_robots import energies
 
 import modeler.simulation
 from modeler.core.builtin import EFFECTS, MOTIONS, SIMULATED
@@ -30,8 +29,14 @@ from modeler.simulation import (
 )
 from modeler.simulation.plant import build_plant
 from modeler.simulation.run import quantised
+from tests.robot_texts import ARM, PENDULUM, SIX, TREE, TWO_LINK, robot
 
 SHORT = SimulationSettings(duration=2.5)
+IN_TURN = [
+    pytest.param(TREE, id="tree"),
+    *(pytest.param(text, id=name, marks=pytest.mark.rotating)
+      for name, text in (("two-link", TWO_LINK), ("six", SIX))),
+]  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +53,7 @@ def plant_of(source, settings):
     return build_plant(source, parameters_of(source, settings), limits)
 
 
-@pytest.mark.parametrize("text", [TWO_LINK, SIX, TREE], ids=["two", "six", "tree"])
+@pytest.mark.parametrize("text", IN_TURN)
 def test_energy_balance_without_friction(text):
     """The motors' work, exact for torque held over each tick, is what T + U gains."""
     source = robot(text)
@@ -104,7 +109,7 @@ def test_measured_torque_is_centred_at_the_sample():
     assert errors[0] < 0.2 * min(errors[-1], errors[1])
 
 
-@pytest.mark.parametrize("text", [PENDULUM, SIX, TREE])
+@pytest.mark.parametrize("text", IN_TURN)
 def test_the_controller_tracks(text):
     log = simulate(robot(text), dataclasses.replace(SHORT, duration=4.0))
     error = log.truth.q - log.qc
@@ -143,8 +148,8 @@ def test_ideal_sensors():
     )
 
 
-def test_saturation_is_respected_and_shows():
-    free = np.abs(simulate(robot(ARM), SHORT).truth.tau).max(axis=0)
+def test_saturation_is_respected_and_shows(arm_log):
+    free = np.abs(arm_log.truth.tau).max(axis=0)
     settings = dataclasses.replace(SHORT, torque_limits={"1": 0.8 * free[0]})
     tau = simulate(robot(ARM), settings).truth.tau
     assert np.abs(tau[:, 0]).max() == 0.8 * free[0]
@@ -191,14 +196,13 @@ def test_seeds_reproduce_every_bit(arm_log):
 
 
 @pytest.mark.skipif(shutil.which("cc") is None, reason="no C compiler")
-def test_the_same_bits_without_a_compiler(arm_log, monkeypatch):
+def test_the_same_bits_with_a_compiler(arm_log, compiled_plants):
     made = native.compiled_where_possible(ca.Function("f", [ca.SX.sym("x")], [ca.SX(1)]))
     assert made.class_name() == "External"
-    monkeypatch.setattr(native.shutil, "which", lambda name: None)
     assert np.array_equal(simulate(robot(ARM), SHORT).tau, arm_log.tau)
 
 
-def test_a_compiler_that_fails_is_done_without(monkeypatch):
+def test_a_compiler_that_fails_is_done_without(monkeypatch, compiled_plants):
     fails = shutil.which("false")
     monkeypatch.setattr(native.shutil, "which", lambda name: fails)
     x = ca.SX.sym("x")
@@ -283,7 +287,8 @@ def test_stiff_friction_is_still_integrated():
     """Ten times the drawn Coulomb friction; the joint still follows, and nothing rings."""
     limits = motion_limits(robot(ARM))
     drawn = plant_parameters(robot(ARM), limits).standard["Fs3"]
-    log = simulate(robot(ARM, parameters=f"Fs3 = {10 * drawn}"), SHORT)
+    settings = dataclasses.replace(SHORT, duration=1.2)
+    log = simulate(robot(ARM, parameters=f"Fs3 = {10 * drawn}"), settings)
     assert np.abs(log.truth.q - log.qc)[:, 2].max() < 0.05
     assert np.all(np.abs(log.truth.qdd) < 500)
 

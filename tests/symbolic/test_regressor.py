@@ -29,7 +29,7 @@ def test_newton_euler_agrees_with_lagrange(name):
 
 @pytest.mark.parametrize("name", TREES)
 def test_regressor_agrees_with_pinocchio(name):
-    from tests.symbolic.oracles import pinocchio_regressor
+    from tests.oracles.pinocchio_dynamics import pinocchio_regressor
 
     model = module(name).model
     states = random_states(model, 15, np.random.default_rng(3))
@@ -40,7 +40,7 @@ def test_regressor_agrees_with_pinocchio(name):
 
 @pytest.mark.parametrize("name", TEXTBOOK)
 def test_rank_agrees_with_pinocchio(name):
-    from tests.symbolic.oracles import pinocchio_regressor
+    from tests.oracles.pinocchio_dynamics import pinocchio_regressor
 
     model = module(name).model
     states = random_states(model, 60, np.random.default_rng(4))

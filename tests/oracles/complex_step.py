@@ -1,13 +1,15 @@
-"""Every quantity of a controller from the table alone: an oracle in plain numpy.
+"""Mechanics of robots, with loops too, and all that a controller calls, from the table alone.
 
-Nothing of the package but the reading of the robot file. Frames, Jacobians and the motion of frames
-by the rules of rigid bodies; kinetic energy and potential from the standard parameters; derivatives
-by complex steps, so exact to rounding. Everything of the theory then is its definition: Christoffel
-symbols are derivatives of M, gravity the slope of the potential, C^T qd that of the kinetic energy,
-and loops are reduced to q by G, whose derivative is taken along the closed postures.
+An oracle in plain numpy: nothing of the package but the reading of the robot file. Frames,
+Jacobians and the motion of frames by the rules of rigid bodies; kinetic energy and potential from
+the standard parameters; derivatives by complex steps, so exact to rounding. Everything of the
+theory then is its definition: Christoffel symbols are derivatives of M, gravity the slope of the
+potential, C^T qd that of the kinetic energy, and loops are reduced to q by G, whose derivative is
+taken along the closed postures.
 """
 
 from collections.abc import Mapping
+from types import MappingProxyType
 
 import numpy as np
 
@@ -29,7 +31,7 @@ class Oracle:
     Every method but `closed` takes complex numbers, and `u` of several postures, (m, f).
     """
 
-    def __init__(self, robot: Robot, chi: Mapping[str, float]) -> None:
+    def __init__(self, robot: Robot, chi: Mapping[str, float] = MappingProxyType({})) -> None:
         self.robot, self.symbols = robot, robot.symbol_values()
         names = [joint.name for joint in robot.free]
         self.given = [names.index(joint.name) for joint in robot.coordinates]
@@ -42,6 +44,7 @@ class Oracle:
         self.gravity = np.array([e.number(self.symbols) for e in robot.gravity])
         lengths = [abs(x) for A, *_ in self.rows.values() for x in A[:3, 3]]
         self.size = max(lengths, default=1.0) or 1.0
+        self.scale = np.array([1.0 if joint.angular else self.size for joint in robot.free])
         self.width = 0.0  # of friction that turns around gradually, rad/s or m/s
         self.constant: dict[str, float] = {}  # weights by row that count as offsets, not as gravity
 
@@ -85,8 +88,12 @@ class Oracle:
             return at[0], at[1] - at[0]
 
         gamma, b, alpha, d = (cell(e)[0] for e in (row.gamma, row.b, row.alpha, row.d))
-        A = _moved(_rotation(2, gamma), [0, 0, b]) @ _moved(_rotation(0, alpha), [0, 0, 0])
+        A = _moved(rotation(2, gamma), [0, 0, b]) @ _moved(rotation(0, alpha), [0, 0, 0])
         return A @ _moved(np.eye(3), [d, 0, 0]), cell(row.theta), cell(row.r)
+
+    def variables(self, u: np.ndarray) -> dict[str, np.ndarray]:
+        """{row: its variable}, by the relations as written."""
+        return {row: constant + u @ slopes for row, (constant, slopes) in self.follow.items()}
 
     # Kinematics.
 
@@ -309,6 +316,10 @@ class Oracle:
         rows = self.constant.items()
         return sum((x * self.follow[row][1] for row, x in rows), np.zeros(len(self.robot.free)))
 
+    def energies(self, u: np.ndarray, ud: np.ndarray) -> np.ndarray:
+        """(m,): kinetic and potential, of the free variables."""
+        return np.einsum("mi,mij,mj->m", ud, self._inertia_u(u), ud) / 2 + self.potential(u)
+
     def friction(self, u: np.ndarray, v: np.ndarray) -> np.ndarray:
         """(m, n): torques of friction and offsets at speeds v of q."""
         G = self.G(u)
@@ -333,18 +344,24 @@ class Oracle:
         frames, motion = self.frames(u), self.motion(u, ud, udd)
         total = 0.0 * (ud + udd) - self._constant()
         for row in self.robot.moving:
-            R, _, Jv, Jw = frames[row.name]
-            w, _, dw, a = motion[row.name]
-            I, s, m = self._body(row.name)
-            s, I = R @ s, R @ I @ R.transpose(0, 2, 1)
-            a = a - self.gravity
-            force = m * a + np.cross(dw, s) + np.cross(w, np.cross(w, s))
-            moment = np.cross(s, a) + _apply(I, dw) + np.cross(w, _apply(I, w))
-            total = total + np.einsum("mif,mi->mf", Jv, force)
-            total = total + np.einsum("mif,mi->mf", Jw, moment)
+            ten = np.array([self.value(f"{x}{row.name}") for x in INERTIAL])
+            total = total + _powers(frames[row.name], motion[row.name], self.gravity) @ ten
         for slopes, own in self._motors():
             total = total + own["Ia"] * np.outer(udd @ slopes, slopes)
         return np.einsum("mfn,mf->mn", G, total) + self.friction(u, qd)
+
+    def regressor(self, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> dict[str, np.ndarray]:
+        """{"XX1": (m, n), ...}: torques that each inertial parameter of a row asks for."""
+        u = np.atleast_2d(u)
+        G = self.G(u)
+        frames = self.frames(u)
+        motion = self.motion(u, _apply(G, qd), self.accelerations(u, qd, qdd))
+        found = {}
+        for row in self.robot.moving:
+            powers = _powers(frames[row.name], motion[row.name], self.gravity)
+            torques = np.einsum("mfn,mfk->kmn", G, powers)
+            found |= {f"{x}{row.name}": t for x, t in zip(INERTIAL, torques, strict=True)}
+        return found
 
     # What a controller calls, at one posture.
 
@@ -421,7 +438,7 @@ class Oracle:
             return row or last[-1], np.eye(4)
         x = [e.number(self.symbols) for e in frame.position]
         roll, pitch, yaw = (e.number(self.symbols) for e in frame.angles)
-        T = _moved(_rotation(2, yaw) @ _rotation(1, pitch) @ _rotation(0, roll), x)
+        T = _moved(rotation(2, yaw) @ rotation(1, pitch) @ rotation(0, roll), x)
         return frame.row, (self._placed(frame.on, None)[1] if frame.on else np.eye(4)) @ T
 
     def _frame(self, u, name: str | None) -> tuple:
@@ -470,7 +487,35 @@ class Oracle:
         return np.linalg.solve(self.inertia(u), J.T) @ self.operational_inertia(u, damping)
 
 
-def _rotation(axis: int, angle: float) -> np.ndarray:
+def _powers(frame: tuple, motion: tuple, gravity: np.ndarray) -> np.ndarray:
+    """(m, f, 10): what the wrench of each inertial parameter does by each free variable."""
+    R, _, Jv, Jw = frame
+    w, dw, a = (np.einsum("mji,mj->mi", R, x) for x in (motion[0], motion[2], motion[3] - gravity))
+    force = np.zeros((len(w), 3, 10), np.result_type(w, dw, a))
+    moment = np.zeros_like(force)
+    force[:, :, 6:9] = _skew(dw) + _skew(w) @ _skew(w)
+    force[:, :, 9] = a
+    moment[:, :, :6] = _inertia_columns(dw) + _skew(w) @ _inertia_columns(w)
+    moment[:, :, 6:9] = -_skew(a)
+    along, about = (J.transpose(0, 2, 1) @ R for J in (Jv, Jw))
+    return along @ force + about @ moment
+
+
+def _skew(v: np.ndarray) -> np.ndarray:
+    """(m, 3, 3): v x."""
+    found = np.zeros((len(v), 3, 3), v.dtype)
+    found[:, 0, 1], found[:, 0, 2], found[:, 1, 2] = -v[:, 2], v[:, 1], -v[:, 0]
+    return found - found.transpose(0, 2, 1)
+
+
+def _inertia_columns(w: np.ndarray) -> np.ndarray:
+    """(m, 3, 6): J w = this @ (XX XY XZ YY YZ ZZ)."""
+    x, y, z = w.T
+    o = np.zeros_like(x)
+    return np.stack([[x, y, z, o, o, o], [o, x, o, y, z, o], [o, o, x, o, y, z]]).transpose(2, 0, 1)
+
+
+def rotation(axis: int, angle: float) -> np.ndarray:
     c, s = np.cos(angle), np.sin(angle)
     R = np.zeros((3, 3))
     i, j = [(1, 2), (2, 0), (0, 1)][axis]

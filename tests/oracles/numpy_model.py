@@ -1,29 +1,15 @@
-"""A compiled model without a compiler: plain numpy Newton-Euler, an independent oracle."""
+"""A compiled model without a compiler, of any chain, by the oracle: for tests of logs and fits."""
 
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from modeler.core.manifest import FORMAT, BaseSpec, JointSpec, ModuleSpec, ParameterSpec
+from modeler.robot.read import robot_from_text
+from modeler.robot.robot import INERTIAL
 from modeler.runtime.bind import Samples
 from modeler.runtime.fused import NonzeroPattern, of_dense
-
-INERTIAL = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-
-
-def skew(v):
-    out = np.zeros((*v.shape[:-1], 3, 3))
-    out[..., 0, 1], out[..., 0, 2], out[..., 1, 2] = -v[..., 2], v[..., 1], -v[..., 0]
-    return out - np.swapaxes(out, -1, -2)
-
-
-def inertia_columns(w):
-    """(n, 3, 6): J w = this @ (XX XY XZ YY YZ ZZ)."""
-    x, y, z = w[..., 0], w[..., 1], w[..., 2]
-    o = np.zeros_like(x)
-    return np.stack(
-        [np.stack([x, y, z, o, o, o], -1), np.stack([o, x, o, y, z, o], -1),
-         np.stack([o, o, x, o, y, z], -1)], -2)  # fmt: skip
+from tests.oracles.complex_step import Oracle
 
 
 @dataclass
@@ -38,7 +24,7 @@ class Row:
 
 
 @dataclass
-class StandIn:
+class NumpyModel:
     """Same methods as the compiled model."""
 
     rows: list
@@ -75,6 +61,7 @@ class StandIn:
 
     def __post_init__(self):
         n = len(self.rows)
+        self._oracle = Oracle(robot_from_text(self._text(), "numpy_model"))
         names, kinds = [], []
         for j in range(n):
             names += [f"{p}{j + 1}" for p in INERTIAL]
@@ -108,7 +95,7 @@ class StandIn:
             for name, (kind, effect, j) in zip(names, kinds, strict=True)
         )
         self.spec = ModuleSpec(
-            robot="stand_in", title="", prefix="stand_in", format=FORMAT, symbols=(),
+            robot="numpy_model", title="", prefix="numpy_model", format=FORMAT, symbols=(),
             joints=tuple(
                 JointSpec(str(j + 1), "prismatic" if r.sigma else "revolute",
                           "m" if r.sigma else "rad", unit[j], j not in self.passive,
@@ -119,19 +106,23 @@ class StandIn:
                        for k in kept),
             unidentifiable=(), functions=())  # fmt: skip
 
+    def _text(self) -> str:
+        rows = ""
+        for j, row in enumerate(self.rows, 1):
+            turn, way = ("", f"q{j} + ") if row.sigma else (f"q{j} + ", "")
+            rows += f'["{j}", {row.sigma}, {float(row.alpha)}, {float(row.d)}, '
+            rows += f'"{turn}{float(row.theta)}", "{way}{float(row.r)}"], '
+        return (
+            f'name = "numpy_model"\ngravity = {[float(x) for x in self.gravity]}\n[mdh]\n'
+            f'columns = ["j", "sigma", "alpha", "d", "theta", "r"]\nrows = [{rows}]\n'
+        )
+
     def regressor(self, q, qd, qdd, s=None):
-        n, J = q.shape
-        out = np.zeros((n, J, len(self.names)))
-        frames, wrenches = self.wrenches(q, qd, qdd)
+        out = np.zeros((*q.shape, len(self.names)))
         column = {name: k for k, name in enumerate(self.names)}
-        for j in range(J):
-            X = wrenches[j]
-            for i in range(j, -1, -1):
-                k = column[f"XX{j + 1}"]
-                out[:, i, k : k + 10] = X[:, 5] if self.rows[i].sigma == 0 else X[:, 2]
-                R, P = frames[i]
-                f = R @ X[:, :3]
-                X = np.concatenate([f, R @ X[:, 3:] + skew(P) @ f], axis=1)
+        for name, torque in self._oracle.regressor(q, qd, qdd).items():
+            out[:, :, column[name]] = torque
+        for j in range(q.shape[1]):
             own = {"Ia": qdd[:, j], "Fv": qd[:, j], "Fs": np.sign(qd[:, j]), "Off": 1.0}
             for prefix, values in own.items():
                 if f"{prefix}{j + 1}" in column:
@@ -142,50 +133,20 @@ class StandIn:
                 out[:, :, column[f"{name}{j + 1}"]] = v[:, None] * E
         return out
 
-    def wrenches(self, q, qd, qdd):
-        """(rotation, position) of each frame in its antecedent, and (n, 6, 10) force and moment."""
-        n = len(q)
-        w = wd = np.zeros((n, 3))
-        a = np.tile(-np.asarray(self.gravity), (n, 1))
-        z, o = np.array([0.0, 0.0, 1.0]), np.zeros(n)
-        frames, wrenches = [], []
-        for j, row in enumerate(self.rows):
-            th = row.theta + (q[:, j] if row.sigma == 0 else o)
-            r = row.r + (q[:, j] if row.sigma == 1 else o)
-            ca, sa, c, s = np.cos(row.alpha), np.sin(row.alpha), np.cos(th), np.sin(th)
-            R = np.stack([np.stack([c, -s, o], -1), np.stack([ca * s, ca * c, o - sa], -1),
-                          np.stack([sa * s, sa * c, o + ca], -1)], -2)  # fmt: skip
-            P = np.stack([o + row.d, -r * sa, r * ca], -1)
-            a = a + np.cross(wd, P) + np.cross(w, np.cross(w, P))
-            a, w, wd = (np.einsum("nji,nj->ni", R, v) for v in (a, w, wd))
-            if row.sigma == 0:
-                wd = wd + z * qdd[:, j : j + 1] + np.cross(w, z * qd[:, j : j + 1])
-                w = w + z * qd[:, j : j + 1]
-            else:
-                a = a + z * qdd[:, j : j + 1] + 2 * np.cross(w, z * qd[:, j : j + 1])
-            X = np.zeros((n, 6, 10))
-            X[:, :3, 6:9] = skew(wd) + skew(w) @ skew(w)
-            X[:, :3, 9] = a
-            X[:, 3:, :6] = inertia_columns(wd) + skew(w) @ inertia_columns(w)
-            X[:, 3:, 6:9] = -skew(a)
-            frames.append((R, P))
-            wrenches.append(X)
-        return frames, wrenches
-
     def base_regressor(self, q, qd, qdd, s=None):
         return self.regressor(q, qd, qdd)[:, :, self.kept]
 
 
 def slider(gain=None):
     """One prismatic axis: M, Fv, Fs, Off (Ia is the same column as M)."""
-    return StandIn([Row(sigma=1)], gravity=(0, 0, 0), rotor=False, gains=gain and (gain,))
+    return NumpyModel([Row(sigma=1)], gravity=(0, 0, 0), rotor=False, gains=gain and (gain,))
 
 
 def rotor(gain=None):
     """One revolute axis without gravity."""
-    return StandIn([Row()], gravity=(0, 0, 0), rotor=False, gains=gain and (gain,))
+    return NumpyModel([Row()], gravity=(0, 0, 0), rotor=False, gains=gain and (gain,))
 
 
 def planar_arm(**kw):
     """2R arm in a vertical plane."""
-    return StandIn([Row(), Row(d=0.5)], gravity=(0, -9.81, 0), **kw)
+    return NumpyModel([Row(), Row(d=0.5)], gravity=(0, -9.81, 0), **kw)

@@ -1,0 +1,29 @@
+"""Robots with loops for the simulator's tests, and the energy of any robot by the oracle."""
+
+import dataclasses
+
+import numpy as np
+
+from modeler.robot.read import read_robot
+from modeler.robot.robot import Robot
+from modeler.simulation import PlantParameters
+from tests.oracles.complex_step import Oracle
+from tests.robots import TIED, one_always
+
+LOOPS = one_always((name for name in TIED if read_robot(name).loops), "five-bar")
+
+
+def without_effects(name: str) -> Robot:
+    """The robot with rotor inertias only, so that no energy is lost."""
+    source = read_robot(name)
+    kept = tuple(use for use in source.effects if use.effect == "rotor_inertia")
+    return dataclasses.replace(source, effects=kept)
+
+
+def energies(
+    source: Robot, parameters: PlantParameters, v: np.ndarray, vd: np.ndarray
+) -> np.ndarray:
+    """(n,) T + U, of positions and speeds (n, moving) of all joints of the tree."""
+    names = [joint.name for joint in source.moving]
+    free = [names.index(joint.name) for joint in source.free]
+    return Oracle(source, parameters.standard).energies(v[:, free], vd[:, free])
