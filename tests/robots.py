@@ -45,11 +45,6 @@ KINDS = ("emps", "puma560", "sr400-tree", "wrist-coupled", "sr400", "five-bar", 
 OTHERS = tuple(name for name in ROBOTS if name not in KINDS)
 
 
-def in_turn(*case: Any) -> Any:
-    """A quick case of parametrize that repeats what another shows."""
-    return pytest.param(*case, marks=pytest.mark.rotating)
-
-
 def one_always(names: Iterable[str], *always: str) -> list[Any]:
     """Names for parametrize: some always, one robot of each other kind in turn, the rest long."""
     turns = {name: pytest.mark.rotating if name in KINDS else ROTATING for name in names}

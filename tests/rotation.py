@@ -20,6 +20,14 @@ SWEEP = 5
 """Of a function with cases of so many robots, beside one of each kind, the robots rotate."""
 
 
+def rotating(*cases: Any) -> list[Any]:
+    """Quick cases of `parametrize` that repeat others; a tuple is a case of several parameters."""
+    return [
+        pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=pytest.mark.rotating)
+        for case in cases
+    ]
+
+
 def rotating_with(group: str) -> Any:
     """Decorator of a long test beside quick ones of its subject; those of a group rotate."""
 

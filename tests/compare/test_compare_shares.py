@@ -11,7 +11,7 @@ from modeler.validation.comparison import compare, scale
 from modeler.validation.prediction import JointInfo, Prediction
 from modeler.validation.repeatability import repetitions
 from modeler.validation.verdict import joint_verdict
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 
 STEP, NOISE, KNOWN = 0.01, 0.5, 0.9  # s; N m, standard deviation of the noise; amplitude
 WAVES = np.array([20.0, 15.0])  # 1/rad
@@ -74,7 +74,7 @@ def check(p: Prediction, method: str, known: float, tolerance: float) -> None:
         assert found.floor == pytest.approx(NOISE**2 / total, abs=tolerance / total)
 
 
-@pytest.mark.parametrize("known", [KNOWN, *in_turn(0.0)])
+@pytest.mark.parametrize("known", [KNOWN, *rotating(0.0)])
 def test_laps_in_one_log(known: float) -> None:
     """Standard error of the mean product of 5 laps: NOISE^2 / sqrt(10 pairs of 628 rows)."""
     time = np.arange(0.0, 5 * PERIOD, STEP)
@@ -94,7 +94,7 @@ def test_a_long_row_of_laps_stays_in_step() -> None:
     check(p, "laps", KNOWN, 0.03)
 
 
-@pytest.mark.parametrize("known", [KNOWN, *in_turn(0.0)])
+@pytest.mark.parametrize("known", [KNOWN, *rotating(0.0)])
 def test_several_logs_of_one_motion(known: float) -> None:
     """Three logs, one begins later, one has another clock."""
     time = np.arange(0.0, 24.0, STEP)
@@ -196,7 +196,7 @@ def test_a_constant_torque_has_no_shares() -> None:
 
 @pytest.mark.parametrize(("factor", "words"), [
     (-1.0, "the prediction of joint 2 has the opposite sign: measured is -1"),
-    *in_turn((1.4, "the prediction of joint 2 is off by a factor: measured is 1.4"),
+    *rotating((1.4, "the prediction of joint 2 is off by a factor: measured is 1.4"),
              (57.29578, "off by a factor: measured is 57")),
 ])  # fmt: skip
 def test_a_wrong_sign_or_scale_is_one_sentence(factor: float, words: str) -> None:
@@ -225,7 +225,7 @@ def test_scale_by_hand() -> None:
     assert scale(p, np.zeros(200)) is None and scale(p[:5], p[:5]) is None
 
 
-@pytest.mark.parametrize("seed", [0, *in_turn(1, 2, 3)])
+@pytest.mark.parametrize("seed", [0, *rotating(1, 2, 3)])
 def test_a_factor_is_stated_only_where_applying_it_lowers_the_residual(seed: int) -> None:
     """Measured torques that are another slope and a constant of the predicted ones."""
     rng = np.random.default_rng(seed)

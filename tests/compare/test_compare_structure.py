@@ -25,7 +25,7 @@ from modeler.validation.verdict import (
     looks_like_noise,
     verdict,
 )
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 
 
 def second_joint(defect: Defect | None, noise: float = NOISE, rows: int = 6000) -> JointComparison:
@@ -40,7 +40,7 @@ def second_joint(defect: Defect | None, noise: float = NOISE, rows: int = 6000) 
         ("direction", lambda q, qd, qdd, tau, t: 1.0 * np.sign(qd)),
         ("load", lambda q, qd, qdd, tau, t: 0.1 * np.abs(tau) * np.sign(qd)),
         ("time", lambda q, qd, qdd, tau, t: 0.06 * (t % 30.0 - 15.0)),
-        *in_turn(
+        *rotating(
             ("velocity", lambda q, qd, qdd, tau, t: 1.5 * np.sign(qd) * np.exp(-((qd / 0.4) ** 2))),
             ("position", lambda q, qd, qdd, tau, t: 0.5 * q),
             ("acceleration", lambda q, qd, qdd, tau, t: 0.2 * qdd),
@@ -78,7 +78,7 @@ def coloured(memory: float, seed: int) -> np.ndarray:
     return np.asarray(lfilter([np.sqrt(1 - pole**2)], [1, -pole], white))[500:]
 
 
-@pytest.mark.parametrize("memory", [0.05, *in_turn(0.2)])
+@pytest.mark.parametrize("memory", [0.05, *rotating(0.2)])
 def test_coloured_noise_is_neither_structure_nor_white(memory: float) -> None:
     for seed in range(2):
         item = second_joint(lambda q, qd, qdd, tau, t, s=seed: 3.0 * coloured(memory, s))

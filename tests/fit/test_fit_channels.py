@@ -24,12 +24,11 @@ from modeler.estimation.verdict import with_verdict
 from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate
-from tests.in_turn import in_turn
 from tests.link_data import compiled as compiled_text
 from tests.modules import compiled, module
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
-ROBOTS = ["demo-arm", *in_turn("puma560", "scara")]
+ROBOTS = ["demo-arm", *rotating("puma560", "scara")]
 
 
 def log_of(name, **settings):
@@ -198,7 +197,7 @@ SAID = {
 }
 
 
-@pytest.mark.parametrize("mistake", ["turns", *in_turn("late", "sign")])
+@pytest.mark.parametrize("mistake", ["turns", *rotating("late", "sign")])
 def test_every_command_says_the_same(arm, capsys, mistake):
     """Of a log beside a model of another one, and of a log beside its own model."""
     table = pq.read_table(arm / "other.parquet")
@@ -306,7 +305,7 @@ MORE = ("stribeck", "presliding", "load_friction", "asymmetric_viscous", "payloa
 @pytest.mark.parametrize(
     ("name", "hidden"),
     [("demo-arm", hidden) for hidden in EFFECTS[:3]]
-    + in_turn(*(("demo-arm", hidden) for hidden in EFFECTS[3:]))
+    + rotating(*(("demo-arm", hidden) for hidden in EFFECTS[3:]))
     + [pytest.param("ur10e", hidden, marks=ROTATING) for hidden in EFFECTS[1::2] + MORE[::2]],
 )
 def test_physics_is_not_late(name, hidden):

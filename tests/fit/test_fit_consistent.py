@@ -15,11 +15,11 @@ from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL
 from modeler.simulation.rigid import pseudo_inertia
 from tests.bodies import buildable
-from tests.in_turn import in_turn
 from tests.modules import compiled
+from tests.rotation import rotating
 
 
-@pytest.fixture(scope="module", params=["two-link", *in_turn("five-bar")])
+@pytest.fixture(scope="module", params=["two-link", *rotating("five-bar")])
 def fitted(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("consistent")
     log, model, robot, told = (
@@ -117,7 +117,7 @@ def test_what_is_put_at_zero_is_not_called_negative(tmp_path, capsys):
     assert "\nFv1 held at 0, which would be negative" in said
 
 
-@pytest.mark.parametrize("name", ["two-link", *in_turn("sr400", "dvrk-psm", "orthoglide-2003")])
+@pytest.mark.parametrize("name", ["two-link", *rotating("sr400", "dvrk-psm", "orthoglide-2003")])
 def test_a_machine_that_could_be_built_is_at_no_distance(name):
     machine = machine_of(compiled(name).spec)
     chi = buildable(compiled(name).spec, np.random.default_rng(41))

@@ -23,11 +23,10 @@ from modeler.observation.read import cut
 from modeler.robot.edit import with_gravity
 from modeler.robot.read import builtin_text, robot_from_text
 from modeler.simulation import HiddenEffect, SimulationSettings, hidden_from_text, simulate
-from tests.in_turn import in_turn
 from tests.link_data import compiled as compiled_text
 from tests.modules import compiled, module, plain
 from tests.robots import ROBOTS
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 
 @pytest.fixture(scope="module")
@@ -257,7 +256,7 @@ def fit_and_errors(name, seed, hide=None, rate=500.0):
 # Without the halves, the worst friction value is this many sigmas off: 12.4, 11.2, 7.5.
 BIASED = [
     ("emps", 1, "stribeck"),
-    *in_turn(("demo-arm", 1, "load_friction"), ("demo-arm", 1, "position_friction")),
+    *rotating(("demo-arm", 1, "load_friction"), ("demo-arm", 1, "position_friction")),
 ]  # fmt: skip
 
 
@@ -315,7 +314,7 @@ def with_findings(log, machine=None):
     [
         (0.0, ("the torques carry no gravity",)),
         (-1.0, ("sign", "alpha", "zero off by 180 degrees")),
-        *in_turn(*((k, (f"the torques carry {k:g} times the gravity",)) for k in (0.1, 2.0))),
+        *rotating(*((k, (f"the torques carry {k:g} times the gravity",)) for k in (0.1, 2.0))),
     ],
 )
 def test_a_factor_of_gravity_is_named_and_no_clock(factor, words):

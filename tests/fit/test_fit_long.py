@@ -35,9 +35,8 @@ from modeler.observation.segments import split
 from modeler.observation.settings import Processing
 from modeler.observation.survey import FactsSoFar, WholeLogNeeded, survey
 from modeler.runtime.model import CompiledModel
-from tests.in_turn import in_turn
 from tests.modules import compiled
-from tests.rotation import rotating_with
+from tests.rotation import rotating, rotating_with
 
 ROWS = 1024  # of a chunk
 ARM = planar_arm()
@@ -88,7 +87,9 @@ def same_counts(whole, chunked):
     assert whole.processing == chunked.processing
 
 
-@pytest.mark.parametrize(("logged", "cutoff"), [(False, None), *in_turn((True, 0.0), (True, None))])
+@pytest.mark.parametrize(
+    ("logged", "cutoff"), [(False, None), *rotating((True, 0.0), (True, None))]
+)
 def test_a_log_in_chunks_gives_the_fit_of_the_whole_log(logged, cutoff):
     """To 1e-9 of sigma: what the position filter forgot beyond a margin is 3e-13 of the motion."""
     processing = Processing(parallel_cutoff=cutoff)
@@ -165,7 +166,7 @@ def test_windows_choose_for_all_rows(small_windows):
     assert np.sqrt(np.mean(((fit.beta - BETA) / sigma) ** 2)) < 2.5
 
 
-@pytest.mark.parametrize("zero", [1.7e9, *in_turn(-450.0)])
+@pytest.mark.parametrize("zero", [1.7e9, *rotating(-450.0)])
 def test_the_zero_of_the_clock_changes_nothing(zero, monkeypatch):
     """Stamps differ by their rounding: 1e-13 s, or 2.4e-7 s where they count from 1970."""
     for name, value in (("WINDOW", 512), ("SECONDS", 0.0), ("WINDOWS", 8)):
@@ -379,7 +380,7 @@ def test_sigmas_of_windows_are_those_of_all_rows(small_windows):
     assert long.essential is not None
 
 
-@pytest.mark.parametrize("each", [1.25, *in_turn(2.0, 3.3)])
+@pytest.mark.parametrize("each", [1.25, *rotating(2.0, 3.3)])
 def test_rows_that_repeat_are_left_out_of_chunks_as_of_the_whole_log(each):
     """A recorder that is `each` times as fast as the robot; its rows lie elsewhere."""
     log = noisy_log(rate=100)
@@ -501,7 +502,7 @@ SMOOTH = Processing(position_cutoff=0.0, parallel_cutoff=20.0, derivatives="log"
         ("wrist", PLAIN, 0.2, "weighted"),  # residuals that remember
         ("wrist", SMOOTH, 0.1, "ordinary"),
         ("five-bar", PLAIN, 0.0, "weighted"),
-        *in_turn(("wrist", THIRD, 0.0, "weighted"), ("wrist", PLAIN, 0.0, "ordinary")),
+        *rotating(("wrist", THIRD, 0.0, "weighted"), ("wrist", PLAIN, 0.0, "ordinary")),
     ],
 )
 def test_a_fit_without_w_is_the_fit_with_it(monkeypatch, name, processing, memory, method):

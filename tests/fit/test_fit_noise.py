@@ -9,7 +9,7 @@ import pytest
 
 from modeler import api
 from modeler.observation.log import Log
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 
 STAGE = """
 name = "stage"
@@ -83,7 +83,7 @@ def slow_noise(size):
 
 
 @pytest.mark.parametrize(
-    ("measured", "seed"), [*in_turn((counts(2**20), 1), (counts(4096), 2)), (white(2e-3), 3)]
+    ("measured", "seed"), [*rotating((counts(2**20), 1), (counts(4096), 2)), (white(2e-3), 3)]
 )
 def test_sigmas_hold_the_noise_of_the_positions(stage, measured, seed):
     """z = error over sigma of 10 machines: without it, 2 mrad alone give 5."""

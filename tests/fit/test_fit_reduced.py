@@ -29,8 +29,8 @@ from modeler.observation.observation import MASKS, WHY, masks_of
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 from modeler.validation.prediction import DEVIATIONS, sigma_of
-from tests.in_turn import in_turn
 from tests.modules import compiled
+from tests.rotation import rotating
 
 NOISE = 0.3
 
@@ -266,7 +266,7 @@ def repeated(memory: float) -> tuple[np.ndarray, np.ndarray, FitResult]:
     return np.array(errors), np.array(inside), fit
 
 
-@pytest.mark.parametrize(("memory", "within"), [*in_turn((0.0, 0.15)), (0.2, 0.25)])
+@pytest.mark.parametrize(("memory", "within"), [*rotating((0.0, 0.15)), (0.2, 0.25)])
 def test_sigmas_and_band_cover_the_truth(memory: float, within: float) -> None:
     """White noise and noise that lasts: rms 1 in units of sigma, two deviations hold 95 %.
 

@@ -7,9 +7,8 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.estimators import ABOUT
-from tests.in_turn import in_turn
 from tests.modules import compiled
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
 
@@ -84,8 +83,8 @@ ONE, ALL = (1,), (0, 1, 2)
 @pytest.mark.parametrize(
     ("rest", "commands"),
     [(ONE, SHORT), (ONE, SHORT_FITS),
-     *in_turn(*((ONE, own) for own in (FITS[::2], FITS[1::2], LOADED, OTHERS))),
-     *in_turn(*((ALL, own) for own in (SHORT + OTHERS, SHORT_FITS + FITS, LOADED))),
+     *rotating(*((ONE, own) for own in (FITS[::2], FITS[1::2], LOADED, OTHERS))),
+     *rotating(*((ALL, own) for own in (SHORT + OTHERS, SHORT_FITS + FITS, LOADED))),
      *(pytest.param(rest, own, marks=ROTATING)
        for rest in (ONE, ALL) for own in (LONG_FITS, BOTH))],
 )  # fmt: skip

@@ -25,8 +25,8 @@ from modeler.robot.robot import Limits
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate
 from modeler.simulation.trajectory import one_joint_reference, point_to_point_reference
-from tests.in_turn import in_turn
 from tests.modules import compiled, module
+from tests.rotation import rotating
 
 _AS_THEY_ARE = Processing(
     position_cutoff=0.0, parallel_cutoff=0.0, decimation=1, derivatives="log", edge=0.0,
@@ -167,7 +167,7 @@ def test_pieces_of_several_joints_are_left_out(exact):
     assert exact.steps.several == several
 
 
-@pytest.mark.parametrize("name", ["emps", *in_turn("scara")])
+@pytest.mark.parametrize("name", ["emps", *rotating("scara")])
 def test_joints_that_feel_nothing_of_each_other(name):
     """A slider beside a turning column, a single joint: fewer functions, honest sigmas."""
     model, spec = compiled(name), module(name).emitted.spec

@@ -16,11 +16,10 @@ from modeler.core.manifest import Emitted
 from tests.codegen.fitted_library import Functions, motion, with_values
 from tests.loops.derived import of_file
 from tests.modules import compiler, module
-from tests.robots import in_turn
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 HERE = Path(__file__).resolve().parent
-ROBOTS = ["five-bar", in_turn("evra"),
+ROBOTS = ["five-bar", *rotating("evra"),
           pytest.param("stewart", marks=ROTATING)]  # fmt: skip
 DONE, OPEN, SINGULAR, NOT_FINITE, UNFINISHED = range(5)
 
@@ -108,7 +107,7 @@ def statuses(emitted: Emitted) -> dict[str, list[tuple[int, bool]]]:
     return found
 
 
-@pytest.mark.parametrize("name", ["five-bar", in_turn("orthoglide-2003")])
+@pytest.mark.parametrize("name", ["five-bar", *rotating("orthoglide-2003")])
 def test_what_is_not_finite_has_one_status_at_every_place_of_every_input(name):
     """q, qd, qdd, beta, a posture to start from; of the platform too; with values and without."""
     found = statuses(with_values(name))

@@ -25,8 +25,8 @@ from tests.modules import module
 from tests.oracles.closed_ways import closed_near, open_at, reached
 from tests.oracles.complex_step import Oracle
 from tests.robot_texts import FOUR_BAR, OFFSET, PANTOGRAPH
-from tests.robots import in_turn, one_always
-from tests.rotation import ROTATING
+from tests.robots import one_always
+from tests.rotation import ROTATING, rotating
 
 # file -> inertial base parameters and all, by an independent program; kind of proof
 FILES = {
@@ -41,7 +41,7 @@ FILES = {
     "3rpr_sim": (19, 28, "exact"),
 }
 TURNS = ("offset_parallelogram", "twoloops_poorhome", "3rpr_sim")
-FURTHER = ["rccc_wide", *(in_turn(name) for name in TURNS)]
+FURTHER = ["rccc_wide", *rotating(*TURNS)]
 FURTHER += [pytest.param(n, marks=ROTATING) for n in FILES if n not in (*TURNS, "rccc_wide")]
 
 
@@ -116,7 +116,7 @@ def changed(text, rng):
     return head + re.sub(r"(?m)^(\w+) = (-?[\d.]+)(?=\s*(#.*)?$)", other, symbols) + tail
 
 
-IN_LETTERS = ["four-bar", *(in_turn(n) for n in ("pantograph", "offset"))]
+IN_LETTERS = ["four-bar", *rotating("pantograph", "offset")]
 WRITTEN = {"four-bar": (FOUR_BAR, 19), "pantograph": (PANTOGRAPH, 8), "offset": (OFFSET, 3)}
 
 

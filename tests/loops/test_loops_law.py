@@ -28,13 +28,13 @@ from tests.modules import loaded, module, plain
 from tests.oracles.closed_ways import followed, open_at
 from tests.oracles.complex_step import Oracle
 from tests.robot_texts import RHOMBUS
-from tests.robots import LOOPED, in_turn, one_always
-from tests.rotation import ROTATING
+from tests.robots import LOOPED, one_always
+from tests.rotation import ROTATING, rotating
 
 SAME = ("orthoglide-2003-similar-legs",)  # the same loops as another's
 BUILT_IN = one_always((name for name in LOOPED if name not in SAME), "five-bar")
 OUTSIDE = [
-    "rccc_wide", *map(in_turn, ("offset_parallelogram", "twoloops")),
+    "rccc_wide", *rotating("offset_parallelogram", "twoloops"),
     *(pytest.param(n, marks=ROTATING) for n in ("3rpr_sim", "excavator_bucket")),
 ]  # fmt: skip
 

@@ -12,13 +12,12 @@ from modeler.simulation import motion_limits, plant_parameters
 from modeler.simulation.closing import constraints_of, followed
 from tests.modules import module, plain
 from tests.oracles.mujoco_machine import STEP, mujoco, mujoco_model
-from tests.robots import in_turn
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 STEPS = 1500
 ROBOTS = [
     "five-bar",
-    *(in_turn(name) for name in ("sr400", "orthoglide-2003")),
+    *rotating("sr400", "orthoglide-2003"),
     *(pytest.param(name, marks=ROTATING) for name in ("3rrr", "delta", "stewart", "evra")),
 ]  # fmt: skip
 

@@ -8,7 +8,7 @@ import pytest
 
 from modeler.codegen.closed import solving_of
 from tests.modules import loaded, module, plain
-from tests.robots import in_turn
+from tests.rotation import rotating
 
 NAME = "orthoglide-2003"
 
@@ -42,7 +42,7 @@ def dense():
     return with_limits(0.0)
 
 
-@pytest.mark.parametrize("reach", [1.0, *(in_turn(r) for r in (0.05, 0.3))])
+@pytest.mark.parametrize("reach", [1.0, *rotating(0.05, 0.3)])
 def test_dense_pivoting_closes_the_same_postures(dense, reach):
     sparse = plain(NAME)
     q, qd, qdd = around_home(400, reach)

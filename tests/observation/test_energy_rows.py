@@ -11,9 +11,9 @@ from modeler.estimation.energy_fit import energy_rows, kinetic_columns, weights
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
-from tests.in_turn import in_turn
 from tests.modules import compiled
 from tests.oracles.numpy_model import planar_arm
+from tests.rotation import rotating
 
 SWING = {"sr400-tree": 0.4, "five-bar": 0.15, "wrist": 0.8}
 BROAD = Processing(derivatives="log", position_cutoff=0.0, parallel_cutoff=10.0)
@@ -40,7 +40,7 @@ def rows_of(name, rate, rule="simpson", window=0.1):
     return energy_rows(model, observe(model, [log_of(name, rate)], BROAD), window, rule)
 
 
-@pytest.mark.parametrize("name", ["five-bar", *in_turn("sr400-tree", "wrist")])
+@pytest.mark.parametrize("name", ["five-bar", *rotating("sr400-tree", "wrist")])
 def test_work_of_inertia_is_a_difference_of_energies(name):
     """Newton-Euler's power, integrated, comes to the energies of M(q): h^4 by Simpson, h^2 else."""
     error = {}

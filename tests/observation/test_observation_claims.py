@@ -12,7 +12,7 @@ from modeler.numerics.noise import lattice_step
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 
 COUNTS = 2 * np.pi / 2**14
 STEP = 2e-3
@@ -57,7 +57,7 @@ WRONG = ("jumps", "rings", "stays at", "stuck at its limit", "repeats", "spike")
 
 
 @pytest.mark.parametrize(
-    ("channel", "rows"), [("q", 4), *in_turn(("tau", 10), ("qd", 4), ("q", 10), ("tau", 4))]
+    ("channel", "rows"), [("q", 4), *rotating(("tau", 10), ("qd", 4), ("q", 10), ("tau", 4))]
 )
 def test_a_held_channel_is_named_with_its_rate_and_interpolated(channel, rows):
     log, beta = recorded(rows)
@@ -93,7 +93,7 @@ def test_clean_channels_coarse_encoders_and_switched_torques_are_not_held():
     assert rows_held(noisy) == rows_held(np.sign(np.sin(9.0 * t))) == rows_held(0.0 * t) == 1
 
 
-@pytest.mark.parametrize("seed", [0, *in_turn(1, 2)])
+@pytest.mark.parametrize("seed", [0, *rotating(1, 2)])
 def test_a_pause_of_the_bus_and_a_step_of_stick_slip_are_no_new_zero(seed):
     log, _ = recorded(seed)
     random = np.random.default_rng(seed)
@@ -216,7 +216,7 @@ def test_positions_without_noise_are_planned_filtered_or_simulated(tmp_path, cap
     assert "noise of the positions" not in text
 
 
-@pytest.mark.parametrize("coarse", [0.02, *in_turn(0.1)])
+@pytest.mark.parametrize("coarse", [0.02, *rotating(0.1)])
 def test_coarse_speeds_and_coarse_positions_belong_together(tmp_path, capsys, coarse):
     log, _ = recorded(8)
     q = np.round(0.1 * log.q / 4e-4) * 4e-4

@@ -13,8 +13,8 @@ from modeler.observation.observe import observe
 from modeler.observation.read import read_log
 from modeler.observation.segments import split
 from modeler.observation.settings import Processing, processing_from_json
-from tests.in_turn import in_turn
 from tests.measured_sets.sets import DATA
+from tests.rotation import rotating
 
 measured = pytest.mark.skipif(not DATA.is_dir(), reason=f"NOT CHECKED: no measured logs in {DATA}")
 
@@ -88,14 +88,14 @@ HONEST = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("cutoff", [5.0, *in_turn(0.0, 20.0)])
+@pytest.mark.parametrize("cutoff", [5.0, *rotating(0.0, 20.0)])
 @pytest.mark.parametrize("case", HONEST)
 def test_honest_logs_lose_nothing_and_nothing_is_said(case, cutoff):
     found, bad = checked(log_of(*HONEST[case]), cutoff)
     assert not bad.any() and found.contradictions == () and found.notes == ()
 
 
-@pytest.mark.parametrize("unit", [1e-3, *in_turn(1.0, 1e4)])
+@pytest.mark.parametrize("unit", [1e-3, *rotating(1.0, 1e4)])
 @pytest.mark.parametrize("case", ["exact", "a little noise", "rounded", "fast"])
 def test_a_transient_of_an_estimator_is_found_where_it_is(case, unit):
     """As in logs whose accelerations start from a wrong state: large, and decaying."""
@@ -233,7 +233,7 @@ def kinova(name):
 
 @pytest.mark.measured
 @measured
-@pytest.mark.parametrize("number", [1, *in_turn(2, 3, 4, 5)])
+@pytest.mark.parametrize("number", [1, *rotating(2, 3, 4, 5)])
 def test_the_transients_at_both_ends_of_measured_runs(number):
     """The source's accelerations start and end with a transient, its joint 4 most of all."""
     log = kinova(f"traj_{number}")
@@ -251,7 +251,8 @@ def test_the_transients_at_both_ends_of_measured_runs(number):
 @pytest.mark.measured
 @measured
 @pytest.mark.parametrize(
-    "name", ["02_19_14harm50sec", *in_turn("01_17-ptp_10_points", "01_22-joint_1", "01_22-joint_5")]
+    "name",
+    ["02_19_14harm50sec", *rotating("01_17-ptp_10_points", "01_22-joint_1", "01_22-joint_5")],
 )
 def test_rounded_measured_velocities_are_believed(name):
     rows = [Row(), Row(1.0), Row(d=1.0), Row(d=1.0), Row(1.0), Row(1.0)]

@@ -16,7 +16,7 @@ from modeler.observation.observe import observe
 from modeler.observation.outliers import damages, defects
 from modeler.observation.read import read_log
 from modeler.observation.settings import Processing
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 
 ARMS = {
     "slider": slider(),
@@ -54,7 +54,7 @@ def drawn(random, name, rate=None, noise=None):
 
 
 @pytest.mark.parametrize("name", ARMS)
-@pytest.mark.parametrize("rate", [100, *in_turn(500, 2000)])
+@pytest.mark.parametrize("rate", [100, *rotating(500, 2000)])
 def test_honest_logs_are_left_as_they_are(name, rate):
     """Coulomb friction leaps at every reversal; noise and steps of the encoder are drawn."""
     for seed in range(2):
@@ -66,7 +66,7 @@ def test_honest_logs_are_left_as_they_are(name, rate):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("seed", [0, *in_turn(1)])
+@pytest.mark.parametrize("seed", [0, *rotating(1)])
 def test_blows_stops_sticking_and_kicks_are_physics(kind, seed):
     log = rough_log(seed, 1000, kind)
     spec = rotor().spec
@@ -163,7 +163,7 @@ def test_defects_drawn_at_random_are_named_with_joint_and_time(defect):
     assert seen[True] >= 9
 
 
-@pytest.mark.parametrize("each", [1.25, *in_turn(3, 8)])
+@pytest.mark.parametrize("each", [1.25, *rotating(3, 8)])
 def test_rows_that_a_recorder_repeats_are_left_out(each):
     """The robot gives 125 rows a second, the recorder writes `each` times as many."""
     random = np.random.default_rng(round(10 * each))
@@ -212,7 +212,7 @@ LINES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("defect", ["spike", "zero", "lost", *in_turn("wrap", "glitch")])
+@pytest.mark.parametrize("defect", ["spike", "zero", "lost", *rotating("wrap", "glitch")])
 def test_the_report_names_the_defect_and_the_rest_stays_usable(defect):
     model = planar_arm()
     log, beta = sample(defect)
@@ -280,7 +280,7 @@ def manifest_of(names, folder):
 @pytest.mark.parametrize(
     "folder",
     ["panda", "tx40",
-     *in_turn("emps", "odrive_cogging", "ur10e", "dualarm7", "dvrk_psm", "kinova_gen3")],
+     *rotating("emps", "odrive_cogging", "ur10e", "dualarm7", "dvrk_psm", "kinova_gen3")],
 )  # fmt: skip
 def test_nothing_is_found_in_measured_logs(measured_folder, folder):
     """Each was looked at: that of panda repeats rows, none has another defect.

@@ -13,7 +13,7 @@ from modeler.observation.prepare import without_speeds
 from modeler.observation.read import read_log
 from modeler.observation.segments import Piece, split
 from modeler.observation.settings import Processing
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 
 ARM = planar_arm()
 
@@ -45,7 +45,7 @@ def consistency_of(log, cutoff=5.0):
     return consistency(log, pieces, cutoff)
 
 
-@pytest.mark.parametrize(("rate", "joints"), [(100, 7), *in_turn((1000, 2), (1000, 7))])
+@pytest.mark.parametrize(("rate", "joints"), [(100, 7), *rotating((1000, 2), (1000, 7))])
 def test_the_late_joint_is_named_with_its_delay(rate, joints):
     """12 to 80 ms, drawn; three of each."""
     random = np.random.default_rng([rate, joints])
@@ -112,7 +112,7 @@ def test_a_small_delay_does_no_harm_and_the_velocities_are_used():
 @pytest.mark.measured
 @pytest.mark.parametrize(
     ("folder", "joints"),
-    [("panda", 7), *in_turn(("ur10e", 6), ("dualarm7", 7), ("kinova_gen3", 7), ("dvrk_psm", 7))],
+    [("panda", 7), *rotating(("ur10e", 6), ("dualarm7", 7), ("kinova_gen3", 7), ("dvrk_psm", 7))],
 )
 def test_only_the_panda_filters_its_velocities(measured_folder, folder, joints):
     """5 ms in all joints, which its controller's filter makes; told, and small enough to use."""

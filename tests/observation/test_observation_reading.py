@@ -12,7 +12,7 @@ from modeler.core.errors import DataError
 from modeler.observation.chunk import window
 from modeler.observation.log import shared_rows
 from modeler.observation.read import read_log
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 
 
 def columns(n=50, joints=2):
@@ -144,7 +144,7 @@ BAD = {
 
 
 @pytest.mark.parametrize("case", BAD)
-@pytest.mark.parametrize("suffix", [".csv", *in_turn(".parquet")])
+@pytest.mark.parametrize("suffix", [".csv", *rotating(".parquet")])
 def test_wrong_tables_say_file_column_and_row(tmp_path, spec, case, suffix):
     table, words = BAD[case]
     path = write(tmp_path / f"bad{suffix}", table)

@@ -14,7 +14,7 @@ from modeler.observation.low_speed import shafts
 from modeler.observation.motion import low_pass
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 
 
 def motion(joints, seconds=20.0, rate=200, seed=0, harmonics=3):
@@ -219,7 +219,7 @@ def lossy(model, missing, rate=1000):
     return dataclasses.replace(log, q=q), beta
 
 
-@pytest.mark.parametrize("run", [3, *in_turn(1)])
+@pytest.mark.parametrize("run", [3, *rotating(1)])
 def test_a_few_missing_positions_cost_only_themselves(run):
     """One loss in 160 rows at 1 kHz: the filter follows the motion across it."""
     arm = planar_arm()

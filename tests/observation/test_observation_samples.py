@@ -17,7 +17,7 @@ from modeler.observation.prepare import choose_cutoffs, joint_bands, spectra_of,
 from modeler.observation.segments import saturated, split
 from modeler.observation.settings import ChosenProcessing, Processing, processing_from_json
 from tests.fleet.machines import compiled, motion, parameters
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 
 W0 = 2 * np.pi * 0.7  # rad/s
 
@@ -364,7 +364,7 @@ def noise_found(q, rate, band=2.0):
 
 
 @pytest.mark.parametrize(
-    ("rate", "size"), [(200.0, 1e-5), (1000.0, 3e-3), *in_turn((1000.0, 1e-5), (200.0, 3e-4))]
+    ("rate", "size"), [(200.0, 1e-5), (1000.0, 3e-3), *rotating((1000.0, 1e-5), (200.0, 3e-4))]
 )
 def test_the_floor_is_the_density_of_white_noise(rate, size):
     time = np.arange(round(20 * rate)) / rate

@@ -37,8 +37,7 @@ from modeler.robot.read import robot_from_text
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, motion, on_joint
 from tests.diagnose.test_diagnose_effects import drift, motor_ripple, spring, stribeck
-from tests.in_turn import in_turn
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 
 @cache
@@ -87,7 +86,7 @@ def series(panel: Panel, kind: type, label: str):
 
 @pytest.mark.parametrize(
     "effect",
-    ["stribeck", "spring", "motor_ripple", *in_turn("load_friction"),
+    ["stribeck", "spring", "motor_ripple", *rotating("load_friction"),
      *(pytest.param(e, marks=ROTATING) for e in ("drift", "presliding"))],
 )  # fmt: skip
 def test_the_picture_convinces(case: Case, effect: str) -> None:

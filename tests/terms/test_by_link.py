@@ -11,10 +11,10 @@ from modeler.derivation import random_states
 from modeler.formulas import by_link
 from modeler.formulas.function_sheet import sheet_lines
 from modeler.robot import robot_from_text
-from tests.in_turn import in_turn
 from tests.json_schemas import check_schema
 from tests.papers import mechanisms as m
 from tests.papers.oracles import bodies, inertia_of, triads, wrist
+from tests.rotation import rotating
 from tests.terms.cases import model_of
 from tests.terms.printed_lines import derived, run_lines
 
@@ -43,7 +43,7 @@ def placed(model, u):
     return found
 
 
-@pytest.mark.parametrize("name", ["odd", "sr400", *in_turn("wrist", "panda", "evra")])
+@pytest.mark.parametrize("name", ["odd", "sr400", *rotating("wrist", "panda", "evra")])
 def test_the_printed_energy_functions_are_those_of_moving_points(name):
     model = derived(name).model
     free = model.robot.free

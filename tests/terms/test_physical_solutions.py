@@ -18,8 +18,8 @@ from modeler.formulas.solve import determined, formula, missing_lines, solution_
 from modeler.formulas.sufficient_sets import smallest_number
 from modeler.formulas.values import derive_values, verify
 from modeler.robot.read import robot_from_text
-from tests.in_turn import in_turn
 from tests.robots import ROBOTS, kinds_first
+from tests.rotation import rotating
 from tests.terms.cases import TEXTS, edited_wrist, model_of
 from tests.terms.physical_cases import SEVEN, data_of, random_letters, slopes_of, system_of
 
@@ -120,7 +120,7 @@ def test_a_quotient_of_zeros_is_not_verified():
 
 @pytest.mark.parametrize(
     "name",
-    ["two-link", "3rrr", *in_turn("odd", "puma560", "orthoglide-2003")],
+    ["two-link", "3rrr", *rotating("odd", "puma560", "orthoglide-2003")],
 )  # fmt: skip
 def test_masses_and_centres_known_on_other_robots(name):
     """Inertias follow, or their groups are told to be short of some; every formula is exact."""
@@ -255,7 +255,7 @@ def check(name: str, known: tuple[str, ...]) -> int:
     return len(robots)
 
 
-@pytest.mark.parametrize("name", [*EVERY, "wrist", *in_turn(*sorted({*SAMPLED} - {"wrist"}))])
+@pytest.mark.parametrize("name", [*EVERY, "wrist", *rotating(*sorted({*SAMPLED} - {"wrist"}))])
 def test_printed_python_of_smallest_sets(name):
     for known in sets_of(name):
         check(name, known)

@@ -16,7 +16,7 @@ from modeler.formulas.values import (
     known_from_text,
     rated,
 )
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, example, random_letters, slopes_of, system_of
 
@@ -291,7 +291,7 @@ def test_counts_by_brute_force(name, size):
             assert set(found.easiest) == set(members)
 
 
-@pytest.mark.parametrize("name", ["scara", *in_turn("puma560", "orthoglide-2003")])
+@pytest.mark.parametrize("name", ["scara", *rotating("puma560", "orthoglide-2003")])
 def test_the_easiest_set_suffices_and_is_smallest(name):
     system, known = system_of(name), set(easiest_set(system_of(name)))
     J = jacobian(system)

@@ -15,7 +15,7 @@ from modeler.effects.effect import EnergyBlock
 from modeler.formulas.closed_form import ClosedForm, closed_form
 from modeler.formulas.ring import TrigRing
 from modeler.robot.read import robot_from_text
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 from tests.terms.cases import SMALL, base_of, closed_of, edited_wrist, general, model_of, robot_text
 from tests.terms.closed_form_values import evaluate
 
@@ -56,7 +56,7 @@ def test_torque_of_the_closed_form_is_that_of_newton_and_euler(name):
         assert np.allclose(found, expected, rtol=1e-11, atol=1e-11 * np.abs(expected).max())
 
 
-MIXED = ["odd", *in_turn("general3", "wrist", "scara")]
+MIXED = ["odd", *rotating("general3", "wrist", "scara")]
 
 
 @pytest.mark.parametrize("name", MIXED)

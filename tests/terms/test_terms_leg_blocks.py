@@ -12,7 +12,7 @@ from modeler.core.errors import RobotError
 from modeler.formulas import block_form
 from modeler.formulas.function_sheet import sheet_latex, sheet_lines
 from modeler.formulas.regressor_form import regressor_form, short_form
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 from tests.terms.cases import base_of, model_of
 from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines
 from tests.terms.test_terms_whole_torque import check, motions_of, printed_columns
@@ -80,7 +80,7 @@ def distance(name, turned=np.array):
     return worst
 
 
-QUICK = in_turn("orthoglide-2003", "orthoglide-2012")
+QUICK = rotating("orthoglide-2003", "orthoglide-2012")
 SLOW = [pytest.param(n, marks=pytest.mark.slow) for n in ("3rrr", "delta", "stewart")]
 
 

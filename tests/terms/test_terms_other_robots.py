@@ -21,15 +21,15 @@ from modeler.formulas.render import backward_lines, forward_lines
 from modeler.formulas.ring import base_map, inverse_map, motions_of
 from modeler.robot.read import robot_from_text
 from tests.base.formulas import text_value
-from tests.in_turn import in_turn
+from tests.rotation import rotating
 from tests.terms.cases import TEXTS, closed_of, edited_wrist, model_of, robot_text, table_of
 from tests.terms.closed_form_values import evaluate
 from tests.terms.printed_lines import compiled, derived
 
-ROBOTS = ["two-link", "odd", "emps", *in_turn("scara", "general3", "weightless", "demo-arm")]
+ROBOTS = ["two-link", "odd", "emps", *rotating("scara", "general3", "weightless", "demo-arm")]
 
 
-@pytest.mark.parametrize("name", [*ROBOTS, *in_turn("orthoglide-leg")])
+@pytest.mark.parametrize("name", [*ROBOTS, *rotating("orthoglide-leg")])
 def test_combinations_hold_at_a_random_point(name):
     """Exactly, modulo a prime: every coefficient is the combination that the table states."""
     table = table_of(name)
@@ -122,7 +122,7 @@ def test_symbol_that_is_a_generic_letter_is_refused():
         coefficient_table(model, base_parameters(model))
 
 
-@pytest.mark.parametrize("name", ["wrist", *in_turn("odd")])
+@pytest.mark.parametrize("name", ["wrist", *rotating("odd")])
 def test_the_printed_map_and_its_printed_inverse_undo_each_other(name):
     table, random = table_of(name), np.random.default_rng(14)
     lengths = {name: random.uniform(0.3, 1.4) for name in table.closed.algebra.geometry.values}
@@ -140,7 +140,7 @@ def test_the_printed_map_and_its_printed_inverse_undo_each_other(name):
         assert value == pytest.approx(base[name], rel=1e-10), name
 
 
-TIED_ROBOTS = ["orthoglide-leg", *in_turn("geared", "sr400")]
+TIED_ROBOTS = ["orthoglide-leg", *rotating("geared", "sr400")]
 
 
 @pytest.mark.parametrize("name", TIED_ROBOTS)

@@ -13,8 +13,8 @@ import pytest
 from modeler.core.errors import RobotError
 from modeler.formulas.function_sheet import sheet_latex, sheet_lines, sheet_markdown
 from modeler.formulas.regressor_form import equation_of, nonzero_base, regressor_form, short_form
-from tests.in_turn import in_turn
 from tests.robots import ROBOTS, kinds_first
+from tests.rotation import rotating
 from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines, torque
 
 SAMPLES = 3
@@ -101,7 +101,7 @@ def test_printed_lines_of_further_robots(loop_robots_folder, file):
     check(loop_robots_folder / file)
 
 
-@pytest.mark.parametrize("name", ["orthoglide-2003", *in_turn("puma560", "sr400")])
+@pytest.mark.parametrize("name", ["orthoglide-2003", *rotating("puma560", "sr400")])
 def test_a_document_of_both_has_one_thing_under_each_name(name):
     """The torque and the columns on one sheet: names are given once, and before they are read."""
     derivation = derived(name)
@@ -223,7 +223,7 @@ def printed_columns(derivation, found) -> np.ndarray:
     )
 
 
-@pytest.mark.parametrize("name", ["odd", "sr400", *in_turn("puma560", "geared")])
+@pytest.mark.parametrize("name", ["odd", "sr400", *rotating("puma560", "geared")])
 def test_printed_columns_are_those_of_the_c(name):
     derivation, model = derived(name), compiled(name)
     lines = sheet_lines(regressor_form(derivation.model, derivation.base).sheet)
