@@ -3,6 +3,7 @@
 import ctypes
 from collections.abc import Mapping
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
@@ -16,27 +17,15 @@ from modeler.robot.read import robot_from_text
 from modeler.runtime.build import build_library
 from tests.modules import Module, module, unoptimised
 
-SLOW = """
-name = "slow-arm"
-gravity = [0, 0, -9.81]
-[mdh]
-columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]
-rows = [
-  ["1", "0", 0, 0,       0,   "q1", 0.3],
-  ["2", "1", 0, "pi/2",  0.4, "q2", 0],
-  ["3", "2", 1, "-pi/2", 0,   0,    "q3"],
-]
-[effects]
-viscous = "all"
-coulomb = "all"
-presliding = [{joint = "1", d = 0.01}]
-stribeck = [{joint = "2", vs = 0.1, d = 1.0}]
-temperature_friction = ["2"]
-joint_ripple = [{joint = "3", m = 8.0}]
-coupled_friction = ["2"]
-[coupling]
-2 = "q1 + q2"
-"""
+ROBOTS = Path(__file__).with_name("robots")
+
+
+def robot_text(name: str) -> str:
+    """A robot of the folder beside."""
+    return (ROBOTS / f"{name}.toml").read_text()
+
+
+SLOW = robot_text("slow-arm")
 """Two axes that turn and one that slides; effects that read signals, positions and shapes; a joint
 that rubs and whose motor, which turns with two, rubs too."""
 
@@ -112,6 +101,10 @@ class Functions:
         """A constant array."""
         array = (ctypes.c_double * count).in_dll(self._library, f"{self.spec.prefix}_{name}")
         return np.array(array)
+
+    def integers(self, name: str, count: int) -> list[int]:
+        """A table of whole numbers."""
+        return [*(ctypes.c_int * count).in_dll(self._library, f"{self.spec.prefix}_{name}")]
 
     def __call__(self, role: str, given: Mapping[str, np.ndarray]) -> np.ndarray:
         """The output over the samples; what the function reads is taken from `given`."""

@@ -2,7 +2,10 @@
 
 import re
 
+import pytest
+
 from modeler.codegen.block import make_block
+from modeler.codegen.targets import DOUBLE, FUNCTIONS, SINGLE, TILES
 from modeler.derivation.graph import Graph
 from tests.modules import module
 
@@ -62,3 +65,35 @@ def test_each_temporary_is_defined_once_and_before_its_use():
             assert used - new <= seen, line
             seen |= new
         assert seen
+
+
+@pytest.mark.parametrize("target", [DOUBLE, SINGLE, *TILES.values()])
+def test_a_target_names_all_functions(target):
+    assert set(target.functions) == set(FUNCTIONS)
+
+
+def test_a_tile_has_lanes_for_what_moves_and_numbers_for_what_does_not():
+    graph = Graph()
+    x, length = graph.symbol("q0"), graph.symbol("D4", static=True)
+    values = [
+        graph.call("cos", length) * graph.call("sin", x),
+        graph.power(length, x),
+        length * length,
+        x - x,
+    ]
+    values.append(graph.constant(-1))
+    pairs = [(f"out[{k}]", value) for k, value in enumerate(values)]
+    made = make_block(pairs, PLACES, target=TILES["double"])
+    assert made.constants and all(line.startswith("const double k") for line in made.constants)
+    assert not any(word in line for line in made.body for word in ("double", " sin(", " pow("))
+    assert made.body[-3].startswith("out[2] = modeler_lanes_spread(")
+    assert made.body[-2:] == (
+        "out[3] = modeler_lanes_spread(0.0);", "out[4] = modeler_lanes_spread(-1.0);"
+    )  # fmt: skip
+
+
+def test_the_sign_that_turns_over_a_width_follows_the_target():
+    graph = Graph()
+    v = graph.symbol("q0")
+    made = make_block([("out[0]", graph.call("sign", v))], PLACES, {abs(v.ref): "width"}, SINGLE)
+    assert made.calls == ("const float t1 = smooth_sign(q[0], width);",)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from modeler.cli import main
 from modeler.codegen.package import RECORD, checksum, leftovers, write_emitted
 from modeler.core.errors import ModelerError
 from modeler.core.manifest import Emitted
@@ -211,3 +212,19 @@ def test_the_record_can_be_checked_by_others(emitted, tmp_path):
     if shutil.which("sha256sum") is None:
         pytest.skip("NOT CHECKED: there is no sha256sum here")
     subprocess.run(["sha256sum", "-c", "--strict", RECORD], cwd=tmp_path, check=True)
+
+
+@pytest.mark.parametrize(
+    ("option", "file", "says"),
+    [("--cuda", "two_link.cu", "two_link_nonzeros_kernel"),
+     ("--a2l", "two_link.a2l", "/end PROJECT"),
+     ("--structured-text", "two_link.st", "FUNCTION_BLOCK two_link_gravity")],
+)  # fmt: skip
+def test_a_command_with_an_option_writes_more_and_one_without_takes_it_away(
+    option, file, says, tmp_path, capsys
+):
+    words = ["generate", "two-link", "--out", str(tmp_path)]
+    assert main([*words, option]) == 0
+    assert f"  {file}" in capsys.readouterr().out
+    assert says in (tmp_path / file).read_text()
+    assert main(words) == 0 and not (tmp_path / file).exists()

@@ -4,8 +4,6 @@ import dataclasses
 import json
 import subprocess
 
-import pytest
-
 from modeler.codegen.emit import emit
 from modeler.codegen.functions import enumerators
 from modeler.codegen.package import write_emitted
@@ -14,46 +12,13 @@ from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import load_folder
-from tests.codegen.fitted_library import Functions, fitted_of, robot_module, with_values
+from tests.codegen.fitted_library import Functions, fitted_of, robot_module, robot_text, with_values
 from tests.modules import STRICT, compiler
 
 CPP = ["-x", "c++", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 
-CLASHING = """
-name = "arm"
-gravity = ["-g", 0, 0]
-[symbols]
-g = 9.81
-JOINTS = 0.4
-BETA_ZZ1R = 0.2
-[mdh]
-columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]
-rows = [
-  ["1", "0", 0, 0, 0,           "q1", 0],
-  ["2", "1", 0, 0, "JOINTS",    "q2", 0],
-  ["3", "2", 0, 0, "BETA_ZZ1R", "q3", 0],
-]
-[effects]
-coulomb = "all"
-joint_ripple = [{joint = "1", m = 8.0}, {joint = "1", m = 9.0}]
-"""
+CLASHING = robot_text("clashing")
 """Symbols that are called like macros and constants of the header; a joint with two ripples."""
-
-
-@pytest.mark.rotating
-@pytest.mark.parametrize("name", ["slow-arm", "orthoglide-2003"])
-@pytest.mark.parametrize("cc", ["gcc", "clang", "g++", "clang++"])
-def test_every_file_compiles_as_c_and_as_cpp_without_a_warning(cc, name, tmp_path):
-    emitted = with_values(name)
-    write_emitted(emitted, tmp_path)
-    units = sorted(tmp_path.glob("*.c"))
-    assert tmp_path / f"{emitted.spec.prefix}_fitted.c" in units
-    texts = [emitted.files[name] for name in emitted.spec.sources]
-    assert all(text.isascii() for text in texts)
-    if name == "slow-arm":
-        assert max(len(line) for text in texts for line in text.splitlines()) <= 100
-    flags = CPP if cc.endswith("++") else STRICT
-    subprocess.run([compiler(cc), *flags, "-fsyntax-only", "-I", tmp_path, *units], check=True)
 
 
 def test_places_of_parameters_have_names_of_their_own(tmp_path):

@@ -1,6 +1,7 @@
 """Laws that were learned, in all emitted code: the tables of Python, and of scipy."""
 
 import platform
+import re
 import subprocess
 import sys
 from functools import cache
@@ -13,6 +14,7 @@ from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.law import Law
+from modeler.core.manifest import Emitted
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.read import robot_from_text
@@ -22,7 +24,7 @@ from modeler.runtime.model import CompiledModel
 from tests.codegen.fitted_library import fitted_of
 from tests.codegen.structured_text import Program
 from tests.compiled.cupy_on_cpu import cupy
-from tests.compiled.test_tiles import CHECK
+from tests.compiled.test_tiles import compiled_check
 from tests.export.test_casadi import far
 from tests.learned import drawn, scipy_value, text_with
 from tests.modules import STRICT, Module, compiler, loaded
@@ -45,6 +47,12 @@ def made() -> Module:
     model = derive_model(robot_from_text(text_with("demo-arm", LAWS), "demo-arm"))
     base = base_parameters(model)
     return Module(model, base, emit(model, base))
+
+
+@cache
+def with_control() -> Emitted:
+    model, base, emitted = made()
+    return emit(model, base, fitted_of(emitted.spec), control=Control())
 
 
 @cache
@@ -92,7 +100,10 @@ def close(got: np.ndarray, wanted: np.ndarray, joint: str, motion, precision: fl
 
 
 @pytest.mark.parametrize("joint", LAWS)
-@pytest.mark.parametrize(("precision", "bound"), [("double", 1e-15), ("single", 2e-7)])
+@pytest.mark.parametrize(
+    ("precision", "bound"),
+    [pytest.param("double", 1e-15, marks=pytest.mark.digits), ("single", 2e-7)],
+)
 def test_the_c_has_the_values_of_python_and_of_scipy(joint, precision, bound):
     model, states = compiled(precision), motion(400)
     got = column(model, joint, model.base_regressor(*states))
@@ -115,37 +126,23 @@ def test_what_is_not_finite_gives_no_number_in_any_lane(precision):
     np.testing.assert_allclose(got, wanted, atol=1e-5)
 
 
-@pytest.mark.parametrize("precision", ["double", "single"])
-def test_tiles_have_the_values_of_one_after_another(precision, monkeypatch):
-    model, states = compiled(precision), motion(37)
-    one = model.nonzeros(*states)
-    monkeypatch.setattr(tiling, "TILED_FROM", 1)
-    many, rest = model.nonzeros(*states), np.abs(one).max(axis=1, keepdims=True)
-    assert (np.abs(one - many) <= 200 * np.finfo(NUMBERS[precision]).eps * rest).all()
-
-
 @pytest.mark.parametrize(
     ("cc", "flags"),
-    [("gcc", ["-O0"]), ("clang", ["-O0"]), ("gcc", ["-O2"]), ("clang", ["-DMODELER_PLAIN"])],
+    [
+        *(("gcc", ["-O0"]), ("clang", ["-DMODELER_PLAIN"])),
+        pytest.param("clang", ["-O0"], marks=pytest.mark.rotating),
+        pytest.param("gcc", ["-O2"], marks=pytest.mark.rotating),
+    ],
 )
 def test_every_instruction_set_and_compiler_gives_the_same(cc, flags, tmp_path):
-    model, base, _ = made()
-    emitted = emit(model, base, fitted_of(made().emitted.spec), control=Control())
-    write_emitted(emitted, tmp_path)
-    (tmp_path / "check.c").write_text(CHECK.format(prefix="demo_arm", prefix_upper="DEMO_ARM"))
-    units = ["check.c", "demo_arm_base_regressor.c", "modeler_tile.c"]
-    command = [compiler(cc), *STRICT, *flags]
-    if flags == ["-O0"]:
-        units += ["demo_arm.c", "demo_arm_control.c", "demo_arm_fitted.c", "demo_arm_regressor.c"]
-    built = subprocess.run(
-        [*command, "-o", "check", *units, "-lm"], cwd=tmp_path, capture_output=True, text=True,
-        check=False,
-    )  # fmt: skip
-    assert built.returncode == 0, built.stderr
-    assert subprocess.run([tmp_path / "check"], check=False).returncode == 0
+    names = [name for name in with_control().spec.sources if name.startswith("demo_arm")]
+    units = [
+        name for name in names if name[-2:] == ".c" and not re.search("base_regressor|batch", name)
+    ]
+    assert compiled_check(with_control(), tmp_path, cc, *flags, units=units * (flags == ["-O0"]))
 
 
-@pytest.mark.parametrize("cc", ["gcc", "clang"])
+@pytest.mark.parametrize("cc", ["gcc", pytest.param("clang", marks=pytest.mark.rotating)])
 def test_a_law_is_straight_line_code_without_calls(cc, tmp_path):
     """Its table known or not, no jump and no call is left of it."""
     write_emitted(made().emitted, tmp_path)
@@ -198,8 +195,7 @@ def test_robots_with_loops_have_laws_of_their_motors(name, monkeypatch):
 
 
 def test_forward_dynamics_undo_the_torques():
-    model, base, _ = made()
-    c = loaded(emit(model, base, control=Control()))
+    c = loaded(with_control())
     nominal = {p.name: p.nominal or 0.0 for p in c.spec.standard}
     nominal |= {"Lawa1": 0.5, "Lawb2": -0.3, "Lawc3": 0.02}
     beta = c.base_parameters(np.array([nominal[p.name] for p in c.spec.standard]))
@@ -234,6 +230,7 @@ def test_structured_text_gives_what_the_c_gives():
         assert i != 7 or np.isnan(tau[1])
 
 
+@pytest.mark.rotating("kernels on the processor")
 def test_kernels_compute_what_the_c_computes(tmp_path, monkeypatch):
     compiler("g++")
     model, base, _ = made()

@@ -6,23 +6,11 @@ import pytest
 from modeler.codegen import Control, generate
 from modeler.codegen.workflow import derive
 from modeler.robot import robot_from_text
+from tests.codegen.fitted_library import robot_text
 from tests.loops.drawn_robots import drawn
 from tests.modules import loaded
 
-TWISTED = """
-name = "twisted"
-gravity = [0, "g*sqrt(3)/2", "-g/2"]
-[symbols]
-g = 9.81
-L = 0.4
-[mdh]
-columns = ["j", "a", "alpha", "d", "theta", "r"]
-rows = [["1", "0", "pi/3", 0, "q1", 0], ["2", "1", 0.3, "L", "q2", 0.1],
-        ["3", "2", 0.7, 0.21, "q3", "L"]]
-[effects]
-rotor_inertia = "all"
-viscous = "all"
-"""
+TWISTED = robot_text("twisted")
 """A base that is tilted as gravity is: what that does to the relations only numbers say."""
 
 
@@ -30,7 +18,13 @@ def text_of(name: str) -> str:
     return TWISTED if name == "twisted" else drawn(name, 1)
 
 
-@pytest.mark.parametrize("name", ["twisted", pytest.param("on_a_plane", marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param("twisted", marks=pytest.mark.digits),
+        pytest.param("on_a_plane", marks=pytest.mark.slow),
+    ],
+)
 def test_relations_in_numbers_keep_the_digits_of_a_double(name: str) -> None:
     derivation = derive(robot_from_text(text_of(name), name))
     assert derivation.base.proof.kind == "numeric"

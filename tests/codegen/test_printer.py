@@ -1,6 +1,7 @@
 """The printed C against plain Python arithmetic on the same operations."""
 
 import ctypes
+import operator
 import subprocess
 from fractions import Fraction
 
@@ -8,12 +9,16 @@ import numpy as np
 import pytest
 
 from modeler.codegen.block import make_block, number_text
+from modeler.codegen.targets import DOUBLE, SINGLE
 from modeler.core.errors import EmitError
 from modeler.core.files import resource_dir
 from modeler.derivation.graph import Expr, Graph
 from tests.modules import compiler
 
 INPUTS = ("x", "y", "z")
+OPERATORS = {
+    "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv
+}  # fmt: skip
 
 
 class Pair:
@@ -29,44 +34,33 @@ def call(name: str, pair: Pair) -> Pair:
 
 
 def combine(op: str, a: Pair, b: Pair) -> Pair:
-    if op == "+":
-        return Pair(a.expr + b.expr, a.value + b.value)
-    if op == "-":
-        return Pair(a.expr - b.expr, a.value - b.value)
-    if op == "*":
-        return Pair(a.expr * b.expr, a.value * b.value)
-    return Pair(a.expr / b.expr, a.value / b.value)
+    apply = OPERATORS[op]
+    return Pair(apply(a.expr, b.expr), apply(a.value, b.value))
 
 
-def run_in_c(outputs: list[Expr], values: dict[str, float], tmp_path) -> np.ndarray:
+def run_in_c(outputs: list[Expr], values: dict[str, float], tmp_path, target=DOUBLE) -> np.ndarray:
     places = {name: f"in[{i}]" for i, name in enumerate(values)}
-    block = make_block([(f"out[{i}]", expr) for i, expr in enumerate(outputs)], places)
+    block = make_block(
+        [(f"out[{i}]", expr) for i, expr in enumerate(outputs)], places, target=target
+    )
     lines = "\n".join((*block.constants, *block.calls, *block.body))
+    number, kind = ("float", np.float32) if target is SINGLE else ("double", np.float64)
     source, library = tmp_path / "f.c", tmp_path / "f.so"
     source.write_text(
-        '#include "modeler_runtime.h"\n#include "modeler_sincos.h"\n'
-        "void f(const double *in, double *out);\n"
-        f"void f(const double *in, double *out)\n{{\n(void)in;\n{lines}\n}}\n"
+        '#include "modeler_real.h"\n#include "modeler_runtime.h"\n#include "modeler_sincos.h"\n'
+        f"void f(const {number} *in, {number} *out);\n"
+        f"void f(const {number} *in, {number} *out)\n{{\n(void)in;\n{lines}\n}}\n"
     )
+    csrc = resource_dir("csrc")
+    floats = ["-Wdouble-promotion", "-Wfloat-conversion", "-I", csrc / "single"]
     # No contraction: what is printed must be what Python computes.
-    command = [compiler("gcc"), "-std=c99", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable"]
-    command += [
-        "-I",
-        resource_dir("csrc") / "include",
-        "-O1",
-        "-ffp-contract=off",
-        "-shared",
-        "-fPIC",
-        "-o",
-        library,
-        source,
-        "-lm",
-    ]
+    command = [compiler("gcc"), "-std=c99", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable",
+               *floats * (target is SINGLE), "-I", csrc / "include", "-O1", "-ffp-contract=off",
+               "-shared", "-fPIC", "-o", library, source, "-lm"]  # fmt: skip
     subprocess.run(command, check=True)
-    given = np.array(list(values.values()))
-    out = np.empty(len(outputs))
-    double_p = ctypes.POINTER(ctypes.c_double)
-    ctypes.CDLL(str(library)).f(given.ctypes.data_as(double_p), out.ctypes.data_as(double_p))
+    given, out = np.array(list(values.values()), kind), np.empty(len(outputs), kind)
+    arrays = (array.ctypes.data_as(ctypes.c_void_p) for array in (given, out))
+    ctypes.CDLL(str(library)).f(*arrays)
     return out
 
 
@@ -95,7 +89,7 @@ def random_pairs(graph: Graph, values: dict[str, float], rng: np.random.Generato
     return pool
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.rotating)])
 def test_printed_expressions_compute_what_python_does(seed, tmp_path):
     rng = np.random.default_rng(seed)
     values = dict(zip(INPUTS, rng.uniform(-2, 2, 3), strict=True))
@@ -104,7 +98,8 @@ def test_printed_expressions_compute_what_python_does(seed, tmp_path):
     np.testing.assert_allclose(got, [pair.value for pair in pairs], rtol=1e-10)
 
 
-def test_every_operation_keeps_its_signs_and_parentheses(tmp_path):
+@pytest.mark.parametrize(("target", "rtol"), [(DOUBLE, 1e-14), (SINGLE, 3e-6)])
+def test_every_operation_keeps_its_signs_and_parentheses(target, rtol, tmp_path):
     values = {"x": 0.7, "y": -1.3, "z": 2.1}
     graph = Graph()
     x, y, z = (graph.symbol(name) for name in values)
@@ -130,10 +125,13 @@ def test_every_operation_keeps_its_signs_and_parentheses(tmp_path):
         "r": (x**-3, X**-3),
         "s": (graph.constant(Fraction(-1, 3)) - x, -1 / 3 - X),
         "t": (graph.call("tanh", graph.call("tan", x)), np.tanh(np.tan(X))),
+        "u": (graph.call("sin", x) * graph.call("cos", y), np.sin(X) * np.cos(Y)),
+        "v": (graph.power(graph.call("abs", y), z) * graph.pi(), abs(Y) ** Z * np.pi),
+        "w": (x + Fraction("9.81"), X + 9.81),
     }
-    got = run_in_c([expr for expr, _ in cases.values()], values, tmp_path)
+    got = run_in_c([expr for expr, _ in cases.values()], values, tmp_path, target)
     expected = [value for _, value in cases.values()]
-    np.testing.assert_allclose(got, expected, rtol=1e-14, atol=0, err_msg=str(list(cases)))
+    np.testing.assert_allclose(got, expected, rtol=rtol, atol=0, err_msg=str(list(cases)))
 
 
 @pytest.mark.parametrize(
@@ -148,13 +146,15 @@ def test_a_number_is_printed_as_the_double_nearest_to_it(value):
     assert "." in text or "e" in text, "an integer literal would divide as integers do"
 
 
-def test_decimals_are_printed_as_they_are_written():
+def test_numbers_beyond_the_precision_are_refused():
     assert number_text(Fraction("0.0825")).text == "0.0825"
-
-
-def test_a_number_beyond_double_is_refused():
-    with pytest.raises(EmitError, match=r"too large for double precision, which has .* rescale"):
-        number_text(Fraction(10**400))
+    assert number_text(Fraction("0.1"), SINGLE).text == "0.1f"
+    assert number_text(Fraction(1, 3), SINGLE).text == "(1.0f/3.0f)"
+    assert number_text(Fraction(1, 2**24 + 1), SINGLE).text == f"{1 / (2**24 + 1)!r}f"
+    for size, target in ((400, DOUBLE), (39, SINGLE)):
+        says = f"too large for {target.precision} precision, which has .* rescale"
+        with pytest.raises(EmitError, match=says):
+            number_text(Fraction(10**size), target)
 
 
 def test_an_unknown_function_is_refused():

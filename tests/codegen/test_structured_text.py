@@ -5,7 +5,6 @@ import re
 import numpy as np
 import pytest
 
-from modeler.cli import main
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
 from modeler.codegen.structured_text import identifier
@@ -13,6 +12,7 @@ from modeler.core.errors import EmitError
 from tests.codegen.fitted_library import Functions, fitted_of, motion, robot_module
 from tests.codegen.structured_text import Program, TextError
 from tests.modules import module
+from tests.rotation import ROTATING
 
 ROLES = ("inverse_dynamics", "inertia_matrix", "gravity", "coriolis", "friction")
 
@@ -47,7 +47,10 @@ def called(program: Program, functions: Functions, role: str, given, **widths) -
     return np.array(found)
 
 
-@pytest.mark.parametrize("name", ["ur10e", "slow-arm", "sr400-tree"])
+@pytest.mark.parametrize(
+    "name",
+    ["slow-arm", *(pytest.param(n, marks=pytest.mark.rotating) for n in ("ur10e", "sr400-tree"))],
+)
 def test_the_text_read_back_gives_what_the_c_gives(name: str) -> None:
     emitted = made_of(name, fitted=False)
     program, functions = Program(emitted.files[f"{emitted.spec.prefix}.st"]), Functions(emitted)
@@ -61,7 +64,7 @@ def test_the_text_read_back_gives_what_the_c_gives(name: str) -> None:
         assert np.abs(got - expected).max() <= 1e-12 * scale, role
 
 
-@pytest.mark.parametrize("name", ["two-link", "slow-arm"])
+@pytest.mark.parametrize("name", [pytest.param("two-link", marks=pytest.mark.rotating), "slow-arm"])
 def test_values_and_widths_are_those_of_the_fitted_c(name: str) -> None:
     emitted = made_of(name, fitted=True)
     text = emitted.files[f"{emitted.spec.prefix}.st"]
@@ -87,11 +90,13 @@ def test_nothing_is_kept_between_calls_and_each_function_is_declared_once() -> N
 
 
 @pytest.mark.parametrize(
-    ("name", "fitted"), [("two-link", True), pytest.param("slow-arm", True, marks=pytest.mark.slow)]
-)
-def test_another_parser_of_the_standard_reads_it(name: str, fitted: bool) -> None:
+    "name",
+    [pytest.param("emps", marks=pytest.mark.rotating("readers of standards")),
+     *(pytest.param(n, marks=ROTATING) for n in ("two-link", "slow-arm"))],
+)  # fmt: skip
+def test_another_parser_of_the_standard_reads_it(name: str) -> None:
     blark = pytest.importorskip("blark.parse", reason="blark reads Structured Text: pip install it")
-    emitted = made_of(name, fitted)
+    emitted = made_of(name, fitted=True)
     read = blark.parse_source_code(emitted.files[f"{emitted.spec.prefix}.st"])
     assert read.exception is None and read.tree is not None
     wrong = blark.parse_source_code("FUNCTION_BLOCK a VAR x : ; END_VAR END_FUNCTION_BLOCK")
@@ -115,16 +120,6 @@ def test_loops_and_single_precision_have_none() -> None:
         emit(loop.model, loop.base, control=Control(structured_text=True))
     with pytest.raises(EmitError, match=r"LREAL.*leave out one of the two"):
         emit(arm.model, arm.base, precision="single", control=Control(structured_text=True))
-
-
-def test_the_command_writes_it_and_takes_it_away(capsys, tmp_path) -> None:
-    out = tmp_path / "arm"
-    words = ["generate", "two-link", "--out", str(out)]
-    assert main([*words, "--structured-text"]) == 0
-    assert "FUNCTION_BLOCK two_link_gravity" in (out / "two_link.st").read_text()
-    assert main(words) == 0 and not (out / "two_link.st").exists()
-    assert main(["generate", "five-bar", "--out", str(out), "--structured-text"]) == 1
-    assert "has loops" in capsys.readouterr().err
 
 
 def test_names_are_of_the_standard() -> None:

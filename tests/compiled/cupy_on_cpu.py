@@ -29,19 +29,9 @@ class RawModule:
             lines.append(f"{{ launch(blocks, threads, [=] {{ {name}({cast}); }}); }}")
         source, library = self.folder / "kernels.cpp", self.folder / "kernels.so"
         source.write_text("\n".join(lines))
-        command = [
-            "g++",
-            "-std=c++20",
-            "-O1",
-            "-Wall",
-            "-Wextra",
-            "-Wno-unknown-pragmas",
-            "-Werror",
-        ]
-        command += ["-I", HERE, "-shared", "-fPIC", "-pthread"]
-        done = subprocess.run(
-            [*command, "-o", library, source], capture_output=True, text=True, check=False
-        )
+        flags = ["-O0", "-Wall", "-Wextra", "-Wno-unknown-pragmas", "-Werror", "-shared", "-fPIC"]
+        command = ["g++", "-std=c++20", *flags, "-pthread", "-I", HERE, "-o", library, source]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise RuntimeError(done.stderr)
         self._library = ctypes.CDLL(str(library))

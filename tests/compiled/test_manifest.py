@@ -1,6 +1,5 @@
 """Manifests that are not what they should be."""
 
-import dataclasses
 import json
 import re
 
@@ -9,7 +8,7 @@ import pytest
 from modeler.codegen.package import write_emitted
 from modeler.core.errors import ManifestError
 from modeler.core.manifest import FORMAT, module_from_json
-from modeler.runtime.model import load, load_folder
+from modeler.runtime.model import load_folder
 from tests.modules import module
 
 
@@ -62,7 +61,9 @@ def test_an_entry_of_another_type_is_named(entry):
             module_from_json(json.dumps(raw), "x.json")
 
 
-@pytest.mark.parametrize("value", ["3", True, None, 10**400])
+@pytest.mark.parametrize(
+    "value", ["3", *(pytest.param(x, marks=pytest.mark.rotating) for x in (True, None, 10**400))]
+)
 def test_every_entry_of_a_manifest_is_checked(value):
     """Whatever stands in the place of any entry, at any depth: read as it was, or refused."""
     text = module("five-bar").emitted.spec.to_json()
@@ -100,14 +101,6 @@ def test_a_damaged_folder_says_which_file(tmp_path, name, content, says):
     with pytest.raises(ManifestError, match=re.escape(says)) as error:
         load_folder(tmp_path)
     assert "\n" not in str(error.value)
-
-
-def test_a_manifest_of_other_sources_is_refused_by_the_library(tmp_path):
-    """The manifest of an arm on the moon, the C of one on the earth: nothing else differs."""
-    emitted = module("wrist").emitted
-    other = dataclasses.replace(emitted.spec, code="0" * 64)
-    with pytest.raises(ManifestError, match=r"code answers .*, the manifest expects"):
-        load(other, emitted.files)
 
 
 def leaves(raw, above=()):

@@ -6,7 +6,10 @@ import pytest
 from modeler.robot.read import read_robot
 from tests.modules import plain
 
-ROBOTS = ("wrist", "puma560", "rx90", "panda", "scara", "sr400-tree")
+ROBOTS = (
+    *(pytest.param("wrist", marks=pytest.mark.digits), "puma560", "sr400-tree"),
+    *(pytest.param(name, marks=pytest.mark.rotating) for name in ("rx90", "panda", "scara")),
+)
 
 
 @pytest.mark.parametrize("name", ROBOTS)

@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 
 from modeler.core.manifest import Emitted
-from tests.csrc.test_mutants import CONSTANT, SIGN, Mutant, heads
+from tests.csrc.test_mutants import Mutant, code_lines, constants, signs
 
 RUNTIME = (
     "modeler_closure.c", "modeler_closure_factor.c", "modeler_closure_motion.c",
@@ -19,25 +19,15 @@ BOUND = re.compile(r"for \((?:int|size_t) (\w+) = (\d+); \1 (<) ([^;&]+?)(?: &&[
 FACTOR = r"[\w.>\-]+(?:\[[^\]]*\])?"
 TERM = re.compile(rf" [+-] {FACTOR}(?:\([^()]*\))?(?: \* {FACTOR})*(?=[;,) ])")
 SUM = re.compile(r"[+-]=")
-REAL = re.compile(r"MODELER_REAL\((\d+\.\d+(?:e[-+]?\d+)?)\)")
 
 
 def mutants_of(emitted: Emitted) -> dict[str, list[Mutant]]:
     """By kind: sign, constant, term, bound."""
     found: dict[str, list[Mutant]] = {"sign": [], "constant": [], "term": [], "bound": []}
-    for file, text in emitted.files.items():
-        own = file.startswith(emitted.spec.prefix) and file.endswith(".c")
-        if not own and file not in RUNTIME:
-            continue
-        plain = re.sub(
-            r"/\*.*?\*/|//[^\n]*", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.S
-        )
-        at = 0
-        for line, head in zip(plain.splitlines(keepends=True), heads(plain), strict=True):
-            if not line.startswith("#") and "static const int" not in head:
-                for kind, mutant in _in_line(file, line, at):
-                    found[kind].append(mutant)
-            at += len(line)
+    for file, at, line, head in code_lines(emitted, *RUNTIME):
+        if not line.startswith("#") and "static const int" not in head:
+            for kind, mutant in _in_line(file, line, at):
+                found[kind].append(mutant)
     return found
 
 
@@ -47,15 +37,9 @@ def _in_line(file: str, line: str, at: int) -> Iterator[tuple[str, Mutant]]:
             yield "bound", Mutant(file, at + m.end(4), at + m.end(4), " - 1")
             yield "bound", Mutant(file, at + m.start(2), at + m.end(2), f"{int(m[2]) + 1}")
         return
-    for m in SIGN.finditer(line):
-        new = {"+": " - ", "-": " + "}[m[1]] if m[1] else ""
-        yield "sign", Mutant(file, at + m.start(), at + m.end(), new)
+    yield from (("sign", mutant) for mutant in signs(file, line, at))
     for m in SUM.finditer(line):
         yield "sign", Mutant(file, at + m.start(), at + m.end(), {"+=": "-=", "-=": "+="}[m[0]])
-    for m in CONSTANT.finditer(line):
-        yield (
-            "constant",
-            Mutant(file, at + m.start(), at + m.end(), repr(float(m[0]) * 1.01 or 0.01)),
-        )
+    yield from (("constant", mutant) for mutant in constants(file, line, at))
     for m in TERM.finditer(line):
         yield "term", Mutant(file, at + m.start(), at + m.end(), "")

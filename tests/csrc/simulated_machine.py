@@ -112,7 +112,7 @@ def observed(command: Sequence[object], rows: np.ndarray) -> np.ndarray:
 def fitted_folder(robot: Robot, folder: Path) -> None:
     """The C of a model fitted to a simulated log, written to the folder."""
     log = folder.with_suffix(".parquet")
-    write_log(log, simulate(robot, SimulationSettings(duration=8.0, rate=400.0, seed=1)))
+    write_log(log, simulate(robot, SimulationSettings(duration=6.0, rate=250.0, seed=1)))
     derivation = derive(robot)
     emitted = generate(derivation)
     model = fit(derivation, emitted, observe(loaded(emitted), [log]))
@@ -122,9 +122,10 @@ def fitted_folder(robot: Robot, folder: Path) -> None:
 def true_folder(robot: Robot, standard: Mapping[str, float], folder: Path) -> None:
     """The C with base parameters of true standard ones, written to the folder."""
     derivation = derive(robot)
-    spec = generate(derivation).spec
+    emitted = generate(derivation)
+    spec = emitted.spec
     chi = np.array([standard[parameter.name] for parameter in spec.standard])
-    beta = loaded(generate(derivation)).base_parameters(chi)
+    beta = loaded(emitted).base_parameters(chi)
     known = tuple(
         FittedParameter(base.name, base.unit, float(value), 0.0)
         for base, value in zip(spec.base, beta, strict=True)

@@ -1,27 +1,21 @@
 """The build files of an emitted folder take the flags that matter, and let the user's win."""
 
 import json
-import os
-import subprocess
 from pathlib import Path
 
 import pytest
 
 from modeler.codegen.package import write_emitted
+from tests.csrc.emitted_folders import run
 from tests.modules import compiler, module
 
 TUNED = ["-fno-tree-slp-vectorize", "-fno-math-errno", "-fno-trapping-math", "-ffp-contract=fast"]
-CLEAN = {k: v for k, v in os.environ.items() if k not in ("CFLAGS", "MAKEFLAGS")}
 
 
 @pytest.fixture
 def folder(tmp_path) -> Path:
     write_emitted(module("emps").emitted, tmp_path / "emps_c")
     return tmp_path / "emps_c"
-
-
-def run(*command: object, where: Path) -> None:
-    subprocess.run([*map(str, command)], cwd=where, env=CLEAN, check=True, capture_output=True)
 
 
 def compiled_with(folder: Path, *words: str) -> list[list[str]]:

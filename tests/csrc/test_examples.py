@@ -1,7 +1,6 @@
 """The example programs of a fitted folder, compiled as they are, against the simulated machine."""
 
 import dataclasses
-import os
 import subprocess
 from pathlib import Path
 
@@ -20,10 +19,10 @@ from modeler.robot.read import read_robot, robot_from_text
 from modeler.runtime import load_folder
 from modeler.simulation import HiddenEffect, SimulationSettings
 from tests.codegen.fitted_library import fitted_of, robot_module
+from tests.csrc.emitted_folders import make
 from tests.csrc.simulated_machine import Machine, fitted_folder, observed, rms, true_folder
-from tests.modules import compiler, loaded, module
+from tests.modules import compiler, loaded, module, unoptimised
 
-STRICT = "-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror"
 FROM = 1.5  # s, when the push begins
 TOOL = """
 [tool]
@@ -34,13 +33,9 @@ pitch = 0.4
 BRISTLE = HiddenEffect("presliding", "2", {"distance": 0.01, "damping": 1.0})
 
 
-def make(folder: Path, *words: str, optimised: str = "-O0") -> None:
-    clean = {k: v for k, v in os.environ.items() if k != "MAKEFLAGS"}
-    command = [compiler("make"), "-C", folder, *words, f"CFLAGS={optimised} {STRICT}"]
-    subprocess.run(command, check=True, capture_output=True, env=clean)
-
-
-@pytest.fixture(scope="module", params=["demo-arm", "five-bar"])
+@pytest.fixture(
+    scope="module", params=["demo-arm", pytest.param("five-bar", marks=pytest.mark.rotating)]
+)
 def fitted(request, tmp_path_factory) -> tuple[Path, Machine]:
     """A chain and a loop: values of a fit, and the machine whose log was fitted."""
     compiler("gcc")
@@ -48,7 +43,7 @@ def fitted(request, tmp_path_factory) -> tuple[Path, Machine]:
     folder = tmp_path_factory.mktemp("fitted") / "c"
     fitted_folder(robot, folder)
     make(folder, "examples")
-    settings = SimulationSettings(duration=3.0, rate=1000.0, seed=5, controller=bool(robot.loops))
+    settings = SimulationSettings(duration=2.5, rate=500.0, seed=5, controller=bool(robot.loops))
     return folder, Machine(robot, settings)
 
 
@@ -64,19 +59,18 @@ def driven(folder: Path, machine: Machine, size: float) -> tuple[np.ndarray, np.
     def push(t: float) -> np.ndarray:
         return np.where(np.arange(machine.joints) == 1, size if t >= FROM else 0.0, 0.0)
 
-    run = machine.drive([folder / "example_computed_torque", 3.0, 0.001], line, push)
-    return run.error, observed([folder / "example_residual_observer", 30.0, 0.001], np.array(seen))
+    tick = machine.reference.time[1]
+    run = machine.drive([folder / "example_computed_torque", 3.0, tick], line, push)
+    return run.error, observed([folder / "example_residual_observer", 30.0, tick], np.array(seen))
 
 
 def test_the_examples_follow_the_motion_and_see_a_push(fitted):
     """Measured: errors of 0.1 % of the motion, a push that is 0.2 % too small."""
     folder, plant = fitted
-    error, free = driven(folder, plant, 0.0)
-    assert np.all(rms(error) < 0.003 * rms(plant.moved))
-    size = 0.2 * plant.torque
-    _, pushed = driven(folder, plant, size)
-    time = plant.reference.time
-    np.testing.assert_allclose(pushed[time <= FROM], free[time <= FROM], atol=1e-6 * size)
+    time, size = plant.reference.time, 0.2 * plant.torque
+    error, pushed = driven(folder, plant, size)
+    assert np.all(rms(error[time <= FROM]) < 0.003 * rms(plant.moved))
+    assert np.all(np.abs(pushed[time <= FROM].mean(axis=0)) < 0.05 * size)
     seen = pushed[time > FROM + 0.3].mean(axis=0)
     assert abs(seen[1] - size) < 0.02 * size
     assert np.all(np.abs(np.delete(seen, 1)) < 0.05 * size)
@@ -200,7 +194,7 @@ def test_the_adaptive_example_learns_the_parameters(tmp_path, capsys, regenerate
     robot = read_robot("demo-arm")
     plant = Machine(robot, settings)
     true_folder(robot, plant.standard, tmp_path)
-    make(tmp_path, "example_adaptive", optimised="-O2")
+    make(tmp_path, "example_adaptive")
     ref = plant.reference
 
     def line(k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
@@ -240,55 +234,41 @@ def circle(time: np.ndarray, radius: float) -> list[np.ndarray]:
 
 
 def test_the_tool_follows_a_path_in_space_and_feels_a_push_of_5_newton(tmp_path):
-    """A circle of 5 cm in 3 s, the wrist held still: measured 4 um rms, and the push to 0.02 N."""
+    """A circle of 5 cm in 2.5 s, the wrist held still; then a push."""
     compiler("gcc")
     robot = robot_from_text(builtin_text("puma560") + TOOL, "puma560")
-    plant = Machine(robot, SimulationSettings(duration=3.0, rate=1000.0, seed=5))
+    plant = Machine(robot, SimulationSettings(duration=2.5, rate=500.0, seed=5))
     true_folder(robot, plant.standard, tmp_path)
-    make(tmp_path, "example_cartesian", "example_residual_observer", optimised="-O1")
-    model, time = load_folder(tmp_path), plant.reference.time
+    make(tmp_path, "example_cartesian", "example_residual_observer")
+    with unoptimised():
+        model, time = load_folder(tmp_path), plant.reference.time
     start = model.evaluate("pose", q=plant.reference.q[:1])[0]
     path, force = circle(time, 0.05), np.array([3.0, 0.0, -4.0])
 
-    def driven(push: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Postures; force at the tool that the observer sees."""
-        seen = []
+    seen = []
 
-        def line(k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
-            seen.append(np.concatenate([q, qd, tau]))
-            T = start.copy()
-            T[:, 3] += path[0][k]
-            rest = np.zeros(3)
-            return np.concatenate([q, qd, T.ravel(), path[1][k], rest, path[2][k], rest])
+    def line(k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
+        seen.append(np.concatenate([q, qd, tau]))
+        T = start.copy()
+        T[:, 3] += path[0][k]
+        rest = np.zeros(3)
+        return np.concatenate([q, qd, T.ravel(), path[1][k], rest, path[2][k], rest])
 
-        def outside(t: float) -> np.ndarray:
-            return push @ model.evaluate("jacobian", q=seen[-1][:6])[0, :3] * (t >= FROM)
+    def outside(t: float) -> np.ndarray:
+        if t < FROM:
+            return np.zeros(6)
+        return force @ model.evaluate("jacobian", q=seen[-1][:6])[0, :3]
 
-        plant.drive([tmp_path / "example_cartesian", 3.0, 1e-3], line, outside)
-        rows = np.array(seen)
-        r = observed([tmp_path / "example_residual_observer", 30.0, 0.001], rows)
-        J = model.evaluate("jacobian", q=rows[:, :6])
-        return rows[:, :6], np.array(
-            [np.linalg.lstsq(j.T, x)[0][:3] for j, x in zip(J, r, strict=True)]
-        )
-
-    q, free = driven(np.zeros(3))
-    T = model.evaluate("pose", q=q)
+    plant.drive([tmp_path / "example_cartesian", 3.0, time[1]], line, outside)
+    rows = np.array(seen)
+    q = rows[:, :6]
+    r = observed([tmp_path / "example_residual_observer", 30.0, time[1]], rows)
+    J = model.evaluate("jacobian", q=q)
+    felt = np.array([np.linalg.lstsq(j.T, x)[0][:3] for j, x in zip(J, r, strict=True)])
+    before, late = (time > 0.3) & (time < FROM), time > FROM + 0.3
+    T = model.evaluate("pose", q=q)[time < FROM]
     turned = np.einsum("kij,il->kjl", T[:, :, :3], start[:, :3])
-    assert np.linalg.norm(rms(T[:, :, 3] - start[:, 3] - path[0])) < 2e-5
-    assert np.abs(turned - np.eye(3)).max() < 1e-3
-    _, felt = driven(force)
-    late = time > FROM + 0.3
+    away = np.linalg.norm(rms(T[:, :, 3] - start[:, 3] - path[0][time < FROM]))
+    assert away < 2e-5 and np.abs(turned - np.eye(3)).max() < 1e-3
     assert np.linalg.norm(felt[late].mean(axis=0) - force) < 0.2
-    assert np.linalg.norm(free[late].mean(axis=0)) < 0.05
-
-
-@pytest.mark.parametrize("name", ["slow-arm", "orthoglide-2003"])
-def test_every_file_of_a_fitted_folder_compiles_strictly_as_c_and_as_cpp(name, tmp_path):
-    """Signals with a temperature that is read, load and position; loops."""
-    write_emitted(values_of(name), tmp_path)
-    make(tmp_path, "check", "examples", optimised="-O1" if name == "slow-arm" else "-O0")
-    for source in sorted(tmp_path.glob("programs/*.c")):
-        command = [compiler("g++"), "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
-                   "-I", tmp_path, "-x", "c++", "-fsyntax-only", source]  # fmt: skip
-        subprocess.run(command, check=True)
+    assert np.linalg.norm(felt[before].mean(axis=0)) < 0.05

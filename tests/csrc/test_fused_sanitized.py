@@ -18,7 +18,7 @@ def test_fused_least_squares_under_sanitizers(cc, checked, tmp_path):
     run(compiler(cc), ["-O1", "-g", f"-fsanitize={checked}", "-fno-sanitize-recover=all"], tmp_path)
 
 
-@pytest.mark.parametrize("cc", ["gcc", "clang"])
+@pytest.mark.parametrize("cc", ["gcc", pytest.param("clang", marks=pytest.mark.rotating)])
 def test_fused_least_squares_in_c(cc, tmp_path):
     run(compiler(cc), ["-O2"], tmp_path)
 

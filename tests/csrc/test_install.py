@@ -1,14 +1,14 @@
 """An emitted folder is installed by make and CMake, found by name or by signature, and linked."""
 
-import os
 import shutil
-import subprocess
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import pytest
 
-from modeler.codegen.package import package_version, write_emitted
+from modeler.codegen.package import package_version
+from tests.csrc import emitted_folders
+from tests.csrc.emitted_folders import built
 from tests.modules import compiler, module
 
 CONSUMER = """cmake_minimum_required(VERSION 3.13)
@@ -21,37 +21,7 @@ add_executable(many many.cpp)
 target_link_libraries(many emps::batch)
 """
 
-PROGRAM = """#include "emps.h"
-#include <cstdio>
-#include <cstring>
-
-int main()
-{
-    const double zero[EMPS_JOINTS] = {0.0}, one[EMPS_JOINTS] = {1.0};
-    const double beta[EMPS_BASE_PARAMETERS] = {100.0, 0.0};
-    double tau[EMPS_JOINTS];
-
-    emps_inverse_dynamics(zero, zero, one, beta, tau);
-    std::printf("%s %g", emps_signature(), tau[0]);
-    return std::strcmp(emps_signature(), EMPS_SIGNATURE);
-}
-"""
-
-MANY = """#include "emps_batch.h"
-#include <cstdio>
-
-int main()
-{
-    const double zero[2 * EMPS_JOINTS] = {0.0, 0.0}, qdd[2 * EMPS_JOINTS] = {1.0, 2.0};
-    double W[2 * EMPS_JOINTS * EMPS_BASE_PARAMETERS];
-
-    emps_observation(2, zero, zero, qdd, W);
-    std::printf("%g", W[EMPS_BASE_PARAMETERS]);
-}
-"""
-
-CLEAN = {k: v for k, v in os.environ.items() if k not in ("MAKEFLAGS", "DESTDIR")}
-CLEAN["CFLAGS"] = "-O0"
+run = partial(emitted_folders.run, CFLAGS="-O0")
 
 
 @cache
@@ -77,25 +47,14 @@ def signature() -> str:
     return module("emps").emitted.spec.signature()
 
 
-def run(*command: object, where: Path, fails: bool = False, **more: str) -> str:
-    """What a command prints."""
-    words = [str(word) for word in command]
-    environment = {**CLEAN, **more}
-    ran = subprocess.run(
-        words, cwd=where, env=environment, capture_output=True, text=True, check=False
-    )
-    assert (ran.returncode != 0) == fails, f"{words}\n{ran.stdout}{ran.stderr}"
-    return ran.stdout + ran.stderr
-
-
 @pytest.fixture
 def folder(tmp_path) -> Path:
     compiler("make"), compiler("g++"), compiler("ldd")
-    write_emitted(module("emps").emitted, tmp_path / "emps_c")
+    programs = Path(__file__).with_name("programs")
     (tmp_path / "consumer").mkdir()
-    (tmp_path / "consumer" / "consumer.cpp").write_text(PROGRAM)
-    (tmp_path / "consumer" / "many.cpp").write_text(MANY)
-    return tmp_path / "emps_c"
+    for name in ("consumer.cpp", "many.cpp"):
+        shutil.copy(programs / name, tmp_path / "consumer")
+    return built(module("emps").emitted, tmp_path / "emps_c", "all", "batch", "shared", flags="-O0")
 
 
 def install_by_make(folder: Path, prefix: Path) -> None:
@@ -144,8 +103,7 @@ def test_make_installs_what_cmake_and_pkg_config_find_and_takes_it_away_again(fo
     install_by_make(folder, prefix)
     assert files(prefix) >= {"include/emps/emps.h", "lib/libemps_model.a", "lib/libemps_model.so",
                              f"lib/libemps_model.so.{signature()}"}  # fmt: skip
-    for shared in (False, True):
-        consume(place, prefix, shared)
+    consume(place, prefix, shared=False)
     moved = tmp_path / "moved"
     prefix.rename(moved)  # nothing in it says where it was
     consume(place, moved, shared=True, wanted="REQUIRED COMPONENTS shared")
@@ -171,12 +129,11 @@ def check_pkg_config(place: Path, prefix: Path) -> None:
     run("pkg-config", "--exists", "emps = 1.1.2.3", where=place, fails=True, **path)
 
 
-@pytest.mark.parametrize("shared", [pytest.param(False, marks=pytest.mark.slow), True])
+@pytest.mark.parametrize("shared", [pytest.param(False, marks=pytest.mark.rotating), True])
 def test_cmake_installs_either_kind(folder, tmp_path, shared):
     compiler("cmake"), compiler("pkg-config")
     prefix, place = tmp_path / "prefix", tmp_path / "consumer"
     install_by_cmake(folder, prefix, shared)
-    consume(place, prefix, shared)
     consume(place, prefix, shared, f"{package_version(signature())} EXACT REQUIRED")
     kinds = ("static", "shared")
     told = not_found(place, prefix, f"REQUIRED COMPONENTS {kinds[not shared]}")
@@ -187,6 +144,7 @@ def test_cmake_installs_either_kind(folder, tmp_path, shared):
     assert (Path(includes.removeprefix("-I")) / "emps.h").is_file()
 
 
+@pytest.mark.rotating("another signature")
 def test_the_library_beside_is_found_where_the_first_has_another_signature(folder, tmp_path):
     """By the number that stands for the signature; by the interface alone any will do."""
     compiler("cmake")
@@ -202,6 +160,7 @@ def test_the_library_beside_is_found_where_the_first_has_another_signature(folde
         assert package_version(signature()[::-1]) in told  # "considered but not accepted"
 
 
+@pytest.mark.rotating("another signature")
 def test_a_program_never_gets_the_library_of_another_signature(folder, tmp_path):
     """The newer one is installed over the older: its file has another name, and both stay."""
     prefix, place = tmp_path / "prefix", tmp_path / "consumer"

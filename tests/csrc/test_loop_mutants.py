@@ -10,7 +10,7 @@ import pytest
 from modeler.core.errors import ModelerError
 from modeler.core.manifest import Emitted
 from tests.csrc.loop_mutants import mutants_of
-from tests.csrc.test_mutants import Folder, Mutant, changed, same_results
+from tests.csrc.test_mutants import Folder, Mutant, changed, same_results, told
 from tests.modules import loaded, module
 
 ROBOTS = ("five-bar", "orthoglide-2003", "3rrr")
@@ -72,17 +72,12 @@ def equivalent(emitted: Emitted, mutant: Mutant, name: str) -> bool:
     return same_results(emitted, other, name) and same_ways(emitted, other)
 
 
-def told(emitted: Emitted, mutant: Mutant) -> str:
-    text = emitted.files[mutant.file]
-    line = text[: mutant.start].rpartition("\n")[2] + ">"
-    return f"{mutant.file}: {line}{text[mutant.start :].partition(chr(10))[0]} -> {mutant.text}"
-
-
 @pytest.fixture(scope="module")
 def five_bar(tmp_path_factory) -> Folder:
     return Folder(module("five-bar").emitted, tmp_path_factory.mktemp("five-bar"))
 
 
+@pytest.mark.rotating
 @pytest.mark.parametrize("place", range(0, len(ESCAPED), 2))
 def test_the_check_reaches_fallback_proof_and_tiles(place: int, five_bar) -> None:
     survived = []

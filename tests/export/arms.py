@@ -6,112 +6,21 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.api import compile_model, derive, generate
+from modeler.api import derive, generate
 from modeler.estimation import PREFIXES
 from modeler.robot import Robot, read_robot
+from modeler.runtime.model import CompiledModel
+from tests.modules import loaded
 
-URDF = b"""<?xml version='1.0'?>
-<!-- an arm -->
-<robot name='arm'>
-  <link name="base"><visual><geometry><mesh filename="package://x/base.stl"/></geometry></visual></link>
-  <link name="upper">
-    <inertial>
-      <origin xyz="0.01 0.02 0.15" rpy="0.3 -0.2 0.5"/> <!-- weighed -->
-      <mass value='2.50'/>
-      <inertia ixx="0.031" ixy="0.001" ixz="-0.002" iyy="0.033" iyz="0.0005" izz="0.006" />
-    </inertial>
-  </link>
-  <joint name="shoulder" type="revolute">
-    <origin xyz="0 0 0.3" rpy="0 0.4 0"/> <parent link="base"/> <child link="upper"/>
-    <axis xyz="0 1 0"/>
-    <limit lower="-2" upper="2" velocity="3" effort="50"/>
-    <dynamics friction="0.7" damping="1.2"/>
-  </joint>
-  <link name="fore">
-    <inertial><mass value="1.5"/>
-      <inertia ixx="0.02" iyy="0.02" izz="0.004" ixy="0" ixz="0" iyz="0"/></inertial>
-  </link>
-  <joint name="elbow" type="continuous">
-    <parent link="upper"/><child link="fore"/>
-    <origin xyz="0.05 0 0.3" rpy="1.5708 0 0"/>
-    <axis xyz="0 0 -1"/>
-  </joint>
-  <link name="slider"/>
-  <joint name="slide" type="prismatic">
-    <parent link="fore"/><child link="slider"/> <origin xyz="0 0.1 0.2"/> <axis xyz="1 0 0"/>
-    <limit lower="-0.1" upper="0.2" velocity="0.5" effort="20"/>
-    <dynamics damping="4"/>
-  </joint>
-  <link name="tool">
-    <inertial>
-      <origin xyz="0 0 0.05"/><mass value="0.3"/>
-      <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.0004"/>
-    </inertial>
-  </link>
-  <joint name="glue" type="fixed"><parent link="fore"/><child link="tool"/>
-    <origin xyz="0 0 0.1"/></joint>
-  <link name="finger">
-    <inertial><origin xyz="0.02 0 0"/><mass value="0.2"/>
-      <inertia ixx="0.0002" ixy="0" ixz="0" iyy="0.0003" iyz="0" izz="0.0003"/></inertial>
-  </link>
-  <joint name="tip" type="fixed"><parent link="slider"/><child link="finger"/></joint>
-  <transmission name="t"><joint name="shoulder"/><actuator name="m"/></transmission>
-</robot>
-"""
+FILES = Path(__file__).with_name("files")
+URDF = (FILES / "arm.urdf").read_bytes()
 """Quotes of both kinds, elements in one line, turned inertia, a tool and a finger on fixed joints,
 a slide that moves a link without mass, joints without dynamics."""
 
-MJCF = b"""<mujoco model="arm">
-  <compiler angle="degree" eulerseq="zyx"/>
-  <option gravity="0 0 -9.81"/>
-  <default>
-    <joint armature="0.05" damping="0.4"/>
-    <default class="stiff"><joint damping="2" frictionloss="0.3"/></default>
-  </default>
-  <worldbody>
-    <body name="upper" pos="0 0 0.3" euler="0 10 0">  <!-- first -->
-      <inertial pos="0.01 0 0.15" mass="2.5" diaginertia="0.03 0.028 0.006" euler="5 10 20"/>
-      <joint name="shoulder" axis="0 1 0" class="stiff" range="-120 120"/>
-      <geom type="capsule" size="0.04" fromto="0 0 0 0 0 0.3"/>
-      <body name="fore" pos="0.05 0 0.3">
-        <joint name="roll" axis="1 0 0"/>
-        <joint name="elbow" axis="0 0 1" pos="0 0.02 0"/>
-        <geom type="capsule" size='0.03' fromto="0 0 0 0 0 0.25" mass="1.5"/>
-        <body name="tool" pos="0 0 0.25">
-          <inertial pos="0 0 0.02" mass="0.2" fullinertia="0.0004 0.0004 0.0002 1e-5 0 0"/>
-        </body>
-      </body>
-    </body>
-  </worldbody>
-  <actuator><motor joint="shoulder"/><motor joint="roll"/><motor joint="elbow" gear="2"/></actuator>
-</mujoco>
-"""
+MJCF = (FILES / "arm.xml").read_bytes()
 """Defaults, several joints in a body, a body whose geom weighs, a principal frame by angles."""
 
-SDF = b"""<?xml version="1.0"?>
-<sdf version="1.7"><model name="arm">
-  <link name="base"/>
-  <link name="upper">
-    <pose>0 0 0.3 0 0.4 0</pose>
-    <inertial>
-      <pose>0.01 0.02 0.15 0.3 -0.2 0.5</pose>
-      <mass>2.50</mass>
-      <inertia><ixx>0.031</ixx><ixy>0.001</ixy><ixz>-0.002</ixz><iyy>0.033</iyy><iyz>0.0005</iyz><izz>0.006</izz></inertia>
-    </inertial>
-  </link>
-  <joint name="shoulder" type="revolute"><parent>base</parent><child>upper</child>
-    <axis><xyz>0 1 0</xyz><dynamics><damping>1.2</damping><friction>0.7</friction></dynamics></axis>
-  </joint>
-  <link name="fore">
-    <pose relative_to="upper">0.05 0 0.3 1.5708 0 0</pose>
-    <inertial><mass>1.5</mass>
-      <inertia><ixx>0.02</ixx><iyy>0.02</iyy><izz>0.004</izz></inertia></inertial>
-  </link>
-  <joint name="elbow" type="revolute"><parent>upper</parent><child>fore</child>
-    <axis><xyz>0 0 -1</xyz></axis></joint>
-  <link name="slider"><pose relative_to="fore">0 0.1 0.2 0 0 0</pose></link>
-</model></sdf>
-"""
+SDF = (FILES / "arm.sdf").read_bytes()
 
 _NUMBER = re.compile(rb'(?<=["\'> ])-?\d+\.?\d*(?:e-?\d+)?(?=["\'< ])')
 
@@ -151,15 +60,30 @@ def changed(robot: Robot, rng: np.random.Generator, rows: str = "") -> Robot:
     return dataclasses.replace(robot, parameters=values)
 
 
+def torques(robot: Robot, q, qd, qdd, without: tuple[str, ...] = ()) -> np.ndarray:
+    """Of our C, with nominal values; parameters that begin with one of `without` left out."""
+    bare = dataclasses.replace(robot, parameters={}, text="", name="", frames={}, limits={})
+    model = _compiled(repr(bare), bare)
+    chi = [0.0 if p.name.startswith(without) else robot.parameters.get(p.name, 0.0)
+           for p in model.spec.standard]  # fmt: skip
+    return model.inverse_dynamics(q, qd, qdd, model.base_parameters(np.array(chi)))
+
+
+_MODELS: dict[str, CompiledModel] = {}
+
+
+def _compiled(key: str, robot: Robot) -> CompiledModel:
+    """Robots that differ in values alone share their C."""
+    if key not in _MODELS:
+        _MODELS[key] = loaded(generate(derive(dataclasses.replace(robot, name="robot"))))
+    return _MODELS[key]
+
+
 def same_physics(one: Robot, other: Robot, share: float = 1e-9) -> bool:
     """Torques of both, nominal values, at random states."""
     rng = np.random.default_rng()
     q, qd, qdd = (rng.uniform(-1.0, 1.0, (50, len(one.coordinates))) for _ in range(3))
-    found = []
-    for robot in (one, other):
-        model = compile_model(generate(derive(robot)))
-        chi = np.array([p.nominal or 0.0 for p in model.spec.standard])
-        found.append(model.inverse_dynamics(q, qd, qdd, model.base_parameters(chi)))
+    found = [torques(robot, q, qd, qdd) for robot in (one, other)]
     return bool(np.abs(found[0] - found[1]).max() <= share * np.abs(found[0]).max())
 
 

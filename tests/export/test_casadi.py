@@ -7,12 +7,12 @@ import casadi
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, export, generate, identify, load, simulate
+from modeler.api import derive, export, generate, identify, load, simulate
 from modeler.codegen import Control, generate as generate_with
-from modeler.core.errors import ModelerError
 from modeler.robot import robot_from_text
+from tests.modules import loaded
 
-TREES = ("two-link", "demo-arm", *(
+TREES = ("demo-arm", pytest.param("two-link", marks=pytest.mark.rotating), *(
     pytest.param(name, marks=pytest.mark.slow)
     for name in ("puma560", "ur10e", "sr400-tree", "so101")
 ))  # fmt: skip
@@ -46,7 +46,7 @@ def far(name: str, tmp_path, rng, reach: float = 1.5) -> dict[str, float]:
     functions = functions_of(found.data, tmp_path)
     assert functions.keys() == found.functions.keys()
     derivation = derive(robot)
-    compiled = compile_model(generate_with(derivation, control=Control()))
+    compiled = loaded(generate_with(derivation, control=Control()))
     spec, errors = compiled.spec, dict[str, float]()
     for emitted in spec.every_function:
         role = emitted.name.removeprefix(f"{spec.prefix}_")
@@ -83,11 +83,11 @@ def test_loops_are_closed(name: str, tmp_path) -> None:
     assert max(errors.values()) < 1e-9, errors  # the loops are closed so well
 
 
-@pytest.mark.parametrize("name", [TREES[1], TREES[2]])
+@pytest.mark.parametrize("name", [TREES[0], TREES[2]])
 def test_derivatives_and_forward_dynamics(name: str, tmp_path) -> None:
     robot, rng = load(name), np.random.default_rng()
     functions = functions_of(export(robot, to="casadi").data, tmp_path)
-    compiled = compile_model(generate_with(derive(robot), control=Control()))
+    compiled = loaded(generate_with(derive(robot), control=Control()))
     nominal = {p.name: p.nominal for p in compiled.spec.standard}
     state = state_of(compiled.spec, rng)
     state["beta"] = np.array([sum(t.value * nominal[t.parameter] for t in b.terms)
@@ -125,7 +125,7 @@ def test_forward_dynamics_where_torques_read_accelerations(name: str, tmp_path) 
         text = robot.text.replace("\n[effects]", LOADED) + "\n[reference]\nM2 = 1.5\nMX2 = 0.2\n"
         robot = robot_from_text(text, "loaded")
     functions = functions_of(export(robot, to="casadi").data, tmp_path)
-    compiled = compile_model(generate_with(derive(robot), control=Control()))
+    compiled = loaded(generate_with(derive(robot), control=Control()))
     spec = compiled.spec
     names = [p.name for p in spec.standard]
     chi = np.array([1.0 + 20.0 * name.startswith(("XX", "YY", "ZZ", "Ia")) for name in names])
@@ -172,15 +172,3 @@ def test_a_model_has_its_values_in_place_of_beta(tmp_path, monkeypatch) -> None:
     for parameter in model.fit.parameters:
         assert f' name="{parameter.name}"' in text and f'start="{parameter.value!r}"' in text
         assert f"{parameter.value!r},  /* {parameter.name}," in core
-
-
-def test_what_is_not_there_is_said() -> None:
-    text = load("two-link").text
-    effect = '[effects]\nload_friction = [{joint = "2", w = 0.5}]'
-    text = text.replace("[effects]", effect) + "\n[reference]\nM2 = 1.5\nMX2 = 0.2\n"
-    loaded = robot_from_text(text, "loaded")
-    found = export(loaded, to="casadi")
-    assert "forward_dynamics" in found.functions
-    assert not any("forward_dynamics" in note for note in found.notes)
-    with pytest.raises(ModelerError, match=r"like arm\.urdf: is for robot files, and to says"):
-        export(loaded, to="casadi", like="arm.urdf")

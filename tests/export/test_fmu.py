@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from modeler.api import compile_model, derive, export, generate, load
+from modeler.api import derive, export, generate, load
 from modeler.core.errors import BuildError
 from modeler.core.files import resource_dir
+from tests.modules import loaded
 
 fmpy = pytest.importorskip("fmpy", reason="NOT CHECKED: no FMPy")
 validation = pytest.importorskip("fmpy.validation", reason="NOT CHECKED: no FMPy")
@@ -25,7 +26,7 @@ class Plant:
     """The equations with numpy: friction by its law, all else by the regressor."""
 
     def __init__(self, robot) -> None:
-        self.compiled = compile_model(generate(derive(robot)))
+        self.compiled = loaded(generate(derive(robot)))
         self.spec = self.compiled.spec
         self.n = len(self.spec.joints)
         nominal = {p.name: p.nominal for p in self.spec.standard}
@@ -66,7 +67,7 @@ class Plant:
 
 
 @pytest.fixture(
-    scope="module", params=["demo-arm", "five-bar", pytest.param("puma560", marks=pytest.mark.slow)]
+    scope="module", params=["demo-arm", pytest.param("five-bar", marks=pytest.mark.rotating)]
 )
 def unit(request, tmp_path_factory):
     """A robot as FMU, its equations, a state and torques over time."""

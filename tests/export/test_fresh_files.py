@@ -7,39 +7,18 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, export, generate, load
+from modeler.api import export, load
 from modeler.core.errors import DataError
 from modeler.robot import Robot, robot_from_text
-from tests.export.arms import MJCF, URDF, reread, same_physics
+from tests.codegen.fitted_library import robot_text
+from tests.export.arms import MJCF, URDF, reread, same_physics, torques
 
 pin = pytest.importorskip("pinocchio", reason="NOT CHECKED: no Pinocchio")
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: no MuJoCo")
 
 STATES = 50
 
-TREE = """
-name = "tree"
-gravity = [0.5, "-g", 2]
-[symbols]
-g = 9.0
-D2 = 0.3
-R3 = 0.2
-[mdh]
-columns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]
-rows = [["1", "0", 0, 0, 0.1, 0, 0, "-q1 + 0.3", 0],
-        ["2", "1", 1, 0, 0, "pi/2", "D2", 0.4, "0.2 - q2"],
-        ["f", "2", 2, 0.3, 0.1, 0.2, 0.05, 0.7, 0],
-        ["3", "f", 0, 0, 0, "-pi/2", 0, "q3", "R3"],
-        ["4", "1", 0, 0.7, 0, 1.1, 0.15, "-q4", 0],
-        ["5", "4", 0, 0, 0, 0, 0.2, "q5", 0]]
-[relations]
-q5 = "-2*q4 + 0.1"
-[effects]
-viscous = "all"
-rotor_inertia = "all"
-spring = [{joint = "3", q0 = 0.2, h = 0}]
-[parameters]
-"""
+TREE = robot_text("tree")
 """Branches, a fixed row, a slide, variables with a minus, a joint that follows, tilted gravity."""
 
 
@@ -65,14 +44,6 @@ def tree() -> Robot:
 def whole_tree(robot: Robot) -> Robot:
     """The same with every joint free."""
     return dataclasses.replace(robot, relations={})
-
-
-def torques(robot: Robot, q, qd, qdd, without=()) -> np.ndarray:
-    """Of our C, with nominal values; parameters that begin with one of `without` left out."""
-    model = compile_model(generate(derive(robot)))
-    chi = [0.0 if p.name.startswith(tuple(without)) or p.nominal is None else p.nominal
-           for p in model.spec.standard]  # fmt: skip
-    return model.inverse_dynamics(q, qd, qdd, model.base_parameters(np.array(chi)))
 
 
 def states(robot: Robot):
@@ -150,7 +121,13 @@ def test_joints_that_follow_are_held_there_by_mujoco(tree) -> None:
     assert mimic.nq < pin.buildModelFromXML(export(tree, to="urdf").data.decode()).nq
 
 
-@pytest.mark.parametrize("name", ["demo-arm", "puma560", "two-link", "wrist-coupled"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "demo-arm",
+        *(pytest.param(n, marks=pytest.mark.rotating) for n in ("puma560", "wrist-coupled")),
+    ],
+)
 def test_built_in_robots_weigh_in_both_what_they_state(name) -> None:
     robot = load(name)
     rigid = dataclasses.replace(robot, effects=(), motors={}, relations={}, parameters={

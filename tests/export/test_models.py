@@ -24,7 +24,7 @@ def fitted(tmp_path_factory):
     place = written(folder, "arm.urdf", URDF)
     truth = changed(read_robot(place), np.random.default_rng())
     log = simulate(
-        truth, duration=8.0, rate=500.0, seed=int(np.random.default_rng().integers(1000))
+        truth, duration=6.0, rate=250.0, seed=int(np.random.default_rng().integers(1000))
     )
     return place, truth, identify(read_robot(place), log)
 
@@ -98,7 +98,7 @@ def test_the_comment_and_the_tables_tell_it(fitted, tmp_path) -> None:
 
 def test_what_a_format_cannot_hold_is_told_with_its_share(tmp_path) -> None:
     robot = load("demo-arm")
-    log = simulate(robot, duration=6.0, rate=300.0, seed=3)
+    log = simulate(robot, duration=4.0, rate=200.0, seed=3)
     model = identify(robot, log)
     exact = {(x.effect, x.joint): x for x in export(model, to="urdf").not_held}
     assert {effect for effect, _ in exact} == {"rotor_inertia", "offset"}
@@ -181,7 +181,7 @@ def test_what_hangs_on_a_link_changes_only_where_it_must(tmp_path) -> None:
     for share in (1.2, 0.5):
         light = {f"{p}3": share * robot.parameters[f"{p}3"] for p in PREFIXES}
         truth = dataclasses.replace(robot, parameters=robot.parameters | light)
-        model = identify(robot, simulate(truth, duration=8.0, rate=300.0, seed=5))
+        model = identify(robot, simulate(truth, duration=6.0, rate=200.0, seed=5))
         found = export(model, like=place)
         again = read_robot(written(tmp_path, "again.urdf", found.data))
         assert again.parameters["M3"] == pytest.approx(0.3 * share, rel=0.05)
@@ -194,7 +194,7 @@ def test_what_hangs_on_a_link_changes_only_where_it_must(tmp_path) -> None:
 def test_links_without_values_get_capsules_and_it_is_told() -> None:
     robot = load("scara")
     bare = robot_from_text(robot.text, "scara.toml")
-    model = identify(bare, simulate(robot, duration=6.0, rate=300.0, seed=2))
+    model = identify(bare, simulate(robot, duration=4.0, rate=200.0, seed=2))
     found = export(model, to="mjcf")
     assert any("that of a capsule" in note for note in found.notes)
     rng = np.random.default_rng()

@@ -1,7 +1,8 @@
 """The package for ROS 2: its core tracks a motion without ROS, the rest compiles on stand-ins."""
 
-import subprocess
 import xml.etree.ElementTree as ET
+from functools import partial
+from pathlib import Path
 
 import pytest
 
@@ -9,185 +10,22 @@ from modeler.api import export, load
 from modeler.cli import main
 from modeler.core.errors import ModelerError
 from modeler.robot import robot_from_text
+from tests.csrc import emitted_folders
 
-HARNESS = """
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include "computed_torque.hpp"
-using namespace PACKAGE;
-
-static Vector accelerations(const Vector &q, const Vector &qd, const Vector &tau)
-{
-    double M[joints * joints];
-    Vector still{}, x{};
-    PREFIX_inverse_dynamics(q.data(), qd.data(), still.data(), beta_at_export.data(), x.data());
-    Vector rest{};
-    PREFIX_inverse_dynamics(q.data(), still.data(), still.data(), beta_at_export.data(),
-                            rest.data());
-    for (std::size_t j = 0; j < joints; j++) {
-        Vector unit{}, column{};
-        unit[j] = 1.0;
-        PREFIX_inverse_dynamics(q.data(), still.data(), unit.data(), beta_at_export.data(),
-                                column.data());
-        for (std::size_t i = 0; i < joints; i++)
-            M[i * joints + j] = column[i] - rest[i];
-    }
-    for (std::size_t i = 0; i < joints; i++)
-        x[i] = tau[i] - x[i];
-    for (std::size_t k = 0; k < joints; k++)
-        for (std::size_t i = k + 1; i < joints; i++) {
-            const double share = M[i * joints + k] / M[k * joints + k];
-            for (std::size_t j = k; j < joints; j++)
-                M[i * joints + j] -= share * M[k * joints + j];
-            x[i] -= share * x[k];
-        }
-    for (std::size_t i = joints; i-- > 0;) {
-        for (std::size_t j = i + 1; j < joints; j++)
-            x[i] -= M[i * joints + j] * x[j];
-        x[i] /= M[i * joints + i];
-    }
-    return x;
-}
-
-int main(int, char **argv)
-{
-    ComputedTorque control;
-    const double factor = std::atof(argv[1]), limit = std::atof(argv[2]), h = 1e-4;
-    for (auto &x : control.beta)
-        x *= factor;
-    control.kp.fill(400.0);
-    control.kd.fill(40.0);
-    if (limit > 0.0)
-        control.limit.fill(limit);
-    Vector q{}, qd{}, tau{};
-    q.fill(0.1);
-    double worst = 0.0, largest = 0.0;
-    for (int k = 0; k < 20000; k++) {
-        Reference wanted{};
-        for (std::size_t i = 0; i < joints; i++) {
-            const double w = 2.0 + static_cast<double>(i), t = k * h;
-            wanted.q[i] = 0.5 * std::sin(w * t);
-            wanted.qd[i] = 0.5 * w * std::cos(w * t);
-            wanted.qdd[i] = -0.5 * w * w * std::sin(w * t);
-            if (k > 10000)
-                worst = std::fmax(worst, std::fabs(q[i] - wanted.q[i]));
-        }
-        if (k % 10 == 0 && control.update(q, qd, wanted, tau) != 0)
-            return 1;
-        for (double x : tau)
-            largest = std::fmax(largest, std::fabs(x));
-        const Vector a = accelerations(q, qd, tau);
-        for (std::size_t i = 0; i < joints; i++) {
-            qd[i] += h * a[i];
-            q[i] += h * qd[i];
-        }
-    }
-    q[0] = NAN;
-    const int status = control.update(q, qd, Reference{}, tau);
-    const double left = tau[0];
-    q[0] = 0.1;
-    control.limit[0] = NAN;
-    const int unlimited = control.update(q, qd, Reference{}, tau);
-    std::printf("%.17g %.17g %d %g %d %g\\n", worst, largest, status, left, unlimited, tau[0]);
-}
-"""
-
-STAND_INS = {
-    "controller_interface/chainable_controller_interface.hpp": """
-#include <memory>
-#include <string>
-#include <vector>
-#include "hardware_interface/handle.hpp"
-#include "rclcpp/rclcpp.hpp"
-#include "rclcpp_lifecycle/state.hpp"
-namespace controller_interface {
-enum class CallbackReturn { SUCCESS, FAILURE, ERROR };
-enum class return_type { OK, ERROR };
-enum class interface_configuration_type { ALL, INDIVIDUAL, NONE };
-struct InterfaceConfiguration {
-    interface_configuration_type type; std::vector<std::string> names; };
-struct Loaned { double get_value() const; bool set_value(double); };
-class ChainableControllerInterface {
-public:
-    virtual ~ChainableControllerInterface() = default;
-    virtual CallbackReturn on_init() = 0;
-    virtual InterfaceConfiguration command_interface_configuration() const = 0;
-    virtual InterfaceConfiguration state_interface_configuration() const = 0;
-    virtual CallbackReturn on_configure(const rclcpp_lifecycle::State &);
-    virtual CallbackReturn on_activate(const rclcpp_lifecycle::State &);
-    virtual CallbackReturn on_deactivate(const rclcpp_lifecycle::State &);
-    std::shared_ptr<rclcpp::Node> get_node() const;
-protected:
-    virtual std::vector<hardware_interface::CommandInterface> on_export_reference_interfaces() = 0;
-    virtual return_type update_reference_from_subscribers(
-        const rclcpp::Time &, const rclcpp::Duration &) = 0;
-    virtual return_type update_and_write_commands(
-        const rclcpp::Time &, const rclcpp::Duration &) = 0;
-    template <typename T> void auto_declare(const std::string &, const T &);
-    std::vector<double> reference_interfaces_;
-    std::vector<Loaned> command_interfaces_, state_interfaces_;
-};
-}
-""",
-    "hardware_interface/handle.hpp": """
-#pragma once
-#include <string>
-namespace hardware_interface { struct CommandInterface {
-    CommandInterface(const std::string &, const std::string &, double *); }; }
-""",
-    "rclcpp/rclcpp.hpp": """
-#pragma once
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-#define RCLCPP_ERROR(logger, ...) ((void)(logger), (void)std::snprintf(nullptr, 0, __VA_ARGS__))
-namespace rclcpp {
-struct Logger {}; struct Time {}; struct Duration {}; struct SystemDefaultsQoS {};
-struct Parameter {
-    std::vector<std::string> as_string_array() const;
-    std::vector<double> as_double_array() const; };
-template <typename T> struct Subscription {};
-struct Node {
-    Logger get_logger() const; const char *get_name() const;
-    Parameter get_parameter(const std::string &) const;
-    template <typename T> std::shared_ptr<Subscription<T>> create_subscription(
-        const std::string &, const SystemDefaultsQoS &,
-        std::function<void(const std::shared_ptr<T>)>); };
-}
-""",
-    "rclcpp_lifecycle/state.hpp": "#pragma once\nnamespace rclcpp_lifecycle { struct State {}; }\n",
-    "realtime_tools/realtime_buffer.hpp": """
-namespace realtime_tools { template <typename T> struct RealtimeBuffer {
-    void writeFromNonRT(const T &); T *readFromRT(); }; }
-""",
-    "trajectory_msgs/msg/joint_trajectory_point.hpp": """
-#include <vector>
-namespace trajectory_msgs::msg { struct JointTrajectoryPoint {
-    std::vector<double> positions, velocities, accelerations, effort; }; }
-""",
-    "pluginlib/class_list_macros.hpp": """
-#define PLUGINLIB_EXPORT_CLASS(type, base) static_assert(std::is_base_of_v<base, type>); \\
-    base *made() { return new type; }
-""",
-}
-"""Headers of ROS 2 Jazzy, as far as the controller uses them."""
+ROS2 = Path(__file__).with_name("ros2")
+"""A program around the core, and headers of ROS 2 Jazzy as far as the controller uses them."""
 
 HOT = '[effects]\ntemperature_friction = "all"'
+run = partial(emitted_folders.run, where=ROS2)
 WARNED = ("-Wall", "-Wextra", "-Wconversion", "-Werror")
 
 
-@pytest.fixture(scope="module", params=["demo-arm", "five-bar"])
+@pytest.fixture(
+    scope="module", params=["demo-arm", pytest.param("five-bar", marks=pytest.mark.rotating)]
+)
 def package(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("ros2") / "package"
     return export(load(request.param), folder, to="ros2"), folder
-
-
-def run(*words) -> str:
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
 
 
 def test_the_core_tracks_a_motion_without_ros(package, tmp_path) -> None:
@@ -195,7 +33,7 @@ def test_the_core_tracks_a_motion_without_ros(package, tmp_path) -> None:
     if found.robot != "demo-arm":
         pytest.skip("the harness is for trees")
     name = ET.parse(folder / "package.xml").getroot().findtext("name")
-    text = HARNESS.replace("PACKAGE", name).replace("PREFIX", "demo_arm")
+    text = (ROS2 / "harness.cpp").read_text().replace("PACKAGE", name).replace("PREFIX", "demo_arm")
     (tmp_path / "harness.cpp").write_text(text)
     sources = sorted((folder / "src").glob("*.c"))
     for source in sources:
@@ -212,11 +50,8 @@ def test_the_core_tracks_a_motion_without_ros(package, tmp_path) -> None:
 
 def test_the_controller_compiles_on_stand_ins_of_ros(package, tmp_path) -> None:
     _, folder = package
-    for name, text in STAND_INS.items():
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text(text)
-    run("g++", "-std=c++17", "-fsyntax-only", *WARNED, "-Wno-sign-conversion", "-isystem", tmp_path,
-        "-I", folder / "src", folder / "src" / "controller.cpp")  # fmt: skip
+    run("g++", "-std=c++17", "-fsyntax-only", *WARNED, "-Wno-sign-conversion", "-isystem",
+        ROS2 / "headers", "-I", folder / "src", folder / "src" / "controller.cpp")  # fmt: skip
 
 
 def test_the_files_name_one_another(package) -> None:
@@ -248,6 +83,8 @@ def test_a_package_is_written_again(tmp_path, capsys) -> None:
 def test_what_is_refused(tmp_path) -> None:
     text = load("demo-arm").text
     robot = robot_from_text(text.replace("[effects]", HOT), "hot")
+    with pytest.raises(ModelerError, match="is for robot files, and to says casadi"):
+        export(robot, to="casadi", like="arm.urdf")
     for to in ("ros2", "fmu"):
         with pytest.raises(ModelerError, match="its effects read temperature, which"):
             export(robot, tmp_path / "p", to=to)

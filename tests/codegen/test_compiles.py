@@ -1,0 +1,55 @@
+"""Every emitted file compiles as C and as C++ without a warning; headers stand alone."""
+
+import subprocess
+
+import pytest
+
+from modeler.codegen.control import Control
+from modeler.codegen.emit import emit
+from modeler.codegen.package import write_emitted
+from tests.codegen.fitted_library import fitted_of, robot_module
+from tests.csrc.emitted_folders import CPP, run
+from tests.modules import STRICT, compiler, module
+
+FLAGS = {
+    "gcc": [*STRICT, "-Wundef", "-Wcast-align=strict"],
+    "clang": [*STRICT, "-Wundef", "-Wcast-align"],
+    "g++": [*CPP[:4], "-Werror", "-x", "c++"],
+    "clang++": [*CPP[:4], "-Werror", "-x", "c++"],
+}
+FOLDERS = [
+    *(("gcc", "slow-arm"), ("clang", "five-bar"), ("g++", "slow-arm")),
+    *(pytest.param(*case, marks=pytest.mark.rotating)
+      for case in (("clang++", "orthoglide-2003"), ("gcc", "orthoglide-2003"),
+                   ("clang", "slow-arm"), ("gcc", "evra"), ("gcc", "sr400"),
+                   ("gcc", "wrist-coupled"), ("clang", "sr400-tree"), ("clang", "emps"))),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("cc", "name"), FOLDERS)
+def test_every_file_compiles_without_a_warning(cc, name, tmp_path):
+    """Of a fitted folder with all functions, its programs too; no cast raises an alignment."""
+    made = robot_module(name)
+    emitted = emit(made.model, made.base, fitted_of(made.emitted.spec), control=Control())
+    write_emitted(emitted, tmp_path)
+    units = sorted(path for path in tmp_path.rglob("*.c") if not path.name.startswith("count"))
+    assert {f"{emitted.spec.prefix}_fitted.c", "self_check.c"} <= {path.name for path in units}
+    texts = [emitted.files[file] for file in emitted.spec.sources]
+    assert all(text.isascii() for text in texts)
+    if name == "slow-arm":
+        assert max(len(line) for text in texts for line in text.splitlines()) <= 100
+    run(compiler(cc), *FLAGS[cc], "-fsyntax-only", "-I", tmp_path, *units, where=tmp_path)
+
+
+@pytest.mark.parametrize(("language", "cc"), [("c", "gcc"), ("c++", "g++"), ("c++", "clang++")])
+def test_the_header_stands_alone_also_in_cpp(language, cc, tmp_path):
+    write_emitted(module("wrist").emitted, tmp_path)
+    standard = "-std=c99" if language == "c" else "-std=c++11"
+    headers = ("wrist.h", "modeler_runtime.h", "modeler_sincos.h")
+    for header in headers:
+        unit = f'#include "{header}"\n#include "{header}"\nint only = 1;\n'
+        (tmp_path / f"only_{header}.c").write_text(unit)
+    flags = [standard, "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "-x", language]
+    units = [tmp_path / f"only_{header}.c" for header in headers]
+    subprocess.run([compiler(cc), *flags, "-I", tmp_path, *units], check=True)
+    assert 'extern "C"' in (tmp_path / "wrist.h").read_text()
