@@ -11,7 +11,6 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet
 import pytest
-from numpy_model import planar_arm
 from scipy.signal import lfilter
 from test_observation_rows import exact_log, some_beta
 
@@ -36,6 +35,7 @@ from modeler.observation.settings import Processing
 from modeler.observation.survey import FactsSoFar, WholeLogNeeded, survey
 from modeler.runtime.model import CompiledModel
 from tests.modules import compiled
+from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating, rotating_with
 
 ROWS = 1024  # of a chunk

@@ -11,7 +11,6 @@ from operator import getitem
 
 import numpy as np
 import pytest
-from numpy_model import NumpyModel, Row, planar_arm
 from test_observation_rows import exact_log, some_beta
 
 from modeler.api import recompile
@@ -27,6 +26,7 @@ from modeler.estimation.model_file import (
 from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.observation.observe import observe
 from tests.modules import compiled, module
+from tests.oracles.numpy_model import NumpyModel, Row, planar_arm
 
 
 def noisy(log, size, seed=0):

@@ -7,7 +7,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from numpy_model import planar_arm
 from scipy.signal import lfilter
 from test_observation_rows import exact_log, some_beta
 
@@ -30,6 +29,7 @@ from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 from modeler.validation.prediction import DEVIATIONS, sigma_of
 from tests.modules import compiled
+from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating
 
 NOISE = 0.3

@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from numpy_model import planar_arm
 
 from modeler.cli import main
 from modeler.numerics.held import clips_of, repeated_rows, rows_held
@@ -12,6 +11,7 @@ from modeler.numerics.noise import lattice_step
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
+from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating
 
 COUNTS = 2 * np.pi / 2**14

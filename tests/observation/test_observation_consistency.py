@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from numpy_model import NumpyModel, Row, planar_arm
 
 from modeler.core.errors import DataError
 from modeler.observation.consistency import consistency
@@ -14,6 +13,7 @@ from modeler.observation.read import read_log
 from modeler.observation.segments import split
 from modeler.observation.settings import Processing, processing_from_json
 from tests.measured_sets.sets import DATA
+from tests.oracles.numpy_model import NumpyModel, Row, planar_arm
 from tests.rotation import rotating
 
 measured = pytest.mark.skipif(not DATA.is_dir(), reason=f"NOT CHECKED: no measured logs in {DATA}")

@@ -7,7 +7,6 @@ from collections import Counter
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from rough_joint import KINDS, rough_log
 
 from modeler.core.manifest import JointSpec
@@ -16,6 +15,7 @@ from modeler.observation.observe import observe
 from modeler.observation.outliers import damages, defects
 from modeler.observation.read import read_log
 from modeler.observation.settings import Processing
+from tests.oracles.numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from tests.rotation import rotating
 
 ARMS = {

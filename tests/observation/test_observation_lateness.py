@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from numpy_model import planar_arm
 
 from modeler.observation.consistency import consistency, quieter
 from modeler.observation.log import Log
@@ -13,6 +12,7 @@ from modeler.observation.prepare import without_speeds
 from modeler.observation.read import read_log
 from modeler.observation.segments import Piece, split
 from modeler.observation.settings import Processing
+from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating
 
 ARM = planar_arm()

@@ -6,12 +6,12 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from numpy_model import planar_arm, slider
 
 from modeler.core.errors import DataError
 from modeler.observation.chunk import window
 from modeler.observation.log import shared_rows
 from modeler.observation.read import read_log
+from tests.oracles.numpy_model import planar_arm, slider
 from tests.rotation import rotating
 
 

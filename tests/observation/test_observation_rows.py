@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from scipy.signal import butter, sosfiltfilt
 
 from modeler.core.errors import DataError
@@ -14,6 +13,7 @@ from modeler.observation.low_speed import shafts
 from modeler.observation.motion import low_pass
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
+from tests.oracles.numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from tests.rotation import rotating
 
 
