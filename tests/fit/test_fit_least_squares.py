@@ -163,6 +163,7 @@ def fitted_friction(effects):
     return compiled, seen, with_verdict(compiled, seen, identify(seen, "ordinary"))
 
 
+@pytest.mark.digits
 def test_the_values_are_those_of_columns_for_each_direction():
     """Houda et al., Table 1: qd and sign(qd) where qd > 0, and where qd < 0; the same law."""
     _, seen, fit = fitted_friction(EVERY)

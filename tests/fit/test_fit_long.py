@@ -496,6 +496,7 @@ THIRD = Processing(position_cutoff=0.0, parallel_cutoff=0.0, decimation=3, deriv
 SMOOTH = Processing(position_cutoff=0.0, parallel_cutoff=20.0, derivatives="log")
 
 
+@pytest.mark.digits
 @pytest.mark.parametrize(
     ("name", "processing", "memory", "method"),
     [

@@ -385,6 +385,7 @@ def saved_text(tmp_path_factory) -> str:
     return place.read_text()
 
 
+@pytest.mark.digits
 def test_a_saved_model_compiles_and_predicts_the_same(saved_text, tmp_path):
     again, own = read(tmp_path / "m.json", saved_text.encode()), compiled("two-link")
     log = exact_log(own, some_beta(own), seconds=1)

@@ -72,6 +72,7 @@ def exact():
     return identify_in_two_steps(compiled(_ROBOT), observation, _directions(_ROBOT))
 
 
+@pytest.mark.digits
 def test_it_is_exact_without_noise(exact):
     assert exact.result.status == "ok"
     assert np.abs(exact.result.beta - _beta(_ROBOT)).max() < 1e-10
@@ -167,6 +168,7 @@ def test_pieces_of_several_joints_are_left_out(exact):
     assert exact.steps.several == several
 
 
+@pytest.mark.digits
 @pytest.mark.parametrize("name", ["emps", *rotating("scara")])
 def test_joints_that_feel_nothing_of_each_other(name):
     """A slider beside a turning column, a single joint: fewer functions, honest sigmas."""
