@@ -1,10 +1,12 @@
 """What `modeler` prints of a log without a fault, and which of its lines are wrong."""
 
+import contextlib
+import io
 import re
-import subprocess
-import sys
+import warnings
 from pathlib import Path
 
+from modeler.cli import main
 from tests.clean_logs.machines import Truth
 
 COMMANDS = (
@@ -33,14 +35,17 @@ def print_all(folder: Path) -> list[str]:
     """Every line that the commands print of a machine, each with its command ahead."""
     lines = []
     for command in COMMANDS:
-        run = subprocess.run(
-            [sys.executable, "-m", "modeler", *command],
-            cwd=folder, capture_output=True, text=True, timeout=300, check=False,
-        )  # fmt: skip
-        text = run.stdout + run.stderr
-        lines += [f"{command[0]}: {line}" for line in text.splitlines() if line.strip()]
-        if run.returncode not in (0, 3):
-            lines.append(f"{command[0]}: exit status {run.returncode}")
+        said = io.StringIO()
+        with (
+            contextlib.chdir(folder), contextlib.redirect_stdout(said),
+            contextlib.redirect_stderr(said), warnings.catch_warnings(record=True) as warned,
+        ):  # fmt: skip
+            warnings.simplefilter("always")
+            status = main(command)
+        lines += [f"{command[0]}: {line}" for line in said.getvalue().splitlines() if line.strip()]
+        lines += [f"{command[0]}: {one.category.__name__}: {one.message}" for one in warned]
+        if status not in (0, 3):
+            lines.append(f"{command[0]}: exit status {status}")
     return lines
 
 

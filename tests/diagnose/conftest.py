@@ -1,28 +1,25 @@
 """Two simulated runs of the demonstration arm, and a way to hide effects in them."""
 
 import dataclasses
-import tempfile
 from collections.abc import Callable
-from functools import cache, cached_property, lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, fit, generate, load, observe
 from modeler.cli import main
 from modeler.codegen.workflow import Derivation
-from modeler.core.manifest import Emitted
+from modeler.core.table import printed
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
-from modeler.observation.read import read_log
 from modeler.runtime.model import CompiledModel
-from modeler.simulation import SimulationSettings, simulate, write_log
+from tests.chain import Chain, chain_of
 
-SEEDS = {"train": (4, 30.0), "holdout": (5, 20.0)}
-RATE = 500.0  # Hz
+SECONDS = (22.0, 14.0)
+RATE = 250.0  # Hz
 
 Torque = Callable[[Log], np.ndarray]
 """(n, joints) torque that a hidden effect adds to a log."""
@@ -32,27 +29,31 @@ Torque = Callable[[Log], np.ndarray]
 class Case:
     """A robot, its two runs without any hidden effect, and fits of them with one."""
 
-    derivation: Derivation
-    compiled: CompiledModel
+    chain: Chain
     train: Log
     holdout: Log
 
-    @cached_property
-    def emitted(self) -> Emitted:
-        """The C of the robot."""
-        return generate(self.derivation)
+    @property
+    def derivation(self) -> Derivation:
+        """Of the robot."""
+        return self.chain.derivation
+
+    @property
+    def compiled(self) -> CompiledModel:
+        """The robot."""
+        return self.chain.compiled
 
     def hidden(self, torque: Torque) -> tuple[IdentifiedModel, Log, Log]:
         """The model fitted to the training run with the effect, and both runs with it."""
         return _hidden(self, torque)
 
     def found(self, torque: Torque, without: tuple[str, ...] = ()) -> Diagnosis:
-        """What is said of both runs with the effect; of the last few it is remembered."""
-        return _found(self, torque, without)
+        """What is said of both runs with the effect."""
+        return (_shared if torque in SHARED and not without else _found)(self, torque, without)
 
     def fitted(self, log: Log) -> IdentifiedModel:
         """The model fitted to one log."""
-        return fit(self.derivation, self.emitted, observe(self.compiled, [log]))
+        return self.chain.fit([log])
 
 
 @lru_cache(maxsize=8)
@@ -64,26 +65,41 @@ def _hidden(case: Case, torque: Torque) -> tuple[IdentifiedModel, Log, Log]:
     return case.fitted(train), train, holdout
 
 
-@lru_cache(maxsize=4)
-def _found(case: Case, torque: Torque, without: tuple[str, ...]) -> Diagnosis:
+def _diagnosed(case: Case, torque: Torque, without: tuple[str, ...]) -> Diagnosis:
     model, train, holdout = case.hidden(torque)
-    return diagnose(model, case.compiled, [train], [holdout], without=without)
+    found = diagnose(model, case.compiled, [train], [holdout], without=without)
+    check_gains(found)
+    return found
+
+
+_found, _shared = lru_cache(maxsize=4)(_diagnosed), cache(_diagnosed)
+
+
+def check_gains(found: Diagnosis) -> None:
+    """The gain of an effect is what its two printed errors imply, and nothing else."""
+    findings, told = [*found.effects, *found.refinements], found.to_json()
+    for plain, finding in zip([*told["effects"], *told["refinements"]], findings, strict=True):
+        before, after = plain["error_before"], plain["error_after"]
+        if after is None:  # play whose column does not lower the error
+            assert plain["gain"] is None
+            continue
+        assert abs(plain["gain"] - (1.0 - (after / before) ** 2)) < 1e-12
+        numbers = printed(before, after)
+        assert numbers[0] != numbers[1] and after < before
+        assert " -> ".join(numbers) in finding.evidence
 
 
 @cache
-def demonstration(rate: float = RATE) -> Case:
-    """The demonstration arm, once for all tests of a process."""
-    derivation = derive(load("demo-arm"))
-    compiled, logs = compile_model(generate(derivation)), []
-    with tempfile.TemporaryDirectory() as folder:
-        for name, (seed, duration) in SEEDS.items():
-            place = Path(folder) / f"{name}.parquet"
-            settings = SimulationSettings(
-                duration=duration, rate=rate, seed=seed, torque_noise=0.01
-            )
-            write_log(place, simulate(derivation.robot, settings))
-            logs.append(read_log(place, compiled.spec))
-    return Case(derivation, compiled, *logs)
+def demonstration(
+    rate: float = RATE, robot: str = "demo-arm", seconds: tuple[float, float] = SECONDS
+) -> Case:
+    """The demonstration arm, or another robot, once for all tests of a process."""
+    chain = chain_of(robot)
+    runs = (
+        chain.log(name, duration=duration, rate=rate, seed=seed, torque_noise=0.01)
+        for name, seed, duration in zip(("train", "holdout"), (4, 5), seconds, strict=True)
+    )
+    return Case(chain, *runs)
 
 
 @pytest.fixture(scope="session")
@@ -127,6 +143,15 @@ def arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+def write_csv(path: Path, log: Log) -> Path:
+    """Time, positions, commands and torques of a log, as a file."""
+    assert log.commanded is not None
+    names = ["time", *(f"{kind}{j}" for kind in ("q", "qc", "tau") for j in log.joints)]
+    columns = np.column_stack([log.time, log.q, log.commanded, log.tau])
+    np.savetxt(path, columns, delimiter=",", header=",".join(names), comments="")
+    return path
+
+
 def motion(log: Log) -> tuple[np.ndarray, np.ndarray]:
     """Commanded positions and their velocities: what no encoder has touched."""
     assert log.commanded is not None
@@ -159,3 +184,7 @@ def position_friction(log: Log) -> np.ndarray:
 def two(log: Log) -> np.ndarray:
     """Both."""
     return spring(log) + position_friction(log)
+
+
+SHARED = (nothing, spring, two)
+"""Torques that many tests ask about: what is said of them is kept."""

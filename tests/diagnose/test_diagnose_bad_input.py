@@ -44,14 +44,6 @@ REFUSED: dict[str, tuple[Callable[[Table], Table], str]] = {
         lambda t: t | {"time": with_gap(t["time"], 1.0)},
         "column time, row 801: 1 s after 3.196 s; expected increasing time",
     ),
-    "no tau3": (
-        lambda t: {n: v for n, v in t.items() if n != "tau3"},
-        "no column tau3 or current3: joint 3 of demo-arm is actuated",
-    ),
-    "tau2 empty": (
-        lambda t: t | {"tau2": np.full(len(t["time"]), np.nan)},
-        "torque of joint 2 has no values",
-    ),
     "creep": (
         lambda t: t | {f"q{j}": 1e-3 * t[f"q{j}"] for j in (1, 2, 3)},
         "no usable row is left: joint 1: 0 rows; 100 % of the samples masked below",
@@ -70,7 +62,7 @@ def test_logs_that_cannot_be_used_are_refused_in_one_line(
         ("diagnose", arm / "m.json", arm / "train.parquet", "--holdout", bad),
         ("add", arm / "m.json", "spring", "--joint", "3", bad, "--out", tmp_path / "m2.json"),
     ]
-    for line in lines if mistake == "no tau3" else lines[:1]:
+    for line in lines if mistake == "no time" else lines[:1]:
         status, _, err = run(*line)
         assert status == 1
         assert err.startswith("modeler: ") and err.count("\n") == 1
@@ -89,6 +81,7 @@ def test_a_log_too_short_is_no_evidence_of_anything(arm: Path, run: Run, tmp_pat
     assert "cannot tell" in page and "too few rows" in page
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_without_held_out_motion_the_answer_says_what_that_costs(arm: Path, run: Run) -> None:
     status, out, _ = run("diagnose", arm / "m.json", arm / "train.parquet")
     assert status == 0
@@ -134,7 +127,15 @@ CONTRADICT: dict[str, tuple[Callable[[Table], Table], str]] = {
 }
 
 
-@pytest.mark.parametrize("mistake", CONTRADICT)
+@pytest.mark.parametrize(
+    "mistake",
+    [
+        name
+        if name in ("degrees", "torque reversed", "positions exchanged")
+        else pytest.param(name, marks=pytest.mark.rotating)
+        for name in CONTRADICT
+    ],
+)
 def test_channels_that_contradict_the_model_are_named_and_no_physics_is(
     arm: Path, run: Run, tmp_path: Path, mistake: str
 ) -> None:
@@ -154,7 +155,11 @@ def test_channels_that_contradict_the_model_are_named_and_no_physics_is(
 
 
 @pytest.mark.parametrize(
-    ("samples", "words"), [(2, " ms late, by a fit at other times"), (1, " ms too late beside")]
+    ("samples", "words"),
+    [
+        (2, " ms late, by a fit at other times"),
+        pytest.param(1, " ms too late beside", marks=pytest.mark.rotating),
+    ],
 )
 def test_a_late_position_is_found_with_its_delay(
     samples: int, words: str, arm: Path, run: Run, tmp_path: Path
@@ -228,6 +233,7 @@ def test_a_joint_that_never_moves_is_a_blind_spot(arm: Path, run: Run, tmp_path:
     assert ("stribeck", "2") not in blind(tmp_path / "d.json")
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_at_one_speed_laws_of_the_speed_are_blind_spots(
     arm: Path, run: Run, tmp_path: Path
 ) -> None:
@@ -242,6 +248,7 @@ def test_at_one_speed_laws_of_the_speed_are_blind_spots(
     assert not {(law, "2") for law in laws} & blind(tmp_path / "d.json")
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_slow_motion_only(arm: Path, run: Run, tmp_path: Path) -> None:
     """Joints 2 and 3 feel gravity and friction, next to no inertia."""
     q = np.column_stack([sweep(0.05, 0.5, 40.0), sweep(0.055, 0.5, 40.0), sweep(0.061, 0.5, 40.0)])
@@ -254,40 +261,18 @@ def test_slow_motion_only(arm: Path, run: Run, tmp_path: Path) -> None:
 
 
 def test_rows_have_one_part(arm: Path, run: Run) -> None:
-    model, train = arm / "m.json", arm / "train.parquet"
-    for words, message in (
-        ((train, "--holdout", train), "--holdout train.parquet: shares rows with train.parquet"),
-        ((f"{train}@:9", "--holdout", f"{train}@8:"), "shares rows with train.parquet@:9"),
-        ((train, f"{train}@5:"), "train.parquet@5:: got rows of train.parquet again"),
-    ):
-        status, _, err = run("diagnose", model, *words)
-        assert status == 1 and err.count("\n") == 1 and message in err
+    train = arm / "train.parquet"
+    status, _, err = run("diagnose", arm / "m.json", train, "--holdout", train)
+    assert status == 1 and err.count("\n") == 1
+    assert "--holdout train.parquet: shares rows with train.parquet" in err
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_a_held_out_log_that_was_fitted_is_told(arm: Path, run: Run) -> None:
     words = ("diagnose", arm / "m.json", arm / "other.parquet", "--holdout", arm / "train.parquet")
     status, out, _ = run(*words)
     assert status == 0
     assert "data: held out: the model was fitted to train.parquet; " in out
-
-
-@pytest.mark.parametrize(
-    ("option", "place", "message"),
-    [
-        ("--report", "m.json", "--report m.json: this is the model that is read"),
-        ("--report", "train.parquet", "--report train.parquet: this is a log; expected a name"),
-        ("--json", "new.csv", "--json new.csv: this is a log"),
-        ("--report", ".", "is a folder; expected the name of a file"),
-    ],
-)
-def test_no_output_takes_the_place_of_an_input(
-    arm: Path, run: Run, monkeypatch: pytest.MonkeyPatch, option: str, place: str, message: str
-) -> None:
-    monkeypatch.chdir(arm)
-    before = {path.name: path.read_bytes() for path in arm.iterdir()}
-    status, out, err = run("diagnose", "m.json", "train.parquet", option, place)
-    assert (status, out) == (1, "") and err.count("\n") == 1 and message in err
-    assert {path.name: path.read_bytes() for path in arm.iterdir()} == before
 
 
 @pytest.mark.parametrize(
@@ -300,11 +285,3 @@ def test_no_output_takes_the_place_of_an_input(
 def test_what_is_ruled_out_must_exist(arm: Path, run: Run, text: str, message: str) -> None:
     status, _, err = run("diagnose", arm / "m.json", arm / "train.parquet", "--without", text)
     assert status == 1 and err.count("\n") == 1 and message in err
-
-
-def test_a_damaged_model_file_is_named_once(arm: Path, run: Run, tmp_path: Path) -> None:
-    bad = tmp_path / "bad.json"
-    bad.write_text((arm / "m.json").read_text()[:5000])
-    status, _, err = run("diagnose", bad, arm / "train.parquet")
-    assert status == 1 and err.count("\n") == 1
-    assert err.count("bad.json") == 1 and "not a model file: it is not JSON, or cut off" in err

@@ -26,7 +26,10 @@ def eps_of(model, names) -> Mapping[str, float]:
     return {p.name: p.value for p in model.fit.parameters if p.name in names}
 
 
-@pytest.mark.parametrize("factors", [(3.0, 1.0, 1.0), (1.0, 1.0, 0.4), BOTH])
+@pytest.mark.parametrize(
+    "factors",
+    [BOTH, *(pytest.param(one, marks=pytest.mark.rotating) for one in [(3, 1, 1), (1, 1, 0.4)])],
+)
 def test_wrong_gains_are_named_with_their_values_and_added(case: Case, factors) -> None:
     """Where a fit bends most to one, that joint is described best, and others look wrong.
 
@@ -51,12 +54,13 @@ def test_wrong_gains_are_named_with_their_values_and_added(case: Case, factors) 
         (name,) = f.parameters
         added = eps_of(better, [name])[name]
         assert added == pytest.approx(f.parameters[name], abs=3e-3 * (1.0 + wrong[name]))
-    if factors == (1.0, 1.0, 0.4):
+    if factors == (1, 1, 0.4):
         # A bent fit describes joint 3 so well that its gain seems hidden.
         assert diagnosis.search.steps[0].judged.visible < 0.01
         assert gain_visible(diagnosis.search.end, 0) > 0.05
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_a_second_gain_mends_the_first_that_was_added(case: Case) -> None:
     """The first one's column was about a model that the second had bent."""
     model, train, holdout = case.hidden(logged(*BOTH))
@@ -68,6 +72,7 @@ def test_a_second_gain_mends_the_first_that_was_added(case: Case) -> None:
     assert added == pytest.approx({"eps2": 0.3, "eps3": -0.5}, abs=0.01)
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_a_torque_in_another_unit_is_a_matter_of_its_channel_still(case: Case) -> None:
     diagnosis = case.found(logged(1.0, 1000.0, 1.0))
     said = [*diagnosis.data, *(f.objection for f in diagnosis.effects)]

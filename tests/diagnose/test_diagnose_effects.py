@@ -1,27 +1,30 @@
 """Effects hidden in simulated runs, written here as torques: are they named, with their values?"""
 
+import dataclasses
 import re
-from pathlib import Path
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 
 from modeler.api import load
 from modeler.diagnosis.diagnosis import diagnose
+from modeler.diagnosis.sentences import lines
 from modeler.observation.log import Log
-from modeler.observation.read import read_log
-from modeler.robot.read import robot_from_text
-from modeler.simulation import SimulationSettings, simulate, write_log
+from modeler.report import after_diagnosis
+from tests.chain import chain_of
 from tests.diagnose.conftest import (
     RATE,
     Case,
     Torque,
+    check_gains,
     motion,
     nothing,
     on_joint,
     position_friction,
     spring,
-)
+    two,
+)  # fmt: skip
 
 
 def stribeck(log: Log) -> np.ndarray:
@@ -64,7 +67,13 @@ NAMED: dict[str, tuple[Torque, str | None, dict[str, float], float]] = {
 }
 
 
-@pytest.mark.parametrize("effect", NAMED)
+DAILY = ("spring", "time_delay")
+"""One of each kind: a torque that is added, and one that comes late."""
+
+
+@pytest.mark.parametrize(
+    "effect", [e if e in DAILY else pytest.param(e, marks=pytest.mark.rotating) for e in NAMED]
+)
 def test_a_hidden_effect_is_named_with_its_values(case: Case, effect: str) -> None:
     torque, joint, values, tolerance = NAMED[effect]
     diagnosis = case.found(torque)
@@ -93,12 +102,14 @@ def test_every_effect_tells_what_other_looks_say(case: Case) -> None:
     assert fields | {"evidence"} <= first.keys()
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_what_the_user_rules_out_is_not_named(case: Case) -> None:
     diagnosis = case.found(spring, without=("spring@3",))
     assert ("spring", "3") not in {(f.effect, f.joint) for f in diagnosis.effects}
     assert diagnosis.verdict != "missing", "what stands in for it is no fact"
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_effects_that_fail_on_held_out_motion_are_not_named(case: Case) -> None:
     """A torque of the training run alone: whatever describes it there is vetoed."""
     model, train, _ = case.hidden(spring)
@@ -115,30 +126,34 @@ def test_nothing_is_named_where_nothing_is_hidden(case: Case) -> None:
     assert ("payload", None) in diagnosis.blind_spots
 
 
-def test_friction_that_vibration_smooths_mends_the_law_and_hides_nothing(case: Case) -> None:
-    def smoothed(log: Log) -> np.ndarray:
-        return -0.5 * stribeck(log)
+def smoothed(log: Log) -> np.ndarray:
+    """Friction that has not yet built up near standstill."""
+    return -0.5 * stribeck(log)
 
+
+def test_friction_that_vibration_smooths_mends_the_law(case: Case) -> None:
     alone = case.found(smoothed)
     assert alone.effects == () and alone.verdict == "nothing significant"
     assert alone.sentences[0] == "nothing to add: a law that the model has can be refined"
     assert [(f.effect, f.joint) for f in alone.refinements] == [("stribeck", "2")]
     assert alone.refinements[0].parameters["Fst2"] < 0.0
     assert any("has not yet built up near standstill" in line for line in alone.sentences)
+
+
+@pytest.mark.rotating("diagnoses of simulated runs")
+def test_a_law_that_is_mended_hides_nothing(case: Case) -> None:
     both = case.found(lambda log: smoothed(log) + spring(log))
     assert [(f.effect, f.joint) for f in both.effects] == [("spring", "3")]
     assert [f.effect for f in both.refinements] == ["stribeck"]
 
 
-def test_a_load_since_the_fit_is_named_with_its_mass(case: Case, tmp_path: Path) -> None:
+def test_a_load_since_the_fit_is_named_with_its_mass(case: Case) -> None:
     """1.2 kg, 0.3 m along x of the last frame, in a simulation of its own."""
     text = load("demo-arm").text
     for name, more in {"M3": 1.2, "MX3": 0.36, "YY3": 0.108, "ZZ3": 0.108}.items():
         value = case.derivation.robot.parameters[name]
         text = re.sub(rf"(?m)^{name} = .*$", f"{name} = {value + more}", text)
-    settings = SimulationSettings(duration=15.0, rate=RATE, seed=8, torque_noise=0.01)
-    write_log(tmp_path / "loaded.parquet", simulate(robot_from_text(text, "loaded"), settings))
-    log = read_log(tmp_path / "loaded.parquet", case.compiled.spec)
+    log = chain_of(text).log("loaded", duration=15.0, rate=RATE, seed=8, torque_noise=0.01)
     diagnosis = diagnose(case.fitted(case.train), case.compiled, [log])
     first = diagnosis.effects[0]
     assert diagnosis.changed and (first.effect, first.joint) == ("payload", None)
@@ -157,13 +172,14 @@ def dragging(log: Log) -> np.ndarray:
     return on_joint(log, 1, 6.0 * on * np.tanh(motion(log)[1][:, 1] / 0.002))
 
 
-@pytest.mark.parametrize("torque", [strange, dragging])
+@pytest.mark.parametrize("torque", [strange, pytest.param(dragging, marks=pytest.mark.rotating)])
 def test_a_cause_outside_the_catalogue_is_not_stated_as_a_fact(case: Case, torque: Torque) -> None:
     diagnosis = case.found(torque)
     assert diagnosis.verdict in ("closest description", "unexplained")
     assert diagnosis.joints["2"].systematic > 0.5 * diagnosis.joints["2"].noise
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_knocks_that_follow_nothing_are_told_and_not_named(case: Case) -> None:
     def knocks(log: Log) -> np.ndarray:
         random = np.random.default_rng(len(log.time)).normal(size=len(log.time))
@@ -174,6 +190,7 @@ def test_knocks_that_follow_nothing_are_told_and_not_named(case: Case) -> None:
     assert any("comes in brief outbursts" in line for line in diagnosis.sentences)
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_friction_that_would_drive_is_not_named(case: Case) -> None:
     """A torque that follows the direction and helps the motor at half of the poses."""
 
@@ -184,3 +201,69 @@ def test_friction_that_would_drive_is_not_named(case: Case) -> None:
     diagnosis = case.found(helping)
     assert not any(f.effect == "position_friction" for f in diagnosis.effects)
     assert any("position_friction" in x and "would drive" in x for x in diagnosis.sentences)
+
+
+def coupled(log: Log) -> np.ndarray:
+    """Springs on two joints, friction on the third: what one explains is felt on others."""
+    return two(log) + on_joint(log, 1, 2.0 * np.sin(2.0 * motion(log)[0][:, 1]))
+
+
+def late_and_pushed(log: Log) -> np.ndarray:
+    """A delay, and a push."""
+    slope = np.gradient(log.tau, log.time, axis=0)
+    push = np.where((log.time > 8.0) & (log.time < 9.0), 6.0, 0.0)
+    return -0.004 * slope + on_joint(log, 0, push)
+
+
+@pytest.mark.rotating("diagnoses of simulated runs")
+def test_gain_is_computed_from_the_printed_errors(case: Case) -> None:
+    """Of what is named beside others, and of a push in logs without held-out ones."""
+    assert case.found(coupled).effects
+    model, train, _ = case.hidden(late_and_pushed)
+    found = diagnose(model, case.compiled, [train], [])
+    assert found.effects
+    check_gains(found)
+
+
+def test_an_effect_of_one_joint_has_the_errors_of_that_joint(case: Case) -> None:
+    """Alone, they are those of the table of joints: same rows, same weights."""
+    found = case.found(spring)
+    (first,) = [*found.effects, *found.refinements]
+    joint = found.joints["3"]
+    assert first.error_before == pytest.approx(joint.error_before)
+    assert first.error_after == pytest.approx(joint.error_after)
+
+
+def rubbing(log: Log, share: float) -> np.ndarray:
+    """More friction of joint 2."""
+    v = motion(log)[1][:, 1]
+    return on_joint(log, 1, share * (3.0 * np.tanh(v / 0.002) + 2.0 * v))
+
+
+CHANGES: dict[str, tuple[Callable[[Log], np.ndarray], set[str]]] = {
+    "friction": (lambda log: rubbing(log, 1.0), {"Fs2", "Fv2"}),
+    "less friction": (lambda log: rubbing(log, -0.4), {"Fs2", "Fv2"}),
+    "bias": (lambda log: on_joint(log, 0, np.full(len(log.time), 2.0)), {"Off1"}),
+}
+
+
+@pytest.mark.parametrize(
+    "name", ["friction", *(pytest.param(n, marks=pytest.mark.rotating) for n in [*CHANGES][1:])]
+)
+def test_what_has_changed_is_told(case: Case, name: str) -> None:
+    torque, moved = CHANGES[name]
+    model, train, holdout = case.hidden(nothing)
+    holdout = dataclasses.replace(holdout, tau=holdout.tau + torque(holdout), content="y")
+    found = diagnose(model, case.compiled, [train], [holdout])
+    assert {p.name for p in found.machine_changed} == moved, found.sentences
+    assert found.verdict == "cannot tell" and "machine differs" in found.sentences[0]
+    first = found.machine_changed[0]
+    assert f"{first.name}: {first.before:.4g} +- " in "\n".join(lines(found))
+    said = found.to_json()["machine_changed"][0]
+    assert {"name", "before", "after", "sigma_before", "sigma_after", "unit"} <= set(said)
+    assert not any("generate" in line for line in after_diagnosis("m", ["a"], ["b"], found))
+
+
+def test_the_same_machine_has_not_changed(case: Case) -> None:
+    assert case.found(nothing).machine_changed == ()
+    assert case.found(spring).machine_changed == ()

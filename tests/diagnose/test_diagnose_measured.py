@@ -7,22 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from modeler.api import (
-    compare,
-    compile_model,
-    derive,
-    diagnose,
-    fit,
-    generate,
-    load,
-    observe,
-    read_logs,
-)
+from modeler.api import compare, diagnose, read_logs
 from modeler.core.builtin import builtin_text
 from modeler.diagnosis.add import add_effect
 from modeler.diagnosis.added_model import Logs
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.runtime.model import load as load_compiled
+from tests.chain import chain_of
 from tests.rotation import rotating_with
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
@@ -45,9 +36,7 @@ def pieces(seconds: str, *logs: Path) -> list[Path]:
 
 
 def fitted(robot: str, training: list[Path]) -> IdentifiedModel:
-    derivation = derive(load(robot))
-    emitted = generate(derivation)
-    return fit(derivation, emitted, observe(compile_model(emitted), training))
+    return chain_of(robot).fit(training)
 
 
 def ur10e(*names: str) -> list[Path]:

@@ -13,6 +13,7 @@ from modeler import api
 
 pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco-core) is not installed")
 
+from tests.chain import chain_of
 from tests.diagnose.mujoco_arm import ROWS, G, random_arm, random_body, robot_text, run, write
 from tests.rotation import ROTATING
 
@@ -78,16 +79,16 @@ def diagnosed(folder, seed, effect=None, joint=None):
     path = folder / "robot.toml"
     text = robot_text(random_arm(seed), effects_without(effect, joint))
     path.write_text(text, encoding="utf-8")
-    derivation = api.derive(api.load(str(path)))
-    emitted = api.generate(derivation)
-    compiled = api.compile_model(emitted)
-    model = api.fit(derivation, emitted, api.observe(compiled, [fitted]))
-    return api.diagnose(model, [train], [holdout])
+    return api.diagnose(chain_of(path).fit([fitted]), [train], [holdout])
 
 
-@pytest.mark.parametrize(
-    "effect", [pytest.param(e, marks=ROTATING) if WHERE[e][0] == 2 else e for e in WHERE]
-)
+def case_of(effect):
+    """The first each time; others in rotation, those of another arm not in a quick run."""
+    marks = ROTATING if WHERE[effect][0] == 2 else pytest.mark.rotating
+    return effect if effect == next(iter(WHERE)) else pytest.param(effect, marks=marks)
+
+
+@pytest.mark.parametrize("effect", [*map(case_of, WHERE)])
 def test_what_the_file_lacks_is_named_first(tmp_path, effect):
     seed, joint = WHERE[effect]
     found = diagnosed(tmp_path, seed, effect, joint)

@@ -3,13 +3,13 @@
 import dataclasses
 
 import numpy as np
+import pytest
 
-from modeler.api import fit, observe
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.state import analysed, bands_line
 from modeler.observation.log import Log
 from modeler.observation.settings import Processing
-from tests.diagnose.conftest import Case, motion
+from tests.diagnose.conftest import Case, motion, nothing
 
 
 def shaking(log: Log, size: float = 5e-4) -> Log:
@@ -17,12 +17,12 @@ def shaking(log: Log, size: float = 5e-4) -> Log:
     return dataclasses.replace(log, q=q, qd=None, qdd=None)
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_a_band_in_which_the_model_trembles_is_lowered_or_told(case: Case) -> None:
     """Where the user gave the cut-offs, they stay."""
     log, given = shaking(case.train), Processing(position_cutoff=60.0, parallel_cutoff=25.0)
     for processing, told in ((given, 1), (Processing(), 0)):
-        observation = observe(case.compiled, [log], processing)
-        model = fit(case.derivation, case.emitted, observation)
+        model = case.chain.fit([log], processing)
         found = diagnose(model, case.compiled, [log], most=0)
         lines = [line for line in found.data if "trembles" in line]
         assert len(lines) == told
@@ -30,6 +30,7 @@ def test_a_band_in_which_the_model_trembles_is_lowered_or_told(case: Case) -> No
         assert (found.band == 25.0) if told else (found.band < 15.0)
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_noise_of_the_positions_is_nothing_systematic(case: Case) -> None:
     """It is in the columns of the model, and so in the residual: no function of the motion."""
     log, holdout = (shaking(own, 1e-3) for own in (case.train, case.holdout))
@@ -58,9 +59,9 @@ def test_torques_without_any_friction_are_doubted(case: Case) -> None:
         q, v = motion(log)
         return -case.compiled.inverse_dynamics(q, v, np.zeros_like(q), friction)
 
-    for hidden, told in ((smooth, 1), (lambda log: np.zeros_like(log.tau), 0)):
-        fitted, train, _ = case.hidden(hidden)
-        found = diagnose(fitted, case.compiled, [train], most=0)
+    fitted, train, _ = case.hidden(smooth)
+    smoothly = diagnose(fitted, case.compiled, [train], most=0)
+    for found, told in ((smoothly, 1), (case.found(nothing), 0)):
         assert sum("no joint rubs" in line for line in found.data) == told
         ids = {effect.id for effect in found.search.catalogue}
         assert ("load_friction" not in ids) is bool(told) and "time_delay" in ids

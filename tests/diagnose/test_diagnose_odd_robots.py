@@ -53,11 +53,16 @@ def write_changed(place: Path, name: str, to: Path) -> None:
     pyarrow.parquet.write_table(pyarrow.table(columns), to)
 
 
-QUICK = ("slide_along_gravity", "pendulum_with_prior", "turn_without_gravity")
-
-
 @pytest.mark.parametrize(
-    "name", [n if n in QUICK else pytest.param(n, marks=pytest.mark.slow) for n in ROBOTS]
+    "name",
+    [
+        "pendulum_with_prior",
+        *(
+            pytest.param(n, marks=pytest.mark.rotating)
+            for n in ROBOTS
+            if n != "pendulum_with_prior"
+        ),
+    ],
 )
 def test_a_diagnosis_ends_in_sentences(name: str, tmp_path: Path, run: Run) -> None:
     robot, a, b = write_robot(tmp_path, name), tmp_path / "a.parquet", tmp_path / "b.parquet"

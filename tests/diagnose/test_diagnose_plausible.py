@@ -5,12 +5,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, generate, load
 from modeler.diagnosis import plausible
 from modeler.diagnosis.candidates import Candidate, JointScale
 from modeler.diagnosis.plausible import objection
 from modeler.diagnosis.signals import SignalReference, tilt_axes
 from modeler.effects.catalogue import effect_named
+from tests.chain import chain_of
 
 INERTIA = 2.0  # kg m^2
 
@@ -146,8 +146,7 @@ def test_a_gain_that_is_far_off_is_a_matter_of_sign_or_unit():
 
 @pytest.mark.parametrize(("robot", "axes"), [("two-link", 1), ("demo-arm", 2)])
 def test_an_arm_that_moves_in_a_plane_feels_a_tilt_in_it_alone(robot: str, axes: int) -> None:
-    derivation = derive(load(robot))
-    compiled = compile_model(generate(derivation))
+    compiled = chain_of(robot).compiled
     links = np.random.default_rng(2).uniform(1.0, 2.0, len(compiled.spec.base))
     reference = SignalReference(compiled, links, 0.0, {})
     found = tilt_axes(reference)

@@ -3,9 +3,13 @@
 import numpy as np
 import pytest
 
-from modeler.api import add, auto, compile_model, derive, diagnose, fit, generate, observe
+from modeler.api import add, diagnose, read_logs
+from modeler.diagnosis.add import add_findings
+from modeler.diagnosis.added_model import Logs
 from modeler.robot import robot_from_text
+from modeler.runtime.model import load
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
+from tests.chain import chain_of
 from tests.link_data import buildable, links, text
 
 NOMINAL = links(4)
@@ -23,11 +27,7 @@ def fitted(values, seed, hidden=(), uncertainty=None):
                                           torque_noise=0.02, hidden=hidden))
         for k, seconds in enumerate((16.0, 10.0))
     ]  # fmt: skip
-    derivation = derive(robot_from_text(text(values, uncertainty), "stated.toml"))
-    emitted = generate(derivation)
-    compiled = compile_model(emitted)
-    model = fit(derivation, emitted, observe(compiled, runs[:1]))
-    return machine, model, runs[:1], runs[1:]
+    return machine, chain_of(text(values, uncertainty)).fit(runs[:1]), runs[:1], runs[1:]
 
 
 @pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
@@ -38,7 +38,10 @@ def test_with_link_data_a_counterbalance_is_named(seed):
     assert found.effects[0].error_after < 0.2 * found.effects[0].error_before
     assert not any(LINE in line for line in found.sentences)
     assert any("link 2: the data contradict" in line for line in model.fit.verdict.doubts)
-    for better in (add(model, "counterbalance", *logs, "2"), auto(model, *logs)):
+    compiled = load(model.spec, model.sources)
+    read = Logs(*(read_logs(compiled, some) for some in logs))
+    named, _ = add_findings(model, compiled, found.effects, read)
+    for better in (add(model, "counterbalance", *logs, "2"), named):
         assert [step.effect for step in better.history] == ["", "counterbalance"]
         assert better.history[-1].falls and not better.fit.contradicted
         z = []
@@ -50,6 +53,7 @@ def test_with_link_data_a_counterbalance_is_named(seed):
         assert max(p.prior for p in better.fit.parameters) > 0.2
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_with_free_inertias_it_is_said_that_gravity_looks_alike():
     _, model, *logs = fitted({}, 3)
     found = diagnose(model, *logs)
@@ -57,6 +61,7 @@ def test_with_free_inertias_it_is_said_that_gravity_looks_alike():
     assert any(line.startswith(LINE) for line in found.sentences)
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 def test_a_true_machine_lacks_nothing_beside_its_link_data():
     _, model, *logs = fitted(NOMINAL, 5, (), {"inertial": 0.1})
     found = diagnose(model, *logs)

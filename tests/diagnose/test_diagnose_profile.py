@@ -1,11 +1,11 @@
 """Sigmas and intervals of an effect hold for its shapes too: Monte Carlo, and limits known."""
 
-import dataclasses
+from functools import cache
 
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, generate, identified, load, observe
+from modeler.api import observe
 from modeler.diagnosis.add import add_effect, undone
 from modeler.diagnosis.added_model import Logs, added
 from modeler.diagnosis.candidates import StatedEffects
@@ -15,48 +15,42 @@ from modeler.diagnosis.state import SearchData, analysed, state_of
 from modeler.estimation.identify import identify
 from modeler.estimation.model_file import load_model, save_model
 from modeler.estimation.parameter import spread_text
-from modeler.observation.read import read_log
-from modeler.simulation import SimulationSettings, hidden_from_text, simulate, write_log
+from modeler.runtime.model import load
+from modeler.simulation import SimulationSettings, hidden_from_text, simulate
+from tests.chain import chain_of
 
 
-@pytest.fixture(scope="module")
-def arm():
-    derivation = derive(load("demo-arm"))
-    emitted = generate(derivation)
-    return derivation, emitted, compile_model(emitted)
+@cache
+def simulated(hide, seed):
+    """A log of a machine with a hidden effect, its model, and the effect's true values."""
+    arm, hidden = chain_of("demo-arm"), (hidden_from_text(hide),)
+    settings = {
+        "duration": 15.0, "rate": 500.0, "seed": seed, "parameter_seed": seed,
+        "torque_noise": 0.02, "hidden": hidden,
+    }  # fmt: skip
+    truth = simulate(arm.derivation.robot, SimulationSettings(**settings)).truth
+    log = arm.log(str(seed), **settings)
+    return log, arm.fit([log]), truth.hidden[0].values
 
 
-def simulated(arm, folder, hide, seed):
-    """A log of a machine with a hidden effect, and the effect's true values."""
-    derivation, emitted, _ = arm
-    settings = SimulationSettings(
-        duration=15.0, rate=500.0, seed=seed, parameter_seed=seed, torque_noise=0.02,
-        hidden=(hidden_from_text(hide),),
-    )  # fmt: skip
-    log = simulate(derivation.robot, settings)
-    path = folder / f"{seed}.parquet"
-    write_log(path, log)
-    return read_log(path, emitted.spec), log.truth.hidden[0].values
-
-
-def fitted(arm, log):
-    derivation, emitted, compiled = arm
-    observation = observe(compiled, [log])
-    return identified(derivation, emitted, observation, identify(observation))
-
-
-def found(arm, log, effect, joint):
-    """The state with an effect put in at its best shapes."""
-    model = fitted(arm, log)
-    robot = arm[0].robot
-    data = SearchData(
-        arm[2], analysed(arm[2], [log], model.processing), None,
-        StatedEffects(robot.catalogue, robot.coupling),
-    )  # fmt: skip
+def found(hide, seed):
+    """The profile of an effect put in at its best shapes, and its true values."""
+    log, model, truth = simulated(hide, seed)
+    arm, robot = chain_of("demo-arm"), chain_of("demo-arm").derivation.robot
+    seen = analysed(arm.compiled, [log], model.processing)
+    data = SearchData(arm.compiled, seen, None, StatedEffects(robot.catalogue, robot.coupling))
     state = state_of(data, (), model.beta)
-    return extended(
-        state, scan_catalogue(state, only=effect, joint=joint).judged().ranked[0].candidate
-    )
+    effect, _, joint = hide.partition(":")[0].partition("@")
+    best = scan_catalogue(state, only=effect, joint=joint).judged().ranked[0].candidate
+    return profile_of(extended(state, best), 0), truth
+
+
+@cache
+def added_to(hide, seed):
+    """The log, and its model with the effect added."""
+    log, model, _ = simulated(hide, seed)
+    effect, _, joint = hide.partition("@")
+    return log, add_effect(model, chain_of("demo-arm").compiled, effect, joint, Logs([log]))
 
 
 CASES = {
@@ -74,12 +68,11 @@ CASES = {
 @pytest.mark.slow
 @pytest.mark.rotating
 @pytest.mark.parametrize("effect", CASES)
-def test_the_truth_is_where_the_interval_says(arm, tmp_path, effect):
+def test_the_truth_is_where_the_interval_says(effect):
     hide, true_values = CASES[effect]
     z, inside, blind = [], [], []
     for seed in range(30_400, 30_404):
-        log, values = simulated(arm, tmp_path, hide, seed)
-        along = profile_of(found(arm, log, effect, hide.partition("@")[2][0]), 0)
+        along, values = found(hide, seed)
         truth = np.array(true_values(values))
         low, high = along.intervals().T
         z += list((along.told.values - truth) / along.deviations())
@@ -90,9 +83,8 @@ def test_the_truth_is_where_the_interval_says(arm, tmp_path, effect):
     assert np.mean(inside) >= np.mean(blind)
 
 
-def test_two_exponents_that_do_as_well_are_both_in_the_interval(arm, tmp_path):
-    log, truth = simulated(arm, tmp_path, "stribeck@2", 901)
-    along = profile_of(found(arm, log, "stribeck", "2"), 0)
+def test_two_exponents_that_do_as_well_are_both_in_the_interval():
+    along, truth = found("stribeck@2", 901)
     # the simulated dip has the exponent 2; these logs hold too few slow rows to tell
     assert along.shape_intervals()["d"] == (1.0, 2.0)
     (low, high) = along.intervals()[0]
@@ -102,10 +94,10 @@ def test_two_exponents_that_do_as_well_are_both_in_the_interval(arm, tmp_path):
     assert low < truth["speed"] < high
 
 
-def test_a_narrow_likelihood_gives_the_delta_method(arm, tmp_path):
+@pytest.mark.rotating("diagnoses of simulated runs")
+def test_a_narrow_likelihood_gives_the_delta_method():
     # g(theta) linear, S(theta) quadratic: var g = s^2 + (dg/dtheta)^2 var theta.
-    log, _ = simulated(arm, tmp_path, "stribeck@2", 902)
-    along = profile_of(found(arm, log, "stribeck", "2"), 0)
+    along, _ = found("stribeck@2", 902)
     told = along.told.shapes
     near = [(p, r) for p, r in zip(along.points, along.rise, strict=True)
             if p.shapes["d"] == told["d"] and r < 9.0]  # fmt: skip
@@ -122,15 +114,14 @@ def test_a_narrow_likelihood_gives_the_delta_method(arm, tmp_path):
     assert high - low == pytest.approx(2.0 * 1.96 * delta, rel=0.3)
 
 
-def test_an_effect_without_shapes_has_no_profile(arm, tmp_path):
-    log, _ = simulated(arm, tmp_path, "asymmetric_viscous@2", 903)
-    assert profile_of(found(arm, log, "asymmetric_viscous", "2"), 0) is None
+@pytest.mark.rotating("diagnoses of simulated runs")
+def test_an_effect_without_shapes_has_no_profile():
+    assert found("asymmetric_viscous@2", 903)[0] is None
 
 
-def test_what_is_added_is_stored_and_told_with_it(arm, tmp_path):
-    log, truth = simulated(arm, tmp_path, "stribeck@2", 901)
-    model = fitted(arm, log)
-    better = add_effect(model, arm[2], "stribeck", "2", Logs([log]))
+def test_what_is_added_is_stored_and_told_with_it(tmp_path):
+    truth = simulated("stribeck@2", 901)[2]
+    log, better = added_to("stribeck@2", 901)
     names = [p.name for p in better.fit.parameters]
     extra = better.fit.parameters[names.index("Fst2")]
     low, high = extra.interval
@@ -153,13 +144,11 @@ def test_what_is_added_is_stored_and_told_with_it(arm, tmp_path):
     assert all(p.interval is None for p in before.fit.parameters)
 
 
-def test_shapes_widen_what_stands_beside_them(arm, tmp_path):
+def test_shapes_widen_what_stands_beside_them():
     # Coulomb friction trades with a dip of unknown width: its sigma knows.
-    log, _ = simulated(arm, tmp_path, "stribeck@2", 901)
-    better = add_effect(fitted(arm, log), arm[2], "stribeck", "2", Logs([log]))
+    log, better = added_to("stribeck@2", 901)
     sigma = {p.name: p.sigma for p in better.fit.parameters}
-    observation = observe(compile_model(dataclasses.replace(arm[1], spec=better.spec,
-                          files=better.sources)), [log], better.processing)  # fmt: skip
+    observation = observe(load(better.spec, better.sources), [log], better.processing)
     fixed = {p.name: p.sigma for p in identify(observation).parameters}
     assert sigma["Fst2"] > 2.0 * fixed["Fst2"]
     assert all(sigma[name] >= 0.999 * fixed[name] for name in fixed)

@@ -7,29 +7,27 @@ import numpy as np
 import pytest
 from scipy.signal import cont2discrete, lfilter
 
-from modeler.api import compile_model, derive, generate, load
 from modeler.core.expression import parse
 from modeler.diagnosis import effect_columns as rows_module, signals as signals_module
 from modeler.diagnosis.effect_columns import coarser
 from modeler.diagnosis.generate import generate_candidates
+from modeler.diagnosis.ranking import sigma_of
 from modeler.diagnosis.state import SearchData, all_columns_of, analysed, state_of
 from modeler.estimation import findings
+from modeler.numerics.least_squares import ReducedRows
 from modeler.observation.prepare import LogRepair
-from modeler.observation.read import read_log
 from modeler.observation.settings import Processing
-from modeler.simulation import SimulationSettings, simulate, write_log
+from tests.chain import chain_of
 
 
 @pytest.fixture(scope="module")
 def arm():
-    return compile_model(generate(derive(load("demo-arm"))))
+    return chain_of("demo-arm").compiled
 
 
 @pytest.fixture(scope="module")
-def log(arm, tmp_path_factory):
-    place = tmp_path_factory.mktemp("windows") / "log.parquet"
-    write_log(place, simulate(load("demo-arm"), SimulationSettings(duration=8.0, rate=400.0)))
-    return read_log(place, arm.spec)
+def log():
+    return chain_of("demo-arm").log("log", duration=8.0, rate=400.0)
 
 
 def columns(arm, observation):
@@ -125,3 +123,18 @@ def test_later_torques_and_one_column_more_are_those_of_all_columns(arm, log) ->
     whole = findings._products(both, rows.tau, rows.used, seen.joints)
     for name in ("gram", "cross"):
         np.testing.assert_allclose(getattr(own, name), getattr(whole, name), rtol=1e-9, atol=1e-12)
+
+
+def test_rows_without_torque_do_not_drive_the_parameters_to_zero() -> None:
+    """They hold to the accuracy of the columns, and beta = 0 would satisfy them exactly."""
+    rng = np.random.default_rng(0)
+    beta = np.array([3.0, -2.0, 1.0])
+    driven = rng.normal(size=(400, 3))
+    swinging = rng.normal(size=(400, 3))
+    swinging -= np.outer(swinging @ beta, beta) / (beta @ beta)
+    swinging += 0.01 * rng.normal(size=(400, 3))
+    torques = driven @ beta + 0.05 * rng.normal(size=400)
+    rows = ReducedRows((driven, swinging), (torques, np.zeros(400)), np.array([400, 400]))
+    sigma = sigma_of(rows)
+    np.testing.assert_allclose(sigma[0], 0.05, rtol=0.2)
+    assert 0.01 < sigma[1] < 0.2

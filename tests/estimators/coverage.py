@@ -9,7 +9,6 @@ import re
 import time
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from functools import cache
 from multiprocessing import get_context
 
 import numpy as np
@@ -22,6 +21,7 @@ from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate
+from tests.chain import chain_of
 
 TWO_LINK = "two-link"
 SCATTER = 0.1  # of the machine's parameters about those of the file
@@ -81,9 +81,8 @@ class Covered:
     refused: int
 
 
-@cache
 def compiled(robot: str = TWO_LINK) -> CompiledModel:
-    return api.compile_model(api.generate(api.derive(api.load(robot))))
+    return chain_of(robot).compiled
 
 
 def machine(seed: int) -> str:

@@ -6,14 +6,14 @@ from pathlib import Path
 
 from modeler import api
 from modeler.estimation.side_by_side import Tried, side_by_side
-from modeler.robot.read import robot_from_text
+from tests.chain import chain_of
 from tests.measured_sets.sets import SETS
 
 
 def tried(name: str, data: Path, methods: Sequence[str]) -> tuple[Tried, ...]:
     """Every method on the training logs of one set, held-out error on its others."""
     own = SETS[name]
-    compiled = api.compile_model(api.generate(api.derive(robot_from_text(own.robot(), name))))
+    compiled = chain_of(own.robot()).compiled
     training, held_out = own.logs(data, "forward")
     observation = api.observe(compiled, training)
     other = api.observe(compiled, held_out, observation.report.processing)

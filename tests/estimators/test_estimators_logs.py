@@ -28,6 +28,16 @@ FOLLOWED = tuple(method for method in METHODS if method.startswith(SIMULATED))
 SLOW = ("iv-direct-consistent", "didim-consistent")  # each a simulation and a convex problem, often
 
 
+def rotating_but(first, methods):
+    """The methods as parameters; those that simulate rotate, but for one."""
+    return [
+        pytest.param(method, marks=pytest.mark.rotating)
+        if method in FOLLOWED and method != first
+        else method
+        for method in methods
+    ]
+
+
 @pytest.fixture(scope="module")
 def run():
     """A log of a two-link arm with a fine encoder, and its truth."""
@@ -39,7 +49,7 @@ def observation(run):
     return api.observe(compiled(), [run[0]])
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", rotating_but("didim-consistent", METHODS))
 def test_every_method_finds_the_values_of_a_well_measured_arm(observation, run, method):
     fit = identify(observation, method, compiled())
     sigma = np.array([parameter.sigma for parameter in fit.parameters])
@@ -92,6 +102,7 @@ def badly_known():
     ), truth
 
 
+@pytest.mark.rotating("estimators on one log")
 def test_instruments_end_in_the_machine_nearest_in_their_own_metric(badly_known):
     """By another formulation and another solver: the cone of all bodies, no logarithm in it."""
     problem, _ = badly_known
@@ -104,6 +115,7 @@ def test_instruments_end_in_the_machine_nearest_in_their_own_metric(badly_known)
     assert "3" in said.partition(":")[0]
 
 
+@pytest.mark.rotating("estimators on one log")
 def test_a_row_that_moves_pulls_a_consistent_estimate_as_it_says():
     """d beta = pull_i e_i, against the estimate with that row moved."""
     log, _ = measured(3, "torque")
@@ -176,7 +188,7 @@ def test_the_loop_of_a_drive_is_found_and_its_motion_is_that_of_another_solver(a
         assert away < 0.02 * np.sqrt(np.mean(logged[inside] ** 2))
 
 
-@pytest.mark.parametrize("method", FOLLOWED)
+@pytest.mark.parametrize("method", rotating_but("didim-robust", FOLLOWED))
 def test_the_axis_comes_back_from_its_force_alone(axis, method):
     model, observation = axis
     fit = identify(observation, method, model)
@@ -184,6 +196,7 @@ def test_the_axis_comes_back_from_its_force_alone(axis, method):
     assert any("no integral action and no feedforward" in said for said in fit.own)
 
 
+@pytest.mark.rotating("estimators on one log")
 def test_methods_that_simulate_say_what_they_lack_without_commands(run):
     log, truth = run
     bare = Log("bare", log.joints, log.time, log.q, log.tau)
@@ -205,6 +218,7 @@ def test_a_command_that_does_not_move_is_refused(run):
         identify(api.observe(compiled(), [still]), "iv", compiled())
 
 
+@pytest.mark.rotating("estimators on one log")
 def test_a_joint_without_a_motor_cannot_be_followed(run):
     text = AXIS.replace('"a", "sigma"', '"a", "mu", "sigma"').replace(
         'rows = [["1", "0", 1, "q1"]]', 'rows = [["1", "0", 1, 1, "q1"], ["2", "1", 0, 1, "q2"]]'
@@ -230,7 +244,7 @@ def test_loads_and_missing_robots_are_refused_in_a_line(run, observation):
     assert identify_with_payloads(compiled(), both, [Payload(("loaded",))], "robust").loads
 
 
-@pytest.mark.parametrize("method", [method for method in METHODS if method not in SLOW])
+@pytest.mark.parametrize("method", rotating_but("iv-direct", [m for m in METHODS if m not in SLOW]))
 def test_too_few_rows_and_missing_values_are_treated_alike(run, method):
     log, truth = run
     short = Log(
@@ -323,7 +337,7 @@ def test_the_command_compares_on_the_same_data(folder, capsys):
     page, raw = folder / "page.html", folder / "all.json"
     argv = ["fit", "two-link", str(folder / "a.parquet")]
     argv += ["--holdout", str(folder / "held.parquet"), "--report", str(page), "--json", str(raw)]
-    methods = ["weighted", "iv", "didim"]
+    methods = ["weighted", "iv"]
     argv += ["--method", ",".join(methods)]
     assert main(argv) == 0
     out = capsys.readouterr().out
@@ -334,9 +348,10 @@ def test_the_command_compares_on_the_same_data(folder, capsys):
         assert own["seconds"] > 0.0 and own["remarks"] and own["avoid"]
         assert f"\n{own['method']}: " in out
     text = page.read_text()
-    assert "Values and standard deviations" in text and "didim" in text
+    assert "Values and standard deviations" in text and "weighted" in text
 
 
+@pytest.mark.rotating("estimators on one log")
 def test_the_command_shows_a_refusal_in_its_row(folder, capsys, tmp_path):
     lines = ["time,q1,q2,tau1,tau2"]
     log, _ = measured(3, "torque")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.api import compile_model, derive, fit, generate, load, observe
+from modeler.api import load
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.settings import Processing
@@ -14,6 +14,7 @@ from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulationSettings, simulate
+from tests.chain import chain_of
 
 PENDULUM = """\
 name = "pendulum"
@@ -54,12 +55,9 @@ def swing(time: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def fitted(robot: Robot, logs: list[Log]) -> tuple[IdentifiedModel, CompiledModel]:
     """A fit to logs, and the compiled robot."""
-    derivation = derive(robot)
-    emitted = generate(derivation)
-    compiled = compile_model(emitted)
+    chain = chain_of(robot)
     processing = Processing(position_cutoff=40.0, parallel_cutoff=8.0)
-    observation = observe(compiled, logs, processing)
-    return fit(derivation, emitted, observation, "ordinary"), compiled
+    return chain.fit(logs, processing, "ordinary"), chain.compiled
 
 
 def with_values(model: IdentifiedModel, beta: np.ndarray) -> IdentifiedModel:

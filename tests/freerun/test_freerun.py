@@ -81,6 +81,7 @@ def test_loops_are_run_too(five_bar) -> None:
     assert FittedPlant(compiled, model.beta).shafts == 4
 
 
+@pytest.mark.rotating("free runs of simulated machines")
 def test_a_loop_that_cannot_close_ends_a_run(five_bar) -> None:
     model, compiled, log = five_bar
     plant = FittedPlant(compiled, model.beta)
@@ -90,7 +91,7 @@ def test_a_loop_that_cannot_close_ends_a_run(five_bar) -> None:
     assert np.isfinite(path[0]).all() and np.isnan(path[-1]).all()
 
 
-@pytest.mark.parametrize("stands", [True, False])
+@pytest.mark.parametrize("stands", [True, pytest.param(False, marks=pytest.mark.rotating)])
 def test_the_rate_of_a_pendulum(stands: bool) -> None:
     """Upright, x'' = (m l g x - b x') / I: errors grow by the positive root; hanging they fade."""
     model, log = pendulum(stands)
@@ -106,6 +107,7 @@ def test_the_rate_of_a_pendulum(stands: bool) -> None:
         assert found.doubling is None and found.sentence().startswith("stable by nature")
 
 
+@pytest.mark.rotating("free runs of simulated machines")
 def test_errors_of_an_upright_pendulum_grow_at_that_rate() -> None:
     """Two runs that start 1e-6 rad apart, simulated."""
     model, log = pendulum(True)
@@ -255,6 +257,7 @@ def test_what_a_free_run_says(arm_run) -> None:
     assert np.nanmax(np.abs(measured.y - simulated_.y)) < 0.05 * np.nanmax(np.abs(measured.y))
 
 
+@pytest.mark.rotating("free runs of simulated machines")
 def test_a_joint_that_stands_still_is_not_judged(arm) -> None:
     model, compiled, log = arm
     q, tau = log.q.copy(), log.tau.copy()
@@ -274,9 +277,10 @@ def test_a_joint_that_stands_still_is_not_judged(arm) -> None:
             FreeRunSettings(window=60.0),
             r"--window 60: the longest uninterrupted motion of these logs is 4\.\d+",
         ),
-        (
+        pytest.param(
             FreeRunSettings(gains=(60.0, 9.0, 9.0, 0.0)),
             "--controller: with these gains two-link is lost",
+            marks=pytest.mark.rotating,
         ),
     ],
 )
@@ -286,6 +290,7 @@ def test_what_cannot_be_is_refused(arm, asked: FreeRunSettings, message: str) ->
         free_run(model, [log], compiled, asked)
 
 
+@pytest.mark.rotating("free runs of simulated machines")
 def test_values_without_inertia_are_refused(arm) -> None:
     model, compiled, log = arm
     with pytest.raises(
@@ -294,6 +299,7 @@ def test_values_without_inertia_are_refused(arm) -> None:
         free_run(with_values(model, -model.beta), [log], compiled)
 
 
+@pytest.mark.rotating("free runs of simulated machines")
 def test_an_error_that_grows_by_nature_is_not_blamed_on_the_model() -> None:
     """True values, an upright pendulum: the run is lost, and the reason is told."""
     model, log = pendulum(True)

@@ -15,10 +15,10 @@ from tests.hidden_effects.suite import (
     ACCEPTANCE,
     DEVELOPMENT,
     clean_cases,
+    held_out_cases,
     pair_cases,
     run,
     single_cases,
-    stranger_cases,
     with_sensors,
     withheld_cases,
 )
@@ -30,7 +30,7 @@ MORE = {
     "two": f"N (default {PAIRS}) pairs of effects at every noise",
     "clean": "N arms without any, at every noise",
     "withheld": "N effects at every noise that the diagnosis may not name",
-    "strangers": "every cause outside the catalogue at every noise, with the first N seeds",
+    "held-out": "every cause outside the catalogue at every noise, with the first N seeds",
 }
 
 
@@ -50,7 +50,8 @@ def parser() -> argparse.ArgumentParser:
     add("--first", type=int, default=0, metavar="SEED", help="leave out seeds below this one")
     for name, told in MORE.items():
         usual = {"nargs": "?", "const": PAIRS} if name == "two" else {}
-        add(f"--{name}", type=int, default=0, metavar="N", help=f"and {told}", **usual)
+        also = ["--strangers"] if name == "held-out" else []  # as it was called before
+        add(f"--{name}", *also, type=int, default=0, metavar="N", help=f"and {told}", **usual)
     add("--out", type=Path, help="folder that keeps cases and results: run again, and it goes on")
     add("--table", type=Path, help="page to write, in Markdown")
     add("--jobs", type=int, default=1, help="processes; default: 1")
@@ -77,14 +78,14 @@ def cases_of(options: argparse.Namespace) -> list[Case]:
         *clean_cases(noises, pool[: options.clean]),
         *pair_cases(noises, pool[: options.two]),
         *withheld_cases(noises, pool[: options.withheld]),
-        *stranger_cases(noises, pool[: options.strangers]),
+        *held_out_cases(noises, pool[: options.held_out]),
     ]
     return with_sensors(made, sensors)
 
 
 def _tell(score: Score) -> None:
     mark = ("ok  " if score.right else "MISS") if score.detectable else "hard"
-    mark = "LIE " if score.false and not score.stranger else mark
+    mark = "LIE " if score.false and not score.held_out else mark
     print(f"{mark} {line(score)} [{score.seconds:.1f} s]", flush=True)
 
 
@@ -98,14 +99,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
         with tempfile.TemporaryDirectory() as folder:
             scores = run(cases, Path(folder), options.jobs, _tell)
     seen = [score for score in scores if score.detectable]
-    to_name = [score for score in seen if not score.withheld and not score.stranger]
+    to_name = [score for score in seen if not score.withheld and not score.held_out]
     single = [score for score in to_name if len(score.hidden) == 1]
     good, tied = sum(score.first for score in single), sum(score.tied for score in single)
     print(f"one effect: {good} of {len(single)} first, {tied} in the tie; "
           f"{len(scores) - len(seen)} of {len(scores)} cases undetectable")  # fmt: skip
-    if strangers := [score for score in seen if score.stranger]:
-        print(f"outside the catalogue: {sum(score.stated for score in strangers)} of "
-              f"{len(strangers)} stated as something else")  # fmt: skip
+    if held_out := [score for score in seen if score.held_out]:
+        print(f"outside the catalogue: {sum(score.stated for score in held_out)} of "
+              f"{len(held_out)} stated as something else")  # fmt: skip
     if options.table:
         options.table.parent.mkdir(parents=True, exist_ok=True)
         options.table.write_text(page(scores), encoding="utf-8")

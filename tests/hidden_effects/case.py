@@ -20,21 +20,21 @@ import numpy as np
 from tests.hidden_effects import body_effects, drive_effects, friction_effects
 from tests.hidden_effects.drives import equip, measured_noise
 from tests.hidden_effects.effects import BASE, EFFECTS, LOADS, Hidden, Impossible, hide
+from tests.hidden_effects.held_out_effects import HELD_OUT_EFFECTS
 from tests.hidden_effects.motion import draw_bounds
 from tests.hidden_effects.plant import Plant, Run
 from tests.hidden_effects.robot_file import robot_text
 from tests.hidden_effects.robots import draw_arm
 from tests.hidden_effects.sensor_kinds import FINE, OF_LINKS, SENSORS, computed_torque
 from tests.hidden_effects.sensors import log, write
-from tests.hidden_effects.stranger_effects import STRANGERS
 from tests.hidden_effects.visibility import Trial, left_over, shown, visibility
 
 KINDS_OF_EFFECTS = (friction_effects, body_effects, drive_effects)  # importing them fills EFFECTS
-KNOWN = EFFECTS | STRANGERS
+KNOWN = EFFECTS | HELD_OUT_EFFECTS
 
 ATTEMPTS = 15
 VISIBLE = 0.5  # of the medium noise: what is less to be seen is drawn again
-STRANGER_VISIBLE = 1.0  # of a stranger
+HELD_OUT_VISIBLE = 1.0  # of a cause outside the catalogue
 TRAIN, HOLDOUT = 20.0, 15.0  # s of moves, and as many of a Fourier series
 LATER = 45.0  # s: the held-out log of what changes with time begins here
 NONE = "none"
@@ -46,7 +46,7 @@ class Case:
 
     The sensor is a kind of `SENSORS`.
 
-    A stranger is a case as any other, with a name of `STRANGERS`.
+    A cause outside the catalogue is a case as any other, with a name of `HELD_OUT_EFFECTS`.
 
     Where the effects are withheld, the diagnosis may not name them: whatever it names is wrong.
     """
@@ -90,7 +90,7 @@ def make_case(case: Case, folder: Path, visible: float | None = None) -> dict[st
     """
     assert set(case.effects) <= KNOWN.keys(), case.effects
     if visible is None:
-        visible = STRANGER_VISIBLE if set(case.effects) & STRANGERS.keys() else VISIBLE
+        visible = HELD_OUT_VISIBLE if set(case.effects) & HELD_OUT_EFFECTS.keys() else VISIBLE
     for attempt in range(ATTEMPTS):
         try:
             return _Attempt(case, attempt).write(folder, visible)

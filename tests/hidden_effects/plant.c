@@ -2,7 +2,7 @@
    cascade of position and speed control at 1 kHz. */
 #include <math.h>
 
-#include "strangers.h"
+#include "held_out_effects.h"
 #include "unnamed.h"
 
 #define STEPS 4 /* of a tick */
@@ -160,7 +160,7 @@ static void follow(const Plant *p, double time, const Joint *x, Input in, const 
         double q = soft ? x[j].motor : x[j].link, v = soft ? x[j].motor_speed : x[j].link_speed;
         double load = p->load_static[j] > 0.5 ? now->gravity[j] : in.load[j];
         double rubbed = friction(p, j, q, v, &x[j], load, &change[j].bristle);
-        rubbed += strange_friction(p, j, time + p->clock, angle, v, load, now);
+        rubbed += held_out_friction(p, j, time + p->clock, angle, v, load, now);
         rubbed += unnamed_torque(p, j, angle, speed, load, &x[j].memory);
         unnamed_memory(p, j, angle[j], speed[j], &x[j].memory, &change[j].memory);
         left[j] = left_of_drive(p, j, time, delivered(p, j, torque), q, rubbed, in.noise[j]);
@@ -196,7 +196,7 @@ static void derivative(const Plant *p, double time, const State *state, Input in
     follow(p, time, x, in, &now, change, left, pushed);
     if (p->coupled) coupled_friction(p, motor_speed, left);
     contact(p, time + p->clock, &now, pushed);
-    strange_push(p, q, &now, pushed);
+    held_out_push(p, q, &now, pushed);
     slosh_push(p, v, &now, &state->slosh, &state_change->slosh, pushed);
     for (int j = 0; j < n; j++) {
         for (int k = 0; k < n; k++) matrix[j][k] = now.inertia[j][k];
@@ -336,7 +336,7 @@ static void begin(const Plant *p, const double *wanted, const double *temperatur
     Slosh unchanged;
     for (int j = 0; j < p->joints; j++) q[j] = wanted[j] - p->encoder_offset[j];
     links_dynamics(p, q, still, &now);
-    strange_push(p, q, &now, pushed);
+    held_out_push(p, q, &now, pushed);
     slosh_rest(p, &now, &state->slosh);
     slosh_push(p, still, &now, &state->slosh, &unchanged, pushed);
     for (int j = 0; j < p->joints; j++) {

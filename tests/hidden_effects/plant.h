@@ -41,7 +41,7 @@ typedef struct {
     double drift[8];      /* N m/s */
     /* a force of the base frame on a point of the last link, from start to end */
     double contact_start, contact_end, contact_force[3], contact_point[3];
-    /* strangers: torque, of what no catalogue holds; see strangers.c */
+    /* held-out effects: torque, of what no catalogue holds; see held_out_effects.c */
     double pinch_torque[8], pinched_by[8], pinch_angle[8], pinch_width[8];
     double pocket_viscous[8], pocket_angle[8];
     double seal_torque[8], seal_speed[8], seal_width[8];

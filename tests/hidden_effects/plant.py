@@ -42,7 +42,9 @@ def library() -> tuple[cffi.FFI, Any]:
     """The compiled C, once for a process; its file is gone when it is loaded."""
     ffi = cffi.FFI()
     ffi.cdef((HERE / "plant.h").read_text(encoding="utf-8"))
-    sources = [str(HERE / name) for name in ("plant.c", "rigid_body.c", "strangers.c", "unnamed.c")]
+    sources = [
+        str(HERE / name) for name in ("plant.c", "rigid_body.c", "held_out_effects.c", "unnamed.c")
+    ]
     with tempfile.TemporaryDirectory() as folder:
         built = str(Path(folder) / "plant.so")
         subprocess.run([*compiler(), *FLAGS, *sources, "-o", built, "-lm"], check=True)

@@ -9,8 +9,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from tests.hidden_effects.drives import NOISE
+from tests.hidden_effects.held_out_effects import HELD_OUT_EFFECTS
 from tests.hidden_effects.sensor_kinds import FINE, SENSORS
-from tests.hidden_effects.stranger_effects import STRANGERS
 
 DETECTABLE = 0.25
 """Least visibility, in rms of the noise of the case: with less, the best that can be had on other
@@ -70,9 +70,9 @@ class Score:
     told: bool | None = None
 
     @property
-    def stranger(self) -> bool:
+    def held_out(self) -> bool:
         """True if what is hidden is in nobody's catalogue."""
-        return any(effect in STRANGERS for effect, _ in self.hidden)
+        return any(effect in HELD_OUT_EFFECTS for effect, _ in self.hidden)
 
     @property
     def stated(self) -> bool:
@@ -94,11 +94,11 @@ class Score:
 
     @property
     def right(self) -> bool:
-        """One effect: named first; withheld or a stranger: nothing stated. None or two: exact.
+        """One effect: named first; withheld, or in no catalogue: none stated. None or two: exact.
 
         A log that is wrong: told, and nothing named that is not there.
         """
-        if self.withheld or self.stranger:
+        if self.withheld or self.held_out:
             return not self.error and not self.stated
         if self.told is not None:
             return self.told and not self.spurious

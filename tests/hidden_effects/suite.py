@@ -12,8 +12,8 @@ import numpy as np
 from tests.hidden_effects.asked import asked_once
 from tests.hidden_effects.case import Case, NoArm, make_case
 from tests.hidden_effects.effects import EFFECTS
+from tests.hidden_effects.held_out_effects import HELD_OUT_EFFECTS
 from tests.hidden_effects.score import Score, failed, score_from_json, scored
-from tests.hidden_effects.stranger_effects import STRANGERS
 
 DEVELOPMENT = range(1, 100)
 """Seeds to look at, to learn from and to repair with."""
@@ -45,9 +45,9 @@ def withheld_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
     return [Case(_pair(seed)[:1], k, seed, withheld=True) for seed in seeds for k in noises]
 
 
-def stranger_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
+def held_out_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
     """Every cause outside the catalogue at every noise with every seed."""
-    return single_cases(list(STRANGERS), noises, seeds)
+    return single_cases(list(HELD_OUT_EFFECTS), noises, seeds)
 
 
 def _pair(seed: int) -> tuple[str, ...]:
@@ -65,7 +65,7 @@ def with_sensors(cases: Sequence[Case], sensors: Sequence[str]) -> list[Case]:
 
 def ran(case: Case, cases: Path) -> Score:
     """Make a case unless it is there, diagnose it, and only then open its truth."""
-    from tests.hidden_effects.chain import diagnosed
+    from tests.chain import diagnose_case
 
     folder = cases / case.folder
     place = folder / "truth.json"
@@ -77,7 +77,7 @@ def ran(case: Case, cases: Path) -> Score:
     said: dict[str, Any] = {}
     error = ""
     try:
-        said = diagnosed(folder, case.effects if case.withheld else ())
+        said = diagnose_case(folder, case.effects if case.withheld else ())
         text = json.dumps(said, indent=1) + "\n"
         (folder / f"{case.name}.json").write_text(text, encoding="utf-8")
     except Exception as problem:

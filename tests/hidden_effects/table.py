@@ -36,7 +36,7 @@ What is "perhaps" missing is no name.
 def page(scores: Sequence[Score]) -> str:
     """Counts by effect and noise, false alarms, pairs, and every case that went wrong."""
     seen = [score for score in scores if score.detectable]
-    named = [s for s in seen if not s.withheld and not s.stranger and s.sensor == FINE]
+    named = [s for s in seen if not s.withheld and not s.held_out and s.sensor == FINE]
     single = [score for score in named if len(score.hidden) == 1]
     noise = ", ".join(f"{100 * share:.3g} % ({name})" for name, share in NOISE.items())
     parts = [INTRODUCTION.format(noise=noise, least=DETECTABLE)]
@@ -50,8 +50,8 @@ def page(scores: Sequence[Score]) -> str:
         parts += ["## Coarse encoders, noisy positions\n", SENSORS_TOLD, by_sensor(coarse)]
     if withheld := [score for score in seen if score.withheld]:
         parts += ["## The hidden effect withheld from the catalogue\n", _withheld(withheld)]
-    if strangers := [score for score in seen if score.stranger]:
-        parts += ["## Causes outside the catalogue\n", _strangers(strangers)]
+    if held_out := [score for score in seen if score.held_out]:
+        parts += ["## Causes outside the catalogue\n", _held_out(held_out)]
     missed = [score for score in seen if not score.right]
     parts += ["## Misses\n", _list(missed)]
     parts += ["## Undetectable\n", _list([s for s in scores if not s.detectable])]
@@ -158,7 +158,7 @@ def _withheld(scores: Sequence[Score]) -> str:
     return markdown(["The diagnosis says", "cases"], rows)
 
 
-def _strangers(scores: Sequence[Score]) -> str:
+def _held_out(scores: Sequence[Score]) -> str:
     verdicts: list[Callable[[Score], bool]] = [
         lambda s: s.stated,
         _closest,

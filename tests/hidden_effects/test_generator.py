@@ -90,7 +90,10 @@ def test_a_clean_arm_hides_nothing_and_a_spring_is_seen():
     assert visibility(left_over(sprung, plant, "spring", *more), scales) > 0.5
 
 
-@pytest.mark.parametrize("name", EFFECTS)
+@pytest.mark.parametrize(
+    "name",
+    ["spring", *(pytest.param(n, marks=pytest.mark.rotating) for n in EFFECTS if n != "spring")],
+)
 def test_every_effect_changes_the_logged_torque(name):
     plant, path, scales = arm("3R", seconds=4.0)
     if name == "external_force":

@@ -16,7 +16,7 @@ CASES = [
     pytest.param(Case(("load_friction",), "med", 1, "2R"), marks=SLOW),
     pytest.param(Case(("payload",), "med", 1, "2R"), marks=SLOW),
     Case(("spring",), "med", 1, "2R"),
-    Case((), "med", 1, "2R"),
+    pytest.param(Case((), "med", 1, "2R"), marks=pytest.mark.rotating),
 ]
 
 

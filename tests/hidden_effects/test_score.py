@@ -6,8 +6,8 @@ import pytest
 
 from tests.hidden_effects.__main__ import cases_of, parser
 from tests.hidden_effects.effects import EFFECTS
+from tests.hidden_effects.held_out_effects import HELD_OUT_EFFECTS
 from tests.hidden_effects.score import failed, score_from_json, scored
-from tests.hidden_effects.stranger_effects import STRANGERS
 from tests.hidden_effects.suite import ACCEPTANCE, DEVELOPMENT, pair_cases
 from tests.hidden_effects.table import page
 
@@ -88,7 +88,7 @@ def test_the_page_counts():
     assert "- none-med-2" in misses and "- spring-high-1" in hard
 
 
-STRANGER = ("dead_band", "2", {})
+HELD_OUT = ("dead_band", "2", {})
 VERDICTS = {
     "missing": ([finding("coulomb", "2")], False),
     "closest description": ([finding("coulomb", "2")], True),
@@ -97,22 +97,22 @@ VERDICTS = {
 }
 
 
-def of_stranger(verdict, cause=STRANGER):
+def of_held_out(verdict, cause=HELD_OUT):
     findings, _ = VERDICTS[verdict]
     return scored(f"{cause[0]}-{verdict}", truth(cause), said(*findings) | {"verdict": verdict})
 
 
-def test_of_a_stranger_nothing_may_be_stated():
+def test_of_a_cause_outside_the_catalogue_nothing_may_be_stated():
     for verdict, (_, right) in VERDICTS.items():
-        score = of_stranger(verdict)
-        assert score.stranger and score.right == right
-    assert not scored("a", truth(SPRING), said()).stranger
-    assert not failed("a", truth(STRANGER), "DataError: no rows").right
+        score = of_held_out(verdict)
+        assert score.held_out and score.right == right
+    assert not scored("a", truth(SPRING), said()).held_out
+    assert not failed("a", truth(HELD_OUT), "DataError: no rows").right
 
 
-def test_the_page_has_a_row_for_every_stranger():
-    scores = [of_stranger(verdict) for verdict in VERDICTS]
-    scores += [of_stranger("unexplained", ("hose_across", "1", {"with_joint": "2"}))]
+def test_the_page_has_a_row_for_every_cause_outside_the_catalogue():
+    scores = [of_held_out(verdict) for verdict in VERDICTS]
+    scores += [of_held_out("unexplained", ("hose_across", "1", {"with_joint": "2"}))]
     text = page(scores)
     assert "| dead_band | 1/4 | 1/4 | 1/4 | 1/4 |" in text
     assert "| hose_across | 0/1 | 0/1 | 1/1 | 0/1 |" in text
@@ -136,9 +136,10 @@ def test_seeds_are_for_development_or_for_acceptance():
     assert len(names) == len(set(names))
     pairs = [set(case.effects) for case in pair_cases(["med"], [*DEVELOPMENT, *ACCEPTANCE])]
     assert all(len(pair) == 2 and pair != {"elasticity", "backlash"} for pair in pairs)
-    strangers = cases("--effects", "none", "--noise", "low,med", "--strangers", "2")
-    assert {case.effects for case in strangers} == {(name,) for name in STRANGERS}
-    assert len(strangers) == 4 * len(STRANGERS)
+    held_out = cases("--effects", "none", "--noise", "low,med", "--held-out", "2")
+    assert held_out == cases("--effects", "none", "--noise", "low,med", "2")
+    assert {case.effects for case in held_out} == {(name,) for name in HELD_OUT_EFFECTS}
+    assert len(held_out) == 4 * len(HELD_OUT_EFFECTS)
     others = cases("--two", "30", "--clean", "3", "--withheld", "30")
     assert {name for case in others for name in case.effects} <= EFFECTS.keys()
     with pytest.raises(SystemExit, match="or --acceptance"):

@@ -1,20 +1,22 @@
 """Effects into a model: the error falls on held-out motion, the C has the column, undo takes it."""
 
 import dataclasses
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.diagnosis.add import add_effect, add_findings, undone
-from modeler.diagnosis.added_model import Logs
+from modeler.diagnosis.added_model import Logs, rows_of
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.estimation.model_file import load_model, save_model
 from modeler.observation.log import Log
-from modeler.robot.read import robot_from_text
+from modeler.observation.observation import model_torque
 from modeler.runtime.model import load as load_compiled
-from tests.diagnose.conftest import Case, motion, on_joint, two
+from tests.diagnose.conftest import Case, Run, motion, on_joint, spring, two
 from tests.rotation import rotating_with
 
 
@@ -49,23 +51,6 @@ def test_what_a_diagnosis_names_is_added(case: Case) -> None:
     }
 
 
-def test_friction_that_depends_on_the_load_is_linearised_at_the_reference(case: Case) -> None:
-    """A column that reads the links' torques: the robot file says at which parameters."""
-    beta = case.fitted(case.train).beta
-
-    def loaded(log: Log) -> np.ndarray:
-        q, v = motion(log)
-        load = case.compiled.gravity(q, beta)[:, 1]
-        return on_joint(log, 1, 0.08 * np.abs(load) * np.tanh(v[:, 1] / 0.002))
-
-    model, train, holdout = case.hidden(loaded)
-    better = add_effect(model, case.compiled, "load_friction", "2", Logs([train], [holdout]))
-    values = {p.name: p.value for p in better.fit.parameters}
-    assert values["mu2"] == pytest.approx(0.08, rel=0.1)
-    assert robot_from_text(better.robot_text, "better").reference
-    assert better.history[-1].error < 0.7 * better.history[0].error
-
-
 def test_presliding_has_a_state_that_the_c_advances(case: Case) -> None:
     model, train, holdout = case.hidden(two)
     better = add_effect(model, case.compiled, "presliding", "2", Logs([train], [holdout]))
@@ -75,6 +60,7 @@ def test_presliding_has_a_state_that_the_c_advances(case: Case) -> None:
     np.testing.assert_allclose(after, [1.0])  # far travel turns the bristle wholly
 
 
+@pytest.mark.rotating("effects are added to simulated runs")
 def test_a_temperature_effect_needs_the_column_ever_after(case: Case) -> None:
     def warm(log: Log) -> np.ndarray:
         _, v = motion(log)
@@ -91,3 +77,60 @@ def test_a_temperature_effect_needs_the_column_ever_after(case: Case) -> None:
     assert better.history[-1].error < 0.7 * better.history[0].error
     with pytest.raises(DataError, match="no column temperature2"):
         diagnose(better, load_compiled(better.spec, better.sources), [case.train])
+
+
+@rotating_with("effects are added")
+def test_viscous_and_coulomb_one_after_the_other(loops: Path, run: Run, tmp_path: Path) -> None:
+    logs = (loops / "train.parquet", "--holdout", loops / "other.parquet")
+    one, two, robot = tmp_path / "1.json", tmp_path / "2.json", tmp_path / "r.toml"
+    status, _, err = run("add", loops / "m.json", "viscous", "--joint", "21", *logs, "--out", one)
+    assert (status, err) == (0, "")
+    line = ("add", one, "coulomb", "--joint", "21", *logs, "--out", two, "--robot-out", robot)
+    status, out, _ = run(*line)
+    assert status == 0 and "coulomb, joint 21: the held-out error falls: joint 11" in out
+    text = robot.read_text(encoding="utf-8")
+    assert 'viscous = ["21"]' in text and 'coulomb = ["21"]' in text
+    error = load_model(two).history[-1].error
+    both = tmp_path / "both.json"
+    line = ("add", loops / "m.json", "passive_friction", "--joint", "21", *logs, "--out", both)
+    assert run(*line)[0] == 0
+    assert load_model(both).history[-1].error == pytest.approx(error, rel=1e-3)
+
+
+def test_rows_are_those_that_the_new_robot_would_make_itself(case: Case) -> None:
+    model, train, holdout = case.hidden(spring)
+    logs = Logs([train], [holdout])
+    before = rows_of(case.compiled, logs, model.processing)
+    better = add_effect(model, case.compiled, "spring", "3", logs)
+    compiled = load_compiled(better.spec, better.sources)
+    alike, fresh = before.of(compiled), rows_of(compiled, logs, model.processing)
+    for ours, own in zip(alike.seen, fresh.seen, strict=True):
+        np.testing.assert_array_equal(ours.W, own.W)
+        np.testing.assert_array_equal(ours.y, own.y)
+        assert (ours.names, ours.units, ours.joints) == (own.names, own.units, own.joints)
+        assert ours.report == own.report
+
+
+def test_the_inverse_dynamics_give_the_torque_of_the_columns(case: Case) -> None:
+    model, train, _ = case.hidden(spring)
+    seen = rows_of(case.compiled, Logs([train]), model.processing).fitted
+    torque = model_torque(seen, case.compiled, model.beta)
+    np.testing.assert_allclose(torque, seen.predicted(model.beta), atol=1e-9)
+
+
+@rotating_with("effects are added")
+def test_a_balancing_spring_is_not_mended_by_another(tmp_path: Path) -> None:
+    """Of the shoulder's counterbalance; four effects more are missing, friction is known."""
+    logs = [str(tmp_path / f"{seed}.parquet") for seed in (1, 2)]
+    hide = ("--hide", "counterbalance@2", "--parameter-seed", "77", "--duration", "30")
+    for seed, log in enumerate(logs, start=1):
+        assert main(["simulate", "demo-arm", *hide, "--seed", str(seed), "--out", log]) == 0
+    model, better, told = (str(tmp_path / name) for name in ("m.json", "b.json", "add.json"))
+    effects = ("--effects", "viscous,coulomb")
+    assert main(["fit", "demo-arm", *effects, logs[0], "--out", model]) == 0
+    words = (model, "auto", logs[0], "--holdout", logs[1])
+    assert main(["add", *words, "--out", better, "--json", told]) == 0
+    found = json.loads(Path(told).read_text())
+    added = {(step["effect"], step["joint"]) for step in found["waterfall"]}
+    assert ("counterbalance", "2") in added and ("spring", "2") not in added
+    assert found["waterfall"][-1]["error"] < 0.002

@@ -13,7 +13,7 @@ from modeler.diagnosis.state import SearchData, analysed, state_of
 from modeler.estimation.model_file import load_model, save_model
 from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
-from tests.diagnose.conftest import Case, Run, motion, on_joint
+from tests.diagnose.conftest import Case, Run, demonstration, motion, nothing, on_joint, write_csv
 
 SIZE, WHERE, WIDTH = 2.0, 0.6, 0.15  # N m, rad/s
 
@@ -26,15 +26,6 @@ def dip(v: np.ndarray) -> np.ndarray:
 def hidden(log: Log) -> np.ndarray:
     """The same on joint 2."""
     return on_joint(log, 1, dip(motion(log)[1][:, 1]))
-
-
-def write_csv(path: Path, log: Log) -> str:
-    """The log as a file."""
-    assert log.commanded is not None
-    names = ["time", *(f"{kind}{j}" for kind in ("q", "qc", "tau") for j in (1, 2, 3))]
-    columns = np.column_stack([log.time, log.q, log.commanded, log.tau])
-    np.savetxt(path, columns, delimiter=",", header=",".join(names), comments="")
-    return str(path)
 
 
 @pytest.fixture(scope="module")
@@ -85,8 +76,9 @@ def test_emitted_c_is_the_law(learned: tuple[Path, Log, Log]) -> None:
     assert not found[:, [0, 2], place].any()
 
 
-def test_nothing_is_learned_of_nothing(case: Case) -> None:
-    fitted, train, holdout = case.hidden(lambda log: np.zeros_like(motion(log)[0]))
+@pytest.mark.rotating("effects are added to simulated runs")
+def test_nothing_is_learned_of_nothing() -> None:
+    fitted, train, holdout = demonstration(robot="two-link").hidden(nothing)
     with pytest.raises(DataError, match="learned: nothing is added: no law explains more than"):
         api.add(fitted, "learned", [train], [holdout])
 
@@ -128,12 +120,13 @@ def test_bad_input(arm: Path, run: Run, words: str, told: str, tmp_path: Path) -
     assert not out.exists()
 
 
-def test_auto_says_what_is_physics(case: Case, tmp_path: Path, run: Run) -> None:
+@pytest.mark.rotating("effects are added to simulated runs")
+def test_auto_says_what_is_physics(tmp_path: Path, run: Run) -> None:
     def both(log: Log) -> np.ndarray:
         q = motion(log)[0]
         return hidden(log) + on_joint(log, 0, 1.5 * np.sin(q[:, 0]) * np.abs(np.sin(q[:, 0])))
 
-    fitted, train, holdout = case.hidden(both)
+    fitted, train, holdout = demonstration(robot="two-link").hidden(both)
     save_model(tmp_path / "arm.json", fitted)
     logs = [write_csv(tmp_path / f"{n}.csv", log) for n, log in (("a", train), ("b", holdout))]
     words = ["add", tmp_path / "arm.json", "auto", logs[0], "--holdout", logs[1], "--learned",

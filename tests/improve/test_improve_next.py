@@ -62,6 +62,7 @@ def test_no_command_has_a_name_that_is_no_file(case: Case) -> None:
         assert {word for word in words if not word.startswith("--")} <= files, line
 
 
+@pytest.mark.rotating("effects are added to simulated runs")
 def test_what_is_printed_runs(
     arm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:

@@ -16,20 +16,14 @@ from modeler.estimation.model_file import load_model, save_model
 from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import load as load_compiled
-from tests.diagnose.conftest import Case, motion, on_joint
+from tests.chain import chain_of
+from tests.diagnose.conftest import Case, motion, on_joint, write_csv
+from tests.improve.conftest import BRAKE, CENTRE, DRAG, WIDTH, brake, long_runs
 from tests.rotation import rotating_with
 
-DRAG, CENTRE, WIDTH = 4.0, 0.7, 0.2  # N m s/rad, rad, rad; the grid has neither value
-OWN = """
-[own_effects.eddy_brake]
-title = "drag of a magnet"
-columns = {Keb = "v*exp(-((q - c)/w)**2)"}
-shapes = {c = [-1, 0, 1], w = [0.1, 0.3]}
-unit = "N*m*s/rad"
-nonnegative = true
-
+OWN = f"""{BRAKE}
 [own_effects.cold]
-columns = {Kc = "T*v**3"}
+columns = {{Kc = "T*v**3"}}
 """
 
 MEMORIES = """
@@ -52,17 +46,15 @@ shapes = {tau = [0.1, 0.4, 1.6]}
 """
 
 
-def brake(log: Log) -> np.ndarray:
-    """The torque of the magnet on joint 2."""
-    q, v = motion(log)
-    return on_joint(log, 1, DRAG * v[:, 1] * np.exp(-(((q[:, 1] - CENTRE) / WIDTH) ** 2)))
+@pytest.fixture(scope="module")
+def case() -> Case:
+    return long_runs()
 
 
 @pytest.fixture(scope="module")
 def own(case: Case) -> Case:
     """The demonstration arm whose file defines two effects that it has on no joint."""
-    robot = robot_from_text(api.load("demo-arm").text + OWN, "arm.toml")
-    return dataclasses.replace(case, derivation=api.derive(robot))
+    return dataclasses.replace(case, chain=chain_of(api.load("demo-arm").text + OWN))
 
 
 def test_it_is_found_added_judged_and_taken_out(own: Case, tmp_path: Path) -> None:
@@ -100,10 +92,10 @@ def test_it_is_found_added_judged_and_taken_out(own: Case, tmp_path: Path) -> No
 @pytest.fixture(scope="module")
 def remembering(case: Case) -> Case:
     """The arm whose file defines effects that read other joints."""
-    robot = robot_from_text(api.load("demo-arm").text + MEMORIES, "arm.toml")
-    return dataclasses.replace(case, derivation=api.derive(robot))
+    return dataclasses.replace(case, chain=chain_of(api.load("demo-arm").text + MEMORIES))
 
 
+@pytest.mark.rotating("effects are added to simulated runs")
 def test_one_that_reads_another_joint_is_added_where_it_acts(remembering: Case) -> None:
     def leaning(log: Log) -> np.ndarray:
         q, v = motion(log)
@@ -120,6 +112,7 @@ def test_one_that_reads_another_joint_is_added_where_it_acts(remembering: Case) 
         add_effect(model, remembering.compiled, "leaning", "3", logs)
 
 
+@pytest.mark.rotating("effects are added to simulated runs")
 def test_one_that_reads_the_time_since_a_reversal_is_found_with_its_shape(
     remembering: Case,
 ) -> None:
@@ -140,12 +133,13 @@ def test_one_that_reads_the_time_since_a_reversal_is_found_with_its_shape(
     assert [s.kind for s in better.spec.signals] == ["direction", "since"]
 
 
+@pytest.mark.rotating("effects are added to simulated runs")
 def test_a_lag_is_found_with_its_time(remembering: Case) -> None:
     def churning(log: Log) -> np.ndarray:
         v = motion(log)[1][:, 1]
-        z = np.full(len(v), abs(v[0]))
+        z, step = np.full(len(v), abs(v[0])), log.time[1] - log.time[0]
         for k, x in enumerate(0.5 * (np.abs(v[1:]) + np.abs(v[:-1]))):
-            z[k + 1] = z[k] + (x - z[k]) * 0.002 / (0.7 + 0.001)
+            z[k + 1] = z[k] + (x - z[k]) * step / (0.7 + 0.5 * step)
         return on_joint(log, 1, 4.0 * v * z)
 
     model, train, holdout = remembering.hidden(churning)
@@ -159,6 +153,7 @@ def test_a_lag_is_found_with_its_time(remembering: Case) -> None:
     assert effect.equation == "Kc * (v*z), z' = (abs(v) - z)/tau"
 
 
+@pytest.mark.rotating("effects are added to simulated runs")
 def test_without_the_definition_the_catalogue_is_all_there_is(own: Case) -> None:
     model, train, holdout = own.hidden(brake)
     bare = dataclasses.replace(model, robot_text=model.robot_text.replace(OWN, ""))
@@ -168,6 +163,7 @@ def test_without_the_definition_the_catalogue_is_all_there_is(own: Case) -> None
         add_effect(bare, own.compiled, "eddy_brake", "2", Logs([train]))
 
 
+@pytest.mark.rotating("effects are added to simulated runs")
 def test_nothing_is_named_where_nothing_is_hidden(own: Case) -> None:
     diagnosis = api.diagnose(own.fitted(own.train), [own.train], [own.holdout])
     assert diagnosis.verdict == "nothing significant" and not diagnosis.effects
@@ -202,12 +198,10 @@ def test_commands(own: Case, tmp_path: Path, capsys: pytest.CaptureFixture[str])
     _, train, holdout = own.hidden(brake)
     place = {name: str(tmp_path / name) for name in ("arm.toml", "r.toml", "m", "m2", "m1")}
     Path(place["arm.toml"]).write_text(own.derivation.robot.text, encoding="utf-8")
-    logs = []
-    for name, log in (("train", train), ("holdout", holdout)):
-        header = "time,q1,q2,q3,tau1,tau2,tau3"
-        table = np.column_stack([log.time, log.q, log.tau])
-        logs.append(str(tmp_path / f"{name}.csv"))
-        np.savetxt(logs[-1], table, delimiter=",", header=header, comments="")
+    logs = [
+        str(write_csv(tmp_path / f"{name}.csv", log))
+        for name, log in (("train", train), ("holdout", holdout))
+    ]
     assert main(["effects", "eddy_brake", "--robot", place["arm.toml"]]) == 0
     out = capsys.readouterr().out
     assert "drag of a magnet" in out and "N*m*s/rad" in out and "first tried at -1 0 1" in out
@@ -238,5 +232,3 @@ def test_commands(own: Case, tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert "Keb2 = Keb2" in capsys.readouterr().out
     assert main(["add", place["m2"], "undo", *words, place["m1"]]) == 0
     assert "eddy_brake = [" not in Path(place["r.toml"]).read_text(encoding="utf-8")
-    assert main(["add", place["m"], "auto", *words, place["m1"]]) == 0
-    assert "+ eddy_brake @2" in capsys.readouterr().out

@@ -1,5 +1,6 @@
 """Effects of a folder: those of one robot are found, added and refused on another of its kind."""
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -7,19 +8,14 @@ import pytest
 
 from modeler import api
 from modeler.core.errors import DataError, RobotError
+from modeler.estimation.model_file import save_model
 from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
 from modeler.robot.shared_effects import exported_effect, shared_effects
-from tests.diagnose.conftest import Case, Run, motion, on_joint
+from tests.chain import chain_of
+from tests.diagnose.conftest import Case, Run, motion, on_joint, write_csv
+from tests.improve.conftest import BRAKE, brake, long_runs
 
-BRAKE = """
-[own_effects.eddy_brake]
-title = "drag of a magnet"
-columns = {Keb = "v*exp(-((q - c)/w)**2)"}
-shapes = {c = [-1, 0, 1], w = [0.1, 0.3]}
-unit = "N*m*s/rad"
-nonnegative = true
-"""
 FAR = """
 [own_effects.leaning]
 columns = {Kl = "v*(1 - cos(q7))"}
@@ -37,6 +33,11 @@ mdh = {columns = ["j", "theta"], rows = [["1", "q1"], ["2", "q2"]]}
 """
 
 
+@pytest.fixture(scope="module")
+def case() -> Case:
+    return long_runs()
+
+
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     """Of three effects, and a file that is none."""
@@ -48,12 +49,7 @@ def folder(tmp_path: Path) -> Path:
     return place
 
 
-def brake(log: Log) -> np.ndarray:
-    """The magnet on joint 2, N m."""
-    q, v = motion(log)
-    return on_joint(log, 1, 4.0 * v[:, 1] * np.exp(-(((q[:, 1] - 0.7) / 0.2) ** 2)))
-
-
+@pytest.mark.rotating("effects are added to simulated runs")
 def test_it_is_found_and_added_on_a_robot_that_does_not_define_it(case: Case, folder: Path) -> None:
     model, train, holdout = case.hidden(brake)
     found = api.diagnose(model, [train], [holdout], effects_from=folder)
@@ -68,14 +64,13 @@ def test_it_is_found_and_added_on_a_robot_that_does_not_define_it(case: Case, fo
     assert [effect.id for effect in own] == ["eddy_brake"]
     values = {p.name: p.value for p in better.fit.parameters}
     assert values["Keb2"] == pytest.approx(4.0, rel=0.04)
-    auto = api.auto(model, [train], [holdout], effects_from=folder)
-    assert auto.robot_text == better.robot_text
     with pytest.raises(DataError, match=r"leaning of .*far\.toml: it reads q7, no joint of"):
         api.add(model, "leaning", [train], effects_from=folder)
     with pytest.raises(DataError, match="eddy_brake: no such effect"):
         api.add(model, "eddy_brake", [train])
 
 
+@pytest.mark.rotating("effects are added to simulated runs")
 def test_a_law_that_was_learned_is_added_by_its_name(case: Case, folder: Path) -> None:
     def bent(log: Log) -> np.ndarray:
         _, v = motion(log)
@@ -185,21 +180,11 @@ shapes = {p = [2, 4]}
     assert effect.forms[0].shapes[0].grid == (2.0, 4.0)
 
 
-def test_export_and_use_as_commands(case: Case, tmp_path: Path, run: Run) -> None:
-    """What one robot showed is found on the next, by nothing but the file."""
-    _, train, holdout = case.hidden(brake)
-    own = api.load("demo-arm").text + BRAKE
-    (tmp_path / "arm.toml").write_text(own, encoding="utf-8")
-    logs = []
-    for name, log in (("train", train), ("holdout", holdout)):
-        table = np.column_stack([log.time, log.q, log.tau])
-        logs.append(tmp_path / f"{name}.csv")
-        head = "time,q1,q2,q3,tau1,tau2,tau3"
-        np.savetxt(logs[-1], table, delimiter=",", header=head, comments="")
-    words, m, m2, shelf = (logs[0], "--holdout", logs[1]), *(tmp_path / n for n in "abc")
-    m, m2 = m.with_suffix(".json"), m2.with_suffix(".json")
-    assert run("fit", tmp_path / "arm.toml", logs[0], "--out", m)[0] == 0
-    assert run("add", m, "eddy_brake", "--joint", 2, *words, "--out", m2)[0] == 0
+def test_export_as_a_command(case: Case, tmp_path: Path, run: Run) -> None:
+    (tmp_path / "arm.toml").write_text(api.load("demo-arm").text + BRAKE, encoding="utf-8")
+    model, *logs = dataclasses.replace(case, chain=chain_of(tmp_path / "arm.toml")).hidden(brake)
+    m2, shelf = tmp_path / "b.json", tmp_path / "shelf"
+    save_model(m2, api.add(model, "eddy_brake", logs[:1], logs[1:], joint="2"))
     export = ("effects", "--export", "eddy_brake", "--out", shelf, "--robot")
     status, out, _ = run(*export, m2)
     files = [shelf / "eddy_brake.toml", shelf / "eddy_brake.html"]
@@ -216,15 +201,21 @@ def test_export_and_use_as_commands(case: Case, tmp_path: Path, run: Run) -> Non
     assert [file.read_text(encoding="utf-8") for file in files] == [content, page]
     assert run(*export, tmp_path / "arm.toml", "--force")[0] == 0
     assert files[0].read_text(encoding="utf-8") != content
-    assert run(*export, m2, "--force")[0] == 0
 
-    plain = tmp_path / "plain.json"
-    assert run("fit", "demo-arm", logs[0], "--out", plain)[0] == 0
+
+@pytest.mark.rotating("effects are added to simulated runs")
+def test_a_folder_of_effects_in_commands(case: Case, tmp_path: Path, run: Run) -> None:
+    """What one robot showed is found on the next, by nothing but the file."""
+    fitted, train, holdout = case.hidden(brake)
+    plain, shelf, m = tmp_path / "plain.json", tmp_path / "shelf", tmp_path / "m.json"
+    save_model(plain, fitted)
+    shelf.mkdir()
+    (shelf / "brake.toml").write_text(BRAKE, encoding="utf-8")
+    words = (write_csv(tmp_path / "a.csv", train), "--holdout",
+             write_csv(tmp_path / "b.csv", holdout))  # fmt: skip
     status, out, _ = run("diagnose", plain, *words, "--effects-from", shelf)
     assert status == 0 and "missing: drag of a magnet (eddy_brake), joint 2" in out
     assert f"modeler add {plain} eddy_brake --joint 2" in out and f"--effects-from {shelf}" in out
-    out = run("diagnose", m, *words, "--effects-from", shelf)[1]
-    assert "missing: drag of a magnet (eddy_brake), joint 2" in out  # defined already
     found = run("add", plain, "auto", *words, "--out", m, "--effects-from", shelf)
     assert found[0] == 0 and "+ eddy_brake @2" in found[1]
     status, _, err = run("add", plain, "undo", *words, "--out", m, "--effects-from", shelf)

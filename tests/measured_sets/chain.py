@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from modeler import api
-from modeler.core.manifest import Emitted
 from modeler.diagnosis.add import add_findings
 from modeler.diagnosis.added_model import Logs, left_of, rows_of
 from modeler.diagnosis.candidates import StatedEffects
@@ -20,8 +19,8 @@ from modeler.estimation.model_file import IdentifiedModel
 from modeler.observation.log import Log
 from modeler.observation.motion import HIGHEST
 from modeler.observation.settings import Processing
-from modeler.robot.read import robot_from_text
 from modeler.runtime.model import CompiledModel, load as load_compiled
+from tests.chain import Chain, chain_of
 from tests.measured_sets.answer import Answer
 from tests.measured_sets.sanity import faults
 from tests.measured_sets.sets import SETS, Case
@@ -32,17 +31,13 @@ class Fitted:
     """A set fitted in one direction.
 
     Attributes:
-        derivation: of its robot.
-        emitted: its C.
+        chain: its robot.
         model: with the cut-offs that the fit chose.
-        compiled: its robot.
         logs: fitted and held out.
     """
 
-    derivation: api.Derivation
-    emitted: Emitted
+    chain: Chain
     model: IdentifiedModel
-    compiled: CompiledModel
     logs: Logs
 
 
@@ -50,7 +45,7 @@ def diagnosed(case: Case, data: Path) -> Answer:
     """What `modeler diagnose` says, and what is wrong with its values."""
     seconds: dict[str, float] = {}
     with _clock(seconds, "robot"):
-        _robot(case.set)
+        chain_of(SETS[case.set].robot())
     with _clock(seconds, "fit"):
         fitted = _fitted(case.set, case.direction, data)
         if case.factor != 1.0:
@@ -69,8 +64,8 @@ def improved(case: Case, data: Path) -> Answer:
         found = _found(fitted)
     with _clock(seconds, "add"):
         findings = [*found.effects, *found.refinements]
-        better, left_out = add_findings(fitted.model, fitted.compiled, findings, fitted.logs)
-    score = scored(_unseen(fitted, fitted.model, fitted.compiled),
+        better, left_out = add_findings(fitted.model, fitted.chain.compiled, findings, fitted.logs)
+    score = scored(_unseen(fitted, fitted.model, fitted.chain.compiled),
                    _unseen(fitted, better, load_compiled(better.spec, better.sources)))  # fmt: skip
     return Answer(case, _told(better, left_out, score), seconds)
 
@@ -96,28 +91,17 @@ def _clock(seconds: dict[str, float], name: str) -> Iterator[None]:
 
 
 @lru_cache(maxsize=1)
-def _robot(name: str) -> tuple[api.Derivation, Emitted, CompiledModel]:
-    derivation = api.derive(robot_from_text(SETS[name].robot(), name))
-    emitted = api.generate(derivation)
-    return derivation, emitted, api.compile_model(emitted)
-
-
-@lru_cache(maxsize=1)
 def _fitted(name: str, direction: str, data: Path) -> Fitted:
     """With the default processing; the cases of one direction come one after the other."""
-    derivation, emitted, compiled = _robot(name)
-    training, held_out = SETS[name].logs(data, direction)
-    logs = Logs(api.read_logs(compiled, training), api.read_logs(compiled, held_out))
-    model = api.fit(derivation, emitted, api.observe(compiled, logs.fitted))
-    return Fitted(derivation, emitted, model, compiled, logs)
+    chain = chain_of(SETS[name].robot())
+    logs = Logs(*(api.read_logs(chain.compiled, some) for some in SETS[name].logs(data, direction)))
+    return Fitted(chain, chain.fit(logs.fitted), logs)
 
 
 def _at(fitted: Fitted, factor: float) -> Fitted:
     """Fitted anew with both cut-offs given: those that were chosen, times a factor."""
     processing = scaled(fitted.model.processing, factor, fitted.logs.fitted)
-    observation = api.observe(fitted.compiled, fitted.logs.fitted, processing)
-    model = api.fit(fitted.derivation, fitted.emitted, observation)
-    return dataclasses.replace(fitted, model=model)
+    return dataclasses.replace(fitted, model=fitted.chain.fit(fitted.logs.fitted, processing))
 
 
 def scaled(chosen: Processing, factor: float, logs: Sequence[Log]) -> Processing:
@@ -130,9 +114,9 @@ def scaled(chosen: Processing, factor: float, logs: Sequence[Log]) -> Processing
 
 
 def _found(fitted: Fitted) -> Diagnosis:
-    robot, logs = fitted.derivation.robot, fitted.logs
+    robot, logs = fitted.chain.derivation.robot, fitted.logs
     known = StatedEffects(robot.catalogue, robot.coupling)
-    return diagnose(fitted.model, fitted.compiled, logs.fitted, logs.held_out, known=known)
+    return diagnose(fitted.model, fitted.chain.compiled, logs.fitted, logs.held_out, known=known)
 
 
 def _unseen(fitted: Fitted, model: IdentifiedModel, compiled: CompiledModel) -> Residuals:

@@ -15,16 +15,16 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler import api
+from tests.chain import chain_of
 from tests.hidden_effects.drives import Scales, equip, measured_noise
 from tests.hidden_effects.effects import BASE, Draw, Impossible
+from tests.hidden_effects.held_out_effects import STEEPEST
 from tests.hidden_effects.motion import draw_bounds, motion
 from tests.hidden_effects.plant import TICK, Plant, Run, rate
 from tests.hidden_effects.robot_file import robot_text
 from tests.hidden_effects.robots import draw_arm
 from tests.hidden_effects.sensor_kinds import FINE, SENSORS
 from tests.hidden_effects.sensors import log, write
-from tests.hidden_effects.stranger_effects import STEEPEST
 from tests.unnamed_laws.laws import LAWS, Motion, TrueForm, neighbour_of
 
 CLEAN = "clean"
@@ -74,7 +74,7 @@ def machine(law: str, seed: int, encoder: str, folder: Path) -> Machine:
         place.mkdir(parents=True, exist_ok=True)
         truth = _made(law, seed, encoder, place)
         text = json.dumps(None if truth is None else asdict(truth), indent=1)
-        _fitted(place)
+        chain_of(place / "robot.toml").fit([place / "train.parquet"]).save(place / "model.json")
         (place / "truth.json").write_text(text + "\n", encoding="utf-8")
     truth = json.loads((place / "truth.json").read_text(encoding="utf-8"))
     return Machine(
@@ -145,11 +145,3 @@ def with_law(
     plant.law, plant.law_joint, plant.law_with, plant.law_size = kind.number, j, other, size
     plant.law_shape[: len(shapes)] = list(shapes.values())
     return replace(form, size=float(size), width=float(width[j]))
-
-
-def _fitted(place: Path) -> None:
-    """The model of the training log, as its file."""
-    derivation = api.derive(api.load(place / "robot.toml"))
-    emitted = api.generate(derivation)
-    observation = api.observe(api.compile_model(emitted), [place / "train.parquet"])
-    api.fit(derivation, emitted, observation).save(place / "model.json")

@@ -41,7 +41,10 @@ def test_the_simulated_torque_is_the_column(name):
     assert max(0.6 * LEAST, 5 * error) < share < 1.6 * MOST
 
 
-@pytest.mark.parametrize(("name", "encoder"), [("load_speed", "fine"), ("dither", "4096")])
+@pytest.mark.parametrize(
+    ("name", "encoder"),
+    [("load_speed", "fine"), pytest.param("dither", "4096", marks=pytest.mark.rotating)],
+)
 def test_the_true_form_explains_what_is_left(name, encoder, tmp_path):
     own = machine(name, 1, encoder, tmp_path)
     found, j = errors(own), own.truth.joint

@@ -1,6 +1,7 @@
 """Causes that no catalogue of effects holds: real physics, and no name may be stated as a fact.
 
-An arm never gets them unless they are asked for: they stand in `STRANGERS`, apart from `EFFECTS`.
+An arm never gets them unless they are asked for: they stand in `HELD_OUT_EFFECTS`, apart from
+`EFFECTS`.
 """
 
 from collections.abc import Callable
@@ -9,17 +10,17 @@ import numpy as np
 
 from tests.hidden_effects.effects import Draw, Hidden, Hide, Impossible
 
-STRANGERS: dict[str, Hide] = {}
-"""How to hide a stranger, by name."""
+HELD_OUT_EFFECTS: dict[str, Hide] = {}
+"""How to hide such a cause, by name."""
 
 STEEPEST = 9000 * 0.3  # 1/s: dry friction over its width and inertia, for the integration
 
 
-def stranger(name: str) -> Callable[[Hide], Hide]:
-    """Put what follows into `STRANGERS`."""
+def held_out(name: str) -> Callable[[Hide], Hide]:
+    """Put what follows into `HELD_OUT_EFFECTS`."""
 
     def add(hide: Hide) -> Hide:
-        STRANGERS[name] = hide
+        HELD_OUT_EFFECTS[name] = hide
         return hide
 
     return add
@@ -39,7 +40,7 @@ def _another(draw: Draw) -> int:
     return draw.pick([k for k in (draw.joint - 1, draw.joint + 1) if 0 <= k < draw.n])
 
 
-@stranger("pinched_dress")
+@held_out("pinched_dress")
 def pinched_dress(draw: Draw) -> Hidden:
     """F sign(v_j) / (1 + exp(-(q_k - q0) / w)): beyond an angle of k, cables are pinched at j."""
     j, plant, k = draw.joint, draw.plant, _another(draw)
@@ -51,7 +52,7 @@ def pinched_dress(draw: Draw) -> Hidden:
     return Hidden(j, values | {"q0": plant.pinch_angle[j], "w": plant.pinch_width[j]})
 
 
-@stranger("hose_across")
+@held_out("hose_across")
 def hose_across(draw: Draw) -> Hidden:
     """k (q_i + c q_k - s) on i and c times it on k: a hose that both joints stretch."""
     i, plant, k = draw.joint, draw.plant, _another(draw)
@@ -65,7 +66,7 @@ def hose_across(draw: Draw) -> Hidden:
     return Hidden(i, values | {"c": plant.hose_ratio, "s": plant.hose_rest})
 
 
-@stranger("grease_pocket")
+@held_out("grease_pocket")
 def grease_pocket(draw: Draw) -> Hidden:
     """Fv (1 + cos(q - q0)) / 2 v: grease has gathered on one side."""
     j, plant = draw.joint, draw.plant
@@ -74,7 +75,7 @@ def grease_pocket(draw: Draw) -> Hidden:
     return Hidden(j, {"Fv": plant.pocket_viscous[j], "q0": plant.pocket_angle[j]})
 
 
-@stranger("lifting_seal")
+@held_out("lifting_seal")
 def lifting_seal(draw: Draw) -> Hidden:
     """F sign(v) / (1 + exp((|v| - v1) / w)): a lip that rubs up to a speed, and lifts off there."""
     j, plant = draw.joint, draw.plant
@@ -85,7 +86,7 @@ def lifting_seal(draw: Draw) -> Hidden:
     return Hidden(j, values | {"w": plant.seal_width[j]})
 
 
-@stranger("saturating_motor")
+@held_out("saturating_motor")
 def saturating_motor(draw: Draw) -> Hidden:
     """torque = s tanh(torque_logged / s): the iron of the motor saturates."""
     j, plant = draw.joint, draw.plant
@@ -93,7 +94,7 @@ def saturating_motor(draw: Draw) -> Hidden:
     return Hidden(j, {"s": plant.saturation[j]})
 
 
-@stranger("dead_band")
+@held_out("dead_band")
 def dead_band(draw: Draw) -> Hidden:
     """torque = t - b tanh(t / b), t as logged: an amplifier that gives nothing of what is small."""
     j, plant = draw.joint, draw.plant
@@ -101,7 +102,7 @@ def dead_band(draw: Draw) -> Hidden:
     return Hidden(j, {"b": plant.dead_torque[j]})
 
 
-@stranger("crosstalk")
+@held_out("crosstalk")
 def crosstalk(draw: Draw) -> Hidden:
     """torque_j = t_j - c t_k, t as logged: the sensor of drive j reads some of the current of k."""
     j, plant, k = draw.joint, draw.plant, _another(draw)
@@ -111,7 +112,7 @@ def crosstalk(draw: Draw) -> Hidden:
     return Hidden(j, {"with_joint": str(k + 1), "c": plant.crosstalk[j]})
 
 
-@stranger("dragging_brake")
+@held_out("dragging_brake")
 def dragging_brake(draw: Draw) -> Hidden:
     """F sign(v) for a second or two every few seconds, or once for a good part of the log."""
     j, plant = draw.joint, draw.plant
@@ -127,7 +128,7 @@ def dragging_brake(draw: Draw) -> Hidden:
     return Hidden(j, values | {"period": period})
 
 
-@stranger("sloshing_load")
+@held_out("sloshing_load")
 def sloshing_load(draw: Draw) -> Hidden:
     """A mass held by a spring and a damper on the last link: it swings at 1 to 3 Hz."""
     plant, last = draw.plant, draw.n - 1
@@ -139,7 +140,7 @@ def sloshing_load(draw: Draw) -> Hidden:
     return Hidden(None, {"mass": mass, "f_Hz": hertz, "damping": damping})
 
 
-@stranger("strap_to_base")
+@held_out("strap_to_base")
 def strap_to_base(draw: Draw) -> Hidden:
     """k (length - free) along a strap from the base to an outer link, where it is taut."""
     plant, rng = draw.plant, draw.rng
@@ -157,7 +158,7 @@ def strap_to_base(draw: Draw) -> Hidden:
     return Hidden(link, values | {"base": base, "point": point})
 
 
-@stranger("bearing_moment")
+@held_out("bearing_moment")
 def bearing_moment(draw: Draw) -> Hidden:
     """c |moment across the axis| sign(v): the weight beyond tilts the bearing, and it rubs."""
     j, plant, scales = draw.joint, draw.plant, draw.scales
@@ -166,7 +167,7 @@ def bearing_moment(draw: Draw) -> Hidden:
     return Hidden(j, {"c": plant.bearing_share[j]})
 
 
-@stranger("back_driven_gear")
+@held_out("back_driven_gear")
 def back_driven_gear(draw: Draw) -> Hidden:
     """F sign(v) where the load drives the motor, none where the motor drives the load."""
     j, plant = draw.joint, draw.plant

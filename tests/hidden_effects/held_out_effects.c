@@ -1,5 +1,5 @@
 /* Friction, springs, drives and a load that nobody's catalogue holds. */
-#include "strangers.h"
+#include "held_out_effects.h"
 
 #include <math.h>
 
@@ -19,7 +19,7 @@ static double on(double time, double start, double lasts, double period)
    Back-driven gear: F sign(v) where the load drives the motor.
    Brake: F sign(v) now and then.
    Pocket of grease: Fv (1 + cos(q - q0)) / 2 v. */
-double strange_friction(const Plant *p, int j, double time, const double *q, double v,
+double held_out_friction(const Plant *p, int j, double time, const double *q, double v,
                         double load, const Dynamics *now)
 {
     double dry = p->bearing_share[j] * now->tilting[j], way = tanh(v / p->coulomb_width[j]);
@@ -67,7 +67,7 @@ static void pull(const Dynamics *now, int link, const double *place, const doubl
 }
 
 /* A hose, energy k (q_i + c q_j - s)^2 / 2, and a strap, energy k (length - free)^2 / 2 if taut. */
-void strange_push(const Plant *p, const double *q, const Dynamics *now, double *pushed)
+void held_out_push(const Plant *p, const double *q, const Dynamics *now, double *pushed)
 {
     if (p->hose_stiffness != 0) {
         double stretched = q[p->hose_joint] + p->hose_ratio * q[p->hose_with] - p->hose_rest;

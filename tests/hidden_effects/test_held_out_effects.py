@@ -10,9 +10,9 @@ from scipy.signal import lsim
 from tests.hidden_effects import case as case_module
 from tests.hidden_effects.case import KNOWN, NoArm, make_case
 from tests.hidden_effects.effects import EFFECTS, hide
+from tests.hidden_effects.held_out_effects import HELD_OUT_EFFECTS
 from tests.hidden_effects.plant import TICK, rate
-from tests.hidden_effects.stranger_effects import STRANGERS
-from tests.hidden_effects.suite import stranger_cases
+from tests.hidden_effects.suite import held_out_cases
 from tests.hidden_effects.test_generator import arm
 
 pytestmark = pytest.mark.usefixtures("plant_compiler")
@@ -76,7 +76,7 @@ def _momentum(plant, q, v, k):
 
 @dataclasses.dataclass
 class Ran:
-    """A run of an arm with one stranger: extra torque by joint, and what it came from."""
+    """A run of an arm with one such cause: extra torque by joint, and what it came from."""
 
     plant: object
     j: int
@@ -105,9 +105,9 @@ class Ran:
 
 @cache
 def ran(name):
-    """Without noise: what is left over is the stranger's."""
+    """Without noise: what is left over is that of the cause."""
     plant, path, scales = arm(seconds=6.0)
-    hidden = hide(name, plant, scales, np.random.default_rng(4), STRANGERS)
+    hidden = hide(name, plant, scales, np.random.default_rng(4), HELD_OUT_EFFECTS)
     plant.noise_torque, plant.encoder_step = 0, 1e-9
     run = plant.run(path, np.zeros(plant.joints), 1)
     q, v = run.link, rate(run.link)
@@ -179,8 +179,8 @@ def swinging(x):
     return -mass * (lever * force[:, None]).sum(2)
 
 
-@pytest.mark.parametrize("name", STRANGERS)
-def test_a_stranger_is_what_its_docstring_says(name):
+@pytest.mark.parametrize("name", HELD_OUT_EFFECTS)
+def test_a_cause_is_what_its_docstring_says(name):
     x = ran(name)
     assert np.abs(x.q[:20]).max() < 1e-6  # it starts at rest
     expected, steady = law(name, x), (np.abs(x.v) > 0.05).all(1)
@@ -210,10 +210,10 @@ def test_a_load_that_swings_only_loses_energy():
 
 
 @pytest.mark.slow
-def test_strangers_are_apart_and_visible(tmp_path, monkeypatch):
-    assert not STRANGERS.keys() & EFFECTS.keys() and len(STRANGERS) >= 10
-    assert KNOWN.keys() == STRANGERS.keys() | EFFECTS.keys()
-    (case,) = (c for c in stranger_cases(["low"], [2]) if c.effects == ("dead_band",))
+def test_held_out_effects_are_apart_and_visible(tmp_path, monkeypatch):
+    assert not HELD_OUT_EFFECTS.keys() & EFFECTS.keys() and len(HELD_OUT_EFFECTS) >= 10
+    assert KNOWN.keys() == HELD_OUT_EFFECTS.keys() | EFFECTS.keys()
+    (case,) = (c for c in held_out_cases(["low"], [2]) if c.effects == ("dead_band",))
     truth = make_case(dataclasses.replace(case, kind="2R"), tmp_path / "case")
     assert truth["visible"][0] >= 1
     assert truth["hidden"][0]["effect"] == "dead_band"
