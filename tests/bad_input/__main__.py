@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 from tests.bad_input.drawn import run_mutants
-from tests.bad_input.yard import Ground
+from tests.bad_input.workdir import Inputs
 
 parser = argparse.ArgumentParser(prog="python -m tests.bad_input")
 parser.add_argument("--mutants", type=int, default=500, help="how many")
@@ -16,7 +16,7 @@ parser.add_argument("--out", type=lambda place: Path(place).resolve(), help="fil
 args = parser.parse_args()
 with tempfile.TemporaryDirectory() as name:
     with contextlib.redirect_stdout(None):
-        ground = Ground(Path(name))
-    bad = run_mutants(args.mutants, args.seed, args.out, ground)
+        inputs = Inputs(Path(name))
+    bad = run_mutants(args.mutants, args.seed, args.out, inputs)
 print("\n".join(bad))
 sys.exit(min(len(bad), 1))

@@ -1,4 +1,6 @@
-"""Mutants of every format, drawn with a seed: what a user's spoilt file or mistyped command gives.
+"""Mutants drawn with a seed: what a user's spoilt file or mistyped command gives.
+
+Of the binary formats of other programs: tests/logs/test_log_damage.py.
 
 `python -m tests.bad_input --mutants 500 --seed 7 --out lines.txt`.
 """
@@ -20,19 +22,18 @@ import pytest
 
 from modeler.core.builtin import builtin_names, builtin_text
 from modeler.robot.read import read_robot
-from tests.bad_input.judge import clear, run_here, standing_in, within
+from tests.bad_input.judge import clear, inside, run_here, within
 from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes, edited_structure, toml_text
-from tests.bad_input.robot_texts import CRANK, LEGS, MAGNET, SERIAL
-from tests.bad_input.yard import Ground, Yard, csv_text
+from tests.bad_input.robot_files import CRANK, SERIAL
+from tests.bad_input.workdir import Inputs, Workdir, csv_text
 from tests.logs import writers
-from tests.logs.programs import lerobot
 from tests.robot.par_files import par_of
 
 SAMPLES = 400
 LOG = "fit two-link bad{} --out f.json"
 MAP = {"time": "t [ms]", "q<j>": "pos[{n}] [deg]", "tau<j>": "load[{n}] [mN m]"}
 PAR = par_of(read_robot("two-link"), False).encode()
-ROBOTS = (*([SERIAL, CRANK, LEGS, MAGNET] * 4), *map(builtin_text, builtin_names()))
+ROBOTS = (*([SERIAL, CRANK] * 8), *map(builtin_text, builtin_names()))
 KINDS = (
     pa.float32(), pa.int64(), pa.int8(), pa.string(), pa.bool_(), pa.binary(), pa.null(),
     pa.timestamp("ns"), pa.list_(pa.float64()), pa.dictionary(pa.int32(), pa.string()),
@@ -46,29 +47,6 @@ COMMANDS = (
     "diagnose m.json b.csv --json d.json", "robots wrist",
     "fit two-link a.csv --map q1=q1:rad --map tau1=tau1 --out f.json",
 )  # fmt: skip
-URDF = b"""<?xml version="1.0"?>
-<robot name="arm"><link name="base"/>
-<link name="a"><inertial><origin xyz="0.1 0 0" rpy="0 0.1 0"/><mass value="3.0"/>
-<inertia ixx="0.02" ixy="0.001" ixz="0" iyy="0.03" iyz="0" izz="0.025"/></inertial></link>
-<link name="b"><inertial><mass value="2.0"/>
-<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.05" iyz="0" izz="0.05"/></inertial></link>
-<joint name="j1" type="revolute"><parent link="base"/><child link="a"/><origin xyz="0 0 0.3"/>
-<axis xyz="0 0 1"/><limit lower="-2" upper="2" velocity="3" effort="100"/>
-<dynamics damping="2.0" friction="1.5"/></joint>
-<joint name="j2" type="prismatic"><parent link="a"/><child link="b"/><axis xyz="0 1 0"/>
-<limit lower="-1" upper="1" velocity="3" effort="50"/></joint>
-<transmission name="t"><joint name="j1"/><actuator name="m">
-<mechanicalReduction>50</mechanicalReduction></actuator></transmission>
-</robot>
-"""
-MJCF = b"""<mujoco model="arm"><compiler angle="degree"/><option gravity="0 0 -9.81"/>
-<default><joint damping="0.5" armature="0.01"/></default>
-<worldbody><body name="a" pos="0 0 0.3"><joint name="j1" axis="0 0 1" range="-90 90"/>
-<geom type="capsule" size="0.05 0.2" mass="2"/><body name="b" pos="0.4 0 0" euler="0 90 0">
-<joint name="j2" type="slide" axis="0 1 0" frictionloss="0.3"/>
-<inertial pos="0.1 0 0" mass="1.5" diaginertia="0.01 0.02 0.02"/></body></body></worldbody>
-<actuator><motor name="m" joint="j1" gear="50"/></actuator></mujoco>
-"""
 WORDS = (*NUMBERS, '"', "[", "]", "{", "}", "=", ",", "\n", "#", "q1", "sin(", ")", "**", "pi",
          "[mdh]", "rows", "\0", "é", "\\", "true", "'", "time", "tau1", ";", "rad")  # fmt: skip
 
@@ -76,18 +54,20 @@ WORDS = (*NUMBERS, '"', "[", "]", "{", "}", "=", ",", "\n", "#", "q1", "sin(", "
 class Drawer:
     """Draws mutants; the same ones for the same seed."""
 
-    def __init__(self, ground: Ground, seed: int) -> None:
-        self.ground, self.random = ground, random.Random(seed)
+    def __init__(self, inputs: Inputs, seed: int) -> None:
+        self.inputs, self.random = inputs, random.Random(seed)
         self._good: dict[str, bytes] = {}
 
     def draw(self) -> tuple[str, str, dict[str, bytes], str]:
         """Format, what was done, the files, the command."""
         kind = self.random.choice(
-            ["toml", "toml", "par", "csv", "csv", "parquet", "npz", "mat", "hdf5", "mcap", "bag",
-             "bag1", "db3", "json", "xlsx", "mat73", "lerobot", "stamped", "listed", "urdf", "urdf",
-             "mjcf", "model", "model", "map", "motion", "command", "command"]
+            ["toml", "toml", "par", "csv", "csv", "parquet", "json", "xlsx", "listed", "urdf",
+             "urdf", "mjcf", "model", "model", "map", "motion", "command", "command"]
         )  # fmt: skip
         return getattr(self, f"_{kind}")()
+
+    def _made(self, name: str) -> bytes:
+        return (self.inputs.folder / name).read_bytes()
 
     def _bytes(self, data: bytes, most: int = 3) -> tuple[bytes, str]:
         kinds = ("cut", "repeat", "replace", "insert", "flip", "end", "exchange")
@@ -129,7 +109,7 @@ class Drawer:
     def _columns(self) -> tuple[dict[str, np.ndarray], str]:
         """A log whose columns are exchanged, spoilt, gone, short."""
         pick = self.random
-        table = {name: v[:SAMPLES].copy() for name, v in self.ground.log("a.csv").items()}
+        table = {name: v[:SAMPLES].copy() for name, v in self.inputs.log("a.csv").items()}
         told = []
         for _ in range(pick.randint(1, 2)):
             name, other = pick.choice(list(table)), pick.choice(list(table))
@@ -164,7 +144,7 @@ class Drawer:
             table, told = self._columns()
             content = csv_text(table).encode()
         else:
-            short = {n: v[:SAMPLES] for n, v in self.ground.log("a.csv").items()}
+            short = {n: v[:SAMPLES] for n, v in self.inputs.log("a.csv").items()}
             content, told = self._bytes(csv_text(short).encode())
         return "log CSV", told, {"bad.csv": content}, LOG.format(".csv")
 
@@ -187,43 +167,13 @@ class Drawer:
     ) -> tuple[str, str, dict[str, bytes], str]:
         """A file of another program's format, its bytes spoilt."""
         if kind not in self._good:
-            table = {n: v[:SAMPLES] for n, v in self.ground.log("d.csv").items()}
+            table = {n: v[:SAMPLES] for n, v in self.inputs.log("d.csv").items()}
             with tempfile.TemporaryDirectory() as folder:
                 path = write(Path(folder) / f"good{ending}", writers.Run(table))
-                for file in sorted(path.rglob("*.*")) if path.is_dir() else [path]:
-                    name = kind if file == path else f"{kind}/{file.relative_to(path).as_posix()}"
-                    self._good[name] = file.read_bytes()
-        names = [name for name in self._good if name == kind or name.startswith(f"{kind}/")]
-        files = {n.replace(kind, f"bad{ending}", 1): self._good[n] for n in names}
-        spoilt = self.random.choice(sorted(files))
-        files[spoilt], told = self._bytes(files[spoilt])
-        document = {"log": mapping}
-        files["map.toml"] = toml_text(document).encode()
+                self._good[kind] = path.read_bytes()
+        content, told = self._bytes(self._good[kind])
+        files = {f"bad{ending}": content, "map.toml": toml_text({"log": mapping}).encode()}
         return f"log {kind}", told, files, f"fit demo-arm bad{ending} --map map.toml --out f.json"
-
-    def _npz(self):
-        return self._other("npz", ".npz", writers.npz, MAP)
-
-    def _mat(self):
-        return self._other("MAT", ".mat", writers.mat, writers.under("data.", MAP))
-
-    def _hdf5(self):
-        return self._other("HDF5", ".h5", writers.hdf5, writers.under("arm/", MAP))
-
-    def _mcap(self):
-        return self._other("MCAP", ".mcap", writers.mcap, writers.ROS)
-
-    def _bag(self):
-        return self._other("bag folder", "", writers.bag, writers.ROS)
-
-    def _bag1(self):
-        return self._other("bag ROS 1", ".bag", writers.bag1, writers.ROS)
-
-    def _mat73(self):
-        return self._other("MAT 7.3", ".mat", writers.mat73, writers.under("data.", MAP))
-
-    def _db3(self):
-        return self._other("bag file", ".db3", _db3, writers.ROS)
 
     def _json(self):
         return self._other("MCAP of JSON", ".mcap", _json_mcap, writers.ROS)
@@ -231,35 +181,23 @@ class Drawer:
     def _xlsx(self):
         return self._other("spreadsheet", ".xlsx", _xlsx, MAP)
 
-    def _lerobot(self):
-        names = dict(zip("123", ("shoulder_pan", "shoulder_lift", "elbow_flex"), strict=True))
-        mapping = {
-            "q<j>": "observation.state[{name}] [deg]",
-            "tau<j>": "observation.effort[{name}]",
-        }
-        return self._other("data set", "", _lerobot, {"names": names, **mapping})
-
-    def _stamped(self):
-        mapping = {"time": "stamp", "q<j>": "q{j}", "tau<j>": "tau{j}"}
-        return self._other("CSV with seconds and nanoseconds", ".csv", _stamped_csv, mapping)
-
     def _listed(self):
-        mapping = {"q<j>": "q[{n}]", "tau<j>": "tau[{n}]"}
-        return self._other("CSV with lists", ".csv", _listed_csv, mapping)
+        mapping = {"time": "stamp", "q<j>": "q[{n}]", "tau<j>": "tau[{n}]"}
+        return self._other("CSV of stamps and lists", ".csv", _listed_csv, mapping)
 
     def _urdf(self) -> tuple[str, str, dict[str, bytes], str]:
-        content, told = self._bytes(URDF)
+        content, told = self._bytes(self._made("good.urdf"))
         return "URDF", told, {"bad.urdf": content}, "convert bad.urdf --out x.toml"
 
     def _mjcf(self) -> tuple[str, str, dict[str, bytes], str]:
-        content, told = self._bytes(MJCF)
+        content, told = self._bytes(self._made("good.xml"))
         return "MJCF", told, {"bad.xml": content}, "convert bad.xml --out x.toml"
 
     def _model(self) -> tuple[str, str, dict[str, bytes], str]:
         if self.random.random() < 0.5:
-            content, told = self._bytes((self.ground.folder / "m.json").read_bytes())
+            content, told = self._bytes(self._made("m.json"))
         else:
-            raw = self.ground.model("added.json")
+            raw = self.inputs.model("added.json")
             told = self._structure(raw)
             content = json.dumps(raw).encode(errors="replace")
         return "model JSON", told, {"bad.json": content}, "compare bad.json b.csv --json c.json"
@@ -305,12 +243,6 @@ class Drawer:
         return "command line", "words", files, " ".join(words)
 
 
-def _db3(path: Path, run: writers.Run) -> Path:
-    """The file of a bag by itself."""
-    folder = writers.bag(path.with_suffix(""), run)
-    return next(folder.glob("*.db3")).rename(path)
-
-
 def _json_mcap(path: Path, run: writers.Run) -> Path:
     reason = "NOT CHECKED: needs mcap; pip install mcap"
     writer_of = pytest.importorskip("mcap.writer", reason=reason)
@@ -336,23 +268,13 @@ def _xlsx(path: Path, run: writers.Run) -> Path:
     return path
 
 
-def _lerobot(path: Path, run: writers.Run) -> Path:
-    path.mkdir()
-    lerobot(path, run)
-    return path
-
-
-def _stamped_csv(path: Path, run: writers.Run) -> Path:
-    moments = np.array(writers.stamps(run))
-    table = {"stamp.sec": moments // 10**9, "stamp.nanosec": moments % 10**9}
-    path.write_text(csv_text(table | {n: v for n, v in run.items() if n != "time"}))
-    return path
-
-
 def _listed_csv(path: Path, run: writers.Run) -> Path:
-    rows = zip(run["time"].tolist(), *(writers.joined(run, n) for n in ("q", "tau")), strict=True)
-    lines = [f'{t!r},"{q.tolist()}",{np.array2string(tau)}' for t, q, tau in rows]
-    path.write_text("time,q,tau\n" + "\n".join(lines) + "\n")
+    """Seconds and nanoseconds, lists in quotes and in brackets."""
+    rows = zip(writers.stamps(run), *(writers.joined(run, n) for n in ("q", "tau")), strict=True)
+    lines = [
+        f'{t // 10**9},{t % 10**9},"{q.tolist()}",{np.array2string(tau)}' for t, q, tau in rows
+    ]
+    path.write_text("stamp.sec,stamp.nanosec,q,tau\n" + "\n".join(lines) + "\n")
     return path
 
 
@@ -364,20 +286,20 @@ def _cast(values: pa.Array, kind: pa.DataType) -> pa.Array:
         return pa.array([None] * len(values), kind)
 
 
-def run_mutants(count: int, seed: int, out: Path | None, ground: Ground) -> list[str]:
+def run_mutants(count: int, seed: int, out: Path | None, inputs: Inputs) -> list[str]:
     """Runs so many mutants, writes a line for each; those that end as none may."""
-    drawer, bad, told = Drawer(ground, seed), list[str](), Counter[str]()
+    drawer, bad, told = Drawer(inputs, seed), list[str](), Counter[str]()
     lines = []
     for number in range(count):
         kind, done, files, command = drawer.draw()
         words = tuple(command.split(" "))
         with tempfile.TemporaryDirectory() as folder:
-            yard = Yard(Path(folder), ground)
+            workdir = Workdir(Path(folder), inputs)
             for name, content in files.items():
-                yard.write(name, content)
-            yard.take_named(words)
-            with standing_in(yard), within(30.0):
-                result = run_here(words, yard)
+                workdir.write(name, content)
+            workdir.take_named(words)
+            with inside(workdir), within(30.0):
+                result = run_here(words, workdir)
         faults = [result.broke] if result.broke else []
         if not faults and result.status:
             faults = clear(words, result)

@@ -13,7 +13,7 @@ TRUE = {
 
 
 def _written(result: Result) -> dict[str, Any]:
-    raw = json.loads((result.yard.work / "f.json").read_text())
+    raw = json.loads((result.workdir.work / "f.json").read_text())
     return raw.get("fit", raw)  # of a model file, or of --json
 
 

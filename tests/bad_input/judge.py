@@ -21,7 +21,7 @@ import pyarrow.parquet as pq
 from modeler.cli import main
 from modeler.core.errors import ModelerError
 from tests.bad_input.row import Process, Result, Row, missing_words
-from tests.bad_input.yard import Yard
+from tests.bad_input.workdir import Workdir
 from tests.repository import ROOT
 
 SECONDS = 20.0
@@ -34,14 +34,8 @@ AS_IT_IS = "as it is"
 """Value of a variable that a row leaves as the tests have it."""
 
 OUTPUTS = (
-    "--out",
-    "--json",
-    "--report",
-    "--picture",
-    "--coefficients-out",
-    "--robot-out",
-    "--truth-out",
-)
+    "--out", "--json", "--report", "--picture", "--coefficients-out", "--robot-out", "--truth-out",
+)  # fmt: skip
 
 REMEDY = re.compile(
     r"\b(expected|write|use|choose|give|leave|check|add|remove|declare|did you mean|delete|record"
@@ -56,15 +50,15 @@ class TooLong(BaseException):
     """A command took longer than it may; no `except Exception` catches it."""
 
 
-def faults(row: Row, yard: Yard) -> list[str]:
+def faults(row: Row, workdir: Workdir) -> list[str]:
     """What is wrong with how a row ends."""
     if row.make is not None:
-        row.make(yard)
+        row.make(workdir)
     if isinstance(row.run, tuple):
-        yard.take_named(row.run)
-    before = yard.state()
-    result = _run(row, yard)
-    after = yard.state()
+        workdir.take_named(row.run)
+    before = workdir.state()
+    result = _run(row, workdir)
+    after = workdir.state()
     found = [result.broke] if result.broke else []
     if not found:
         found += ending(row, result)
@@ -77,17 +71,17 @@ def faults(row: Row, yard: Yard) -> list[str]:
     return found
 
 
-def _run(row: Row, yard: Yard) -> Result:
+def _run(row: Row, workdir: Workdir) -> Result:
     if row.process is not None:
         assert isinstance(row.run, tuple)
-        return _in_a_process(row.run, row.process, yard)
-    with standing_in(yard), within(SECONDS):
+        return _in_a_process(row.run, row.process, workdir)
+    with inside(workdir), within(SECONDS):
         if isinstance(row.run, tuple):
-            return run_here(row.run, yard)
-        return _called(row, yard)
+            return run_here(row.run, workdir)
+        return _called(row, workdir)
 
 
-def run_here(words: tuple[str, ...], yard: Yard) -> Result:
+def run_here(words: tuple[str, ...], workdir: Workdir) -> Result:
     """Run a command in this process."""
     out, err = io.StringIO(), io.StringIO()
     status, broke = -1, ""
@@ -100,21 +94,21 @@ def run_here(words: tuple[str, ...], yard: Yard) -> Result:
             broke = f"hang: no answer within {SECONDS:g} s"
         except BaseException as error:
             broke = _told(error)
-    return Result(status, out.getvalue(), err.getvalue(), broke, yard)
+    return Result(status, out.getvalue(), err.getvalue(), broke, workdir)
 
 
-def _called(row: Row, yard: Yard) -> Result:
+def _called(row: Row, workdir: Workdir) -> Result:
     status, err, broke = 0, "", ""
     try:
         assert callable(row.run)
-        row.run(yard)
+        row.run(workdir)
     except ModelerError as error:
         status, err = 1, f"modeler: {error}\n"
     except TooLong:
         broke = f"hang: no answer within {SECONDS:g} s"
     except Exception as error:
         broke = _told(error)
-    return Result(status, "", err, broke, yard)
+    return Result(status, "", err, broke, workdir)
 
 
 def _told(error: BaseException) -> str:
@@ -126,13 +120,13 @@ def _told(error: BaseException) -> str:
 
 
 @contextlib.contextmanager
-def standing_in(yard: Yard) -> Iterator[None]:
-    """The yard as the current folder, the temporary one, and home; warnings are errors."""
+def inside(workdir: Workdir) -> Iterator[None]:
+    """The workdir as the current folder, the temporary one, and home; warnings are errors."""
     here, kept = Path.cwd(), tempfile.tempdir
     home = os.environ.get("HOME")
-    os.chdir(yard.work)
-    tempfile.tempdir = str(yard.temporary)
-    os.environ["HOME"] = str(yard.home)
+    os.chdir(workdir.work)
+    tempfile.tempdir = str(workdir.temporary)
+    os.environ["HOME"] = str(workdir.home)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -160,29 +154,31 @@ def within(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
-def _in_a_process(words: tuple[str, ...], how: Process, yard: Yard) -> Result:
-    env = {**os.environ, "HOME": str(yard.home), "TMPDIR": str(yard.temporary)}
-    env["MPLCONFIGDIR"] = str(yard.ground.folder / "matplotlib")  # its list of fonts takes seconds
+def _in_a_process(words: tuple[str, ...], how: Process, workdir: Workdir) -> Result:
+    env = {**os.environ, "HOME": str(workdir.home), "TMPDIR": str(workdir.temporary)}
+    env["MPLCONFIGDIR"] = str(
+        workdir.inputs.folder / "matplotlib"
+    )  # its list of fonts takes seconds
     for name, value in how.env.items():
         if value is None:
             env.pop(name, None)
         elif value != AS_IT_IS:
-            env[name] = value.replace("YARD", str(yard.work))
+            env[name] = value.replace("WORKDIR", str(workdir.work))
     if how.anew:
         env["PYTHONPATH"] = str(ROOT)
         command = shlex.join([sys.executable, "-m", "modeler", *words])
         done = subprocess.run(
-            ["/bin/sh", "-c", f"{command} {how.redirect}"], cwd=yard.work, env=env, check=False,
+            ["/bin/sh", "-c", f"{command} {how.redirect}"], cwd=workdir.work, env=env, check=False,
             capture_output=True, text=True, errors="replace", timeout=how.seconds,
         )  # fmt: skip
     else:
-        done = yard.ground.forks.run(words, yard.work, env, how.seconds, how.file_limit)
+        done = workdir.inputs.forks.run(words, workdir.work, env, how.seconds, how.file_limit)
     broke = ""
     if done.returncode == -signal.SIGALRM:
         broke = f"hang: no answer within {how.seconds:g} s"
     if "Traceback" in done.stderr or "Exception ignored" in done.stderr:
         broke = f"traceback: {done.stderr.strip().splitlines()[-1][:200]}"
-    return Result(done.returncode, done.stdout, done.stderr, broke, yard)
+    return Result(done.returncode, done.stdout, done.stderr, broke, workdir)
 
 
 def ending(row: Row, result: Result) -> list[str]:
@@ -264,7 +260,7 @@ def disturbed(
     found += [f"left behind: {name}" for name in new if not may(name)][:3]
     for name in new:
         if may(name):
-            found += _broken(result.yard.folder / name)
+            found += _broken(result.workdir.folder / name)
     return found
 
 

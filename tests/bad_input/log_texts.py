@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 
 from tests.bad_input.fits import true_values
 from tests.bad_input.row import Make, Outcome, Row, row
-from tests.bad_input.yard import Yard, csv_text
+from tests.bad_input.workdir import Workdir, csv_text
 
 FIT = "fit two-link bad.csv --out f.json"
 FIT_PARQUET = "fit two-link bad.parquet --out f.json"
@@ -19,11 +19,11 @@ FIT_PARQUET = "fit two-link bad.parquet --out f.json"
 def texts(what: str, outcome: Outcome, change: object, *words: str) -> Row:
     """A row of a CSV file whose text is changed: by a function, or by (old, new)."""
 
-    def make(yard: Yard) -> None:
-        text = csv_text(yard.ground.log("a.csv"))
+    def make(workdir: Workdir) -> None:
+        text = csv_text(workdir.inputs.log("a.csv"))
         new = text.replace(*change, 1) if isinstance(change, tuple) else change(text)  # type: ignore
         assert new != text, what
-        yard.write("bad.csv", new)
+        workdir.write("bad.csv", new)
 
     check = true_values if outcome == "works" else None
     return row(f"csv: {what}", outcome, FIT, *words, make=make, check=check)
@@ -36,14 +36,10 @@ def _line(text: str, number: int, new: str) -> str:
 
 
 CSV = [
-    texts("semicolons", "told", lambda t: t.replace(",", ";"), "read with ; between"),
     texts("semicolons and decimal commas", "told",
           lambda t: t.replace(",", ";").replace(".", ","), "; between", "decimal commas"),
     texts("tabs", "told", lambda t: t.replace(",", "\t"), "read with tabs between"),
-    texts("spaces", "told", lambda t: t.replace(",", " "), "read with blanks between"),
-    texts("bars", "told", lambda t: t.replace(",", "|"), "read with | between"),
     texts("decimal commas between commas", "refused", lambda t: t.replace(".", ","), "bad.csv"),
-    texts("a comment first", "told", lambda t: "# run 1\n" + t, "1 line before the names"),
     texts("units in a second row", "told", ("\n", "\ns,rad,rad,rad,rad,Nm,Nm\n"),
           "units in line 2"),
     texts("no header", "refused", lambda t: t.partition("\n")[2], "bad.csv", "time"),
@@ -53,42 +49,28 @@ CSV = [
     texts("UTF-16", "told", lambda t: t.encode("utf-16"), "in utf-16"),
     texts("Latin-1 header", "told", lambda t: t.replace("qc2", "Größe").encode("latin-1"),
           "in latin-1"),
-    texts("a name more than columns", "refused", ("tau2", "x,tau2"), "row 1", "8 columns"),
-    texts("a quote that is not closed above the rows", "refused", ("time", '"time'), "quote"),
     texts("random bytes", "refused", lambda t: bytes(range(256)) * 20, "bad.csv"),
     texts("NUL bytes in a row", "refused", lambda t: _line(t, 50, "0.245,\0,0,0,0,1,1"), "bad.csv"),
     texts("a row short", "refused", lambda t: _line(t, 50, "0.245,0,0"), "bad.csv", "50|51"),
-    texts("a row long", "refused", lambda t: _line(t, 50, "0.245,0,0,0,0,0,0,0"), "bad.csv",
-        "50|51"),
     texts("an open quote", "refused", lambda t: _line(t, 50, '"0.245,0,0,0,0,1,1'), "row 50",
           "quote"),
     texts("a quote opened in the header", "refused", lambda t: '"' + t, "quote", "not closed"),
     texts("a torque of 1e300", "refused", lambda t: _line(t, 50, "0.245,0,0,0,0,1e300,1"), "tau1",
           "row 50", "1e+300"),
-    texts("text in a torque", "refused", lambda t: _line(t, 50, "0.245,0,0,0,0,high,1"),
-          "bad.csv", "tau1", "row 50", "high"),
     texts("ERR in a position", "refused", lambda t: _line(t, 50, "0.245,ERR,0,0,0,1,1"),
           "q1", "row 50", "ERR"),
-    texts("header twice only", "told", ("\n", "\ntime,q1,q2,qc1,qc2,tau1,tau2\n"), "1 line before"),
     texts("a column twice", "refused", ("qc2", "q2"), "q2", "2 times", "columns 3, 5"),
-    texts("time twice", "refused", ("qc2", "time"), "bad.csv", "time", "twice|2 times"),
-    texts("Time in capitals", "refused", ("time", "Time"), "bad.csv", "time", "Time"),
-    texts("t for time", "refused", ("time", "t"), "bad.csv", "time"),
     texts("time [s]", "refused", ("time", "time [s]"), "bad.csv", "time"),
-    texts("Q1 for q1", "refused", ("q1", "Q1"), "bad.csv", "q1", "Q1"),
-    texts("q_1 for q1", "refused", ("q1", "q_1"), "bad.csv", "q1", "q_1"),
     texts("q0, q1 for q1, q2", "refused", ("q1,q2", "q0,q1"), "bad.csv", "q2"),
     texts("torque1 for tau1", "refused", ("tau1", "torque1"), "bad.csv", "tau1", "joint 1"),
     texts("current without gain", "refused", ("tau1", "current1"), "current1", "drive_gains"),
     texts("an unnamed column", "works", lambda t: "\n".join(
         line + "," for line in t.rstrip("\n").split("\n")) + "\n"),
     texts("spaces after the commas", "works", ("time,q1,q2", "time, q1, q2")),
-    texts("names in quotes", "works", ("time,q1", '"time","q1"')),
     texts("line ends of Windows", "works", lambda t: t.replace("\n", "\r\n")),
     texts("line ends of old Macs", "works", lambda t: t.replace("\n", "\r")),
     texts("byte order mark", "works", lambda t: "\ufeff" + t),
     texts("blank lines between", "works", lambda t: t.replace("\n", "\n\n")),
-    texts("no end of the last line", "works", lambda t: t.rstrip("\n")),
     texts("NaN as nan", "works", lambda t: "\n".join(
         line.rpartition(",")[0] + ",nan" if k == 50 else line
         for k, line in enumerate(t.split("\n")))),
@@ -105,43 +87,35 @@ FILES = [
     row("log file: one column for two joints", "refused",
         "fit two-link a.csv --map q1=q1 --map q2=q1 --out f.json", "taken as q1 and as q2"),
     row("log file: a pipe", "refused", "fit two-link x.csv --out f.json", "x.csv", "pipe",
-        make=lambda y: os.mkfifo(y.path("x.csv"))),
-    row("log file: none", "refused", "fit two-link nowhere.csv --out f.json", "nowhere.csv"),
-    row("log file: a folder", "refused", "fit two-link c_code --out f.json", "c_code"),
+        make=lambda w: os.mkfifo(w.path("x.csv"))),
     row("log file: a folder called like a log", "refused", "fit two-link x.csv --out f.json",
-        "x.csv", "folder", make=lambda y: y.path("x.csv").mkdir()),
+        "x.csv", "folder", make=lambda w: w.path("x.csv").mkdir()),
     row("log file: Excel", "refused", "fit two-link a.xlsx --out f.json", "a.xlsx", "spreadsheet",
-        make=lambda y: y.write("a.xlsx", b"PK\x03\x04rest")),
+        make=lambda w: w.write("a.xlsx", b"PK\x03\x04rest")),
     row("log file: no suffix", "refused", "fit two-link run --out f.json", "run", ".csv",
-        make=lambda y: y.take("a.csv", "run")),
+        make=lambda w: w.take("a.csv", "run")),
     row("log file: .txt", "works", "fit two-link run.txt --out f.json", "run.txt",
-        make=lambda y: y.take("a.csv", "run.txt"), check=true_values),
-    row("log file: zipped", "refused", "fit two-link run.csv.gz --out f.json", "run.csv.gz", ".csv",
-        make=lambda y: y.write("run.csv.gz", b"\x1f\x8b")),
+        make=lambda w: w.take("a.csv", "run.txt"), check=true_values),
     row("log file: CSV called Parquet", "refused", "fit two-link run.parquet --out f.json",
-        "run.parquet", make=lambda y: y.take("a.csv", "run.parquet")),
-    row("log file: Parquet called CSV", "refused", "fit two-link run.csv --out f.json", "run.csv",
-        make=lambda y: y.take("c.parquet", "run.csv")),
-    row("log file: a robot file", "refused", "fit two-link two-link.toml --out f.json",
-        "two-link.toml", make=lambda y: y.write("two-link.toml", "name = 'a'")),
+        "run.parquet", make=lambda w: w.take("a.csv", "run.parquet")),
     row("log file: a model file", "refused", "fit two-link m.json --out f.json", "m.json", ".csv"),
     row("log file: of another robot", "refused", "fit two-link e.csv --out f.json", "e.csv", "q2"),
     row("log file: of a robot with more joints", "told", "fit two-link d.csv --out f.json", "3"),
     row("log file: suffix in capitals", "works", "fit two-link A.CSV --out f.json", "A.CSV",
-        make=lambda y: y.take("a.csv", "A.CSV"), check=true_values),
+        make=lambda w: w.take("a.csv", "A.CSV"), check=true_values),
     row("log file: name with spaces and @", "works",
         ("fit", "two-link", "run @ 5 Hz.csv", "--out", "f.json"), "run @ 5 Hz.csv",
-        make=lambda y: y.take("a.csv", "run @ 5 Hz.csv"), check=true_values),
+        make=lambda w: w.take("a.csv", "run @ 5 Hz.csv"), check=true_values),
     row("log file: a link", "works", "fit two-link link.csv --out f.json",
-        make=lambda y: y.path("link.csv").symlink_to(y.take("a.csv", "real.csv")),
+        make=lambda w: w.path("link.csv").symlink_to(w.take("a.csv", "real.csv")),
         check=true_values),
 ]  # fmt: skip
 
 
 def _parquet(change: object) -> Make:
-    def make(yard: Yard) -> None:
-        table = pa.table(yard.ground.log("a.csv"))
-        pq.write_table(change(table), yard.path("bad.parquet"))  # type: ignore
+    def make(workdir: Workdir) -> None:
+        table = pa.table(workdir.inputs.log("a.csv"))
+        pq.write_table(change(table), workdir.path("bad.parquet"))  # type: ignore
 
     return make
 
@@ -167,59 +141,35 @@ def _row_parquet(what: str, outcome: Outcome, make: Make, *words: str) -> Row:
     return row(f"parquet: {what}", outcome, FIT_PARQUET, *words, make=make, check=check)
 
 
-def _cut(yard: Yard) -> None:
-    yard.write("bad.parquet", (yard.ground.folder / "c.parquet").read_bytes()[:5000])
-
-
-def _holed(yard: Yard) -> None:
-    data = bytearray((yard.ground.folder / "c.parquet").read_bytes())
+def _holed(workdir: Workdir) -> None:
+    data = bytearray((workdir.inputs.folder / "c.parquet").read_bytes())
     data[2000:4000] = bytes(2000)
-    yard.write("bad.parquet", bytes(data))
+    workdir.write("bad.parquet", bytes(data))
 
 
 PARQUET = [
-    _row_parquet("empty file", "refused", lambda y: y.write("bad.parquet", b""), "bad.parquet"),
+    _row_parquet("empty file", "refused", lambda w: w.write("bad.parquet", b""), "bad.parquet"),
     _row_parquet("random bytes", "refused",
-                 lambda y: y.write("bad.parquet", b"PAR1" + bytes(range(256)) + b"PAR1"),
+                 lambda w: w.write("bad.parquet", b"PAR1" + bytes(range(256)) + b"PAR1"),
                  "bad.parquet"),
-    _row_parquet("cut off", "refused", _cut, "bad.parquet"),
     _row_parquet("zeros in its middle", "refused", _holed, "bad.parquet"),
     _row_parquet("no rows", "refused", _parquet(lambda t: t.slice(0, 0)), "bad.parquet", "row"),
-    _row_parquet("no columns", "refused", _parquet(lambda t: t.select([])), "bad.parquet"),
     _row_parquet("time as dates", "works", _put("time", _days)),
     _row_parquet("time as text", "refused", _put("time", lambda v: pa.array(map(str, v))), "time"),
-    _row_parquet("torque as text", "refused", _put("tau1", lambda v: pa.array(["x"] * len(v))),
-                 "tau1"),
     _row_parquet("position as lists", "refused",
                  _put("q1", lambda v: pa.array([[float(x)] for x in v])), "q1[1]"),
-    _row_parquet("position as structures", "refused",
-                 _put("q1", lambda v: pa.array([{"x": float(x)} for x in v])), "q1"),
-    _row_parquet("position as truths", "refused", _put("q1", lambda v: pa.array(v > 0)), "q1"),
-    _row_parquet("position as bytes", "refused",
-                 _put("q1", lambda v: pa.array([b"1"] * len(v))), "q1"),
     _row_parquet("position of nothing", "refused", _put("q1", lambda v: pa.nulls(len(v))), "q1"),
-    _row_parquet("two columns of one name", "refused",
-                 _parquet(lambda t: t.rename_columns(["time", "q1", "q2", "q1", "qc2", "tau1",
-                                                      "tau2"])), "q1", "twice|2 times"),
-    _row_parquet("position complex as fixed bytes", "refused",
-                 _put("q1", lambda v: pa.array([b"12345678"] * len(v), pa.binary(8))), "q1"),
     _row_parquet("single precision", "works",
                  _put("q1", lambda v: pa.array(v.astype(np.float32)))),
-    _row_parquet("time in single precision", "works",
-                 _put("time", lambda v: pa.array(v.astype(np.float32)))),
     _row_parquet("dictionary encoded", "works",
                  _put("tau1", lambda v: pa.array(v).dictionary_encode())),
     _row_parquet("decimals", "works",
                  _put("tau2", lambda v: pa.array([decimal.Decimal(f"{x:.6f}") for x in v]))),
-    _row_parquet("numbers as text", "ends",
-                 _put("tau1", lambda v: pa.array([str(x) for x in v])), "tau1"),
     _row_parquet("time as durations", "ends",
                  _put("time", lambda v: pa.array((v * 1e9).astype("timedelta64[ns]"))),
                  "Valid for torque prediction"),
     _row_parquet("integer microseconds for time", "told",
                  _put("time", lambda v: pa.array((v * 1e6).astype(np.int64))), "second"),
-    _row_parquet("nulls for NaN", "works",
-                 _put("tau1", lambda v: pa.array(v, mask=np.arange(len(v)) == 50))),
     _row_parquet("columns in another order", "works",
                  _parquet(lambda t: t.select(sorted(t.column_names)))),
     _row_parquet("a column of lists more", "ends",

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tests.bad_input.row import Outcome, Row, row
-from tests.bad_input.yard import Yard
+from tests.bad_input.workdir import Workdir
 
 Raw = dict[str, Any]
 COMPARE = "compare bad.json b.csv --json c.json"
@@ -17,8 +17,8 @@ def model(
 ) -> Row:  # fmt: skip
     """A row of a model file that is edited in place, or replaced by the text that `edit` gives."""
 
-    def make(yard: Yard) -> None:
-        yard.model("bad.json", edit, of)
+    def make(workdir: Workdir) -> None:
+        workdir.model("bad.json", edit, of)
 
     return row(f"model: {what}", outcome, run, *words, make=make)
 
@@ -58,20 +58,12 @@ CHANGED = "changed|damaged|checksum"
 DAMAGED = [
     model("empty", "refused", lambda r: "", "bad.json", "not a model|empty"),
     model("cut off", "refused", text(lambda t: t[: len(t) // 2]), "bad.json", "cut off"),
-    model("last brace lost", "refused", text(lambda t: t.rstrip()[:-1]), "bad.json", "cut off"),
-    model("text after it", "refused", text(lambda t: t + "x"), "bad.json"),
     model("random bytes", "refused", lambda r: bytes(range(256)), "bad.json"),
-    model("UTF-16", "refused", text(lambda t: t.encode("utf-16")), "bad.json"),
-    model("zeros in its middle", "refused",
-          text(lambda t: t.encode()[:3000] + bytes(500) + t.encode()[3500:]), "bad.json"),
     model("a list", "refused", lambda r: "[]", "bad.json", "not a model file"),
-    model("a manifest", "refused", lambda r: json.dumps(r["manifest"]), "not a model file"),
-    model("nested 1e5 deep", "refused", lambda r: "[" * 100000 + "]" * 100000, "bad.json"),
     model("an integer of 10000 digits", "refused",
           text(lambda t: t.replace('"format": 2', f'"format": {"9" * 10000}', 1)), "bad.json"),
     model("a key twice", "ends", text(lambda t: t.replace('"format"', '"kind": "x",\n"format"', 1)),
           "bad.json"),
-    model("NaN among its numbers", "refused", set_at(*VALUE, to=float("nan")), "bad.json"),
     model("a lone surrogate", "ends", text(lambda t: t.replace("two-link", "\\ud800", 1)), ""),
     model("a robot file", "told", lambda r: r["robot_text"], "values that the robot file"),
     row("model: a log", "refused", "compare a.csv b.csv", "a.csv", "not a model file"),
@@ -89,8 +81,6 @@ GENERATE = "generate bad.json --out c"
 
 EMITTED = [
     row("model: its C", "works", "generate m.json --out c"),
-    model("its C, a value that was changed", "refused", set_at(*VALUE, to=9.0), CHANGED,
-          run=GENERATE),
     model("its C, cut off", "refused", text(lambda t: t[: len(t) // 2]), "bad.json", run=GENERATE),
     model("its C, of another robot text", "refused",
           set_at("robot_text", to=lambda t: t.replace("9.81", "1.62")), CHANGED, run=GENERATE),
@@ -100,45 +90,24 @@ EMITTED = [
 ]  # fmt: skip
 
 EDITED = [
-    model("kind", "refused", set_at("kind", to="modeler fit"), "bad.json", "not a model file"),
     model("format 1", "refused", set_at("format", to=1), "bad.json", "format 1"),
     model("format 99", "refused", set_at("format", to=99), "bad.json", "format 99"),
-    model("format a text", "refused", set_at("format", to="2"), "bad.json", "format"),
     model("signature", "refused", set_at("signature", to="0" * 16), "bad.json", CHANGED),
     model("a value 1 % larger", "refused", set_at(*VALUE, to=lambda v: 1.01 * v), "bad.json",
         CHANGED),
     model("a sigma null", "ends", set_at("fit", "parameters", 0, "sigma", to=None),
         "bad.json|error"),
-    model("parameters missing", "refused", gone("fit", "parameters"), "bad.json"),
     model("a parameter missing", "refused", gone("fit", "parameters", 3), "bad.json",
         "10 base|changed"),
-    model("two parameters exchanged", "refused", lambda r: r["fit"]["parameters"].reverse(),
-          "bad.json"),
     model("fit missing", "refused", gone("fit"), "bad.json", "fit"),
-    model("covariance missing", "refused", gone("covariance"), "bad.json", "covariance"),
-    model("covariance a row short", "refused", lambda r: r["covariance"].pop(), "bad.json"),
-    model("covariance not symmetric", "refused", set_at("covariance", 0, 1, to=1.0), "bad.json"),
     model("covariance not a number", "refused", set_at("covariance", 0, 0, to=float("nan")),
           "bad.json"),
-    model("logs missing", "refused", gone("logs"), "bad.json", "logs"),
-    model("a log's name", "refused", set_at("logs", 0, "name", to="other.csv"), CHANGED),
-    model("robot text missing", "refused", gone("robot_text"), "bad.json", "robot_text"),
-    model("robot text of another robot", "refused",
-          lambda r: r.update(robot_text=r["robot_text"].replace("two-link", "three-link")),
-          CHANGED),
     model("robot text with another length", "refused",
           lambda r: r.update(robot_text=r["robot_text"].replace("L1 = 0.40", "L1 = 0.80")),
           CHANGED),
-    model("manifest missing", "refused", gone("manifest"), "bad.json", "manifest"),
-    model("manifest of a length", "refused", set_at("manifest", "symbols", 1, "value", to=0.8),
-          "bad.json", CHANGED),
-    model("sources missing", "refused", gone("sources"), "bad.json", "sources"),
     model("sources that climb out of the folder", "refused",
           set_at("sources", to=lambda s: {**s, "../../evil.c": "int x;"}), "bad.json",
           run=COMPARE + " --run-embedded-c"),
-    model("history a text", "refused", set_at("history", to="x"), "bad.json"),
-    model("processing missing", "refused", gone("fit", "processing"), "bad.json"),
-    model("an entry more", "refused", set_at("comment", to="mine"), "bad.json", CHANGED),
     model("saved anew with other spaces", "works", lambda r: json.dumps(r, indent=4)),
     model("saved anew with keys sorted", "ends", lambda r: json.dumps(r, sort_keys=True),
           "error|checksum"),

@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from tests.bad_input.yard import Yard
+from tests.bad_input.workdir import Workdir
 
 Outcome = Literal["refused", "told", "works", "ends"]
 """refused: status 1 or 2 and one clear line; told: done, and the doubt is named; works: as if
 nothing were odd; ends: refused or works, where only a size decides which."""
 
-Make = Callable[[Yard], object]
+Make = Callable[[Workdir], object]
 
 
 @dataclass(frozen=True)
@@ -23,14 +23,14 @@ class Result:
         status: exit status; of a call from Python 1 for a `ModelerError`, 0 for none.
         out, err: what was printed; of a call from Python, err is the message.
         broke: what else came out: a traceback, a warning, a hang; "" for nothing.
-        yard: where it ran.
+        workdir: where it ran.
     """
 
     status: int
     out: str
     err: str
     broke: str
-    yard: Yard
+    workdir: Workdir
 
 
 @dataclass(frozen=True)
@@ -66,20 +66,22 @@ class Row:
         run: the words of the command in the folder where `make` was, or a function for Python.
         outcome: what must come of it.
         words: pieces that the line or the output must hold, any case; "a|b" is either.
-        make: makes the input in the yard.
+        make: makes the input in the workdir.
         check: of what was written; an assertion says what is wrong.
         process: run in a process of its own; None: in this one.
         beside: files besides those that the command names as outputs that it may write.
+        alone: it runs code that no other test runs, so that it never rests.
     """
 
     id: str
-    run: tuple[str, ...] | Callable[[Yard], object]
+    run: tuple[str, ...] | Callable[[Workdir], object]
     outcome: Outcome
     words: tuple[str, ...] = ()
     make: Make | None = None
     check: Callable[[Result], None] | None = None
     process: Process | None = None
     beside: tuple[str, ...] = ()
+    alone: bool = False
 
     @property
     def theme(self) -> str:
@@ -98,7 +100,8 @@ def split(command: str | tuple[str, ...]) -> tuple[str, ...]:
 
 
 def row(
-    id: str, outcome: Outcome, run: str | tuple[str, ...] | Callable[[Yard], object], *words: str,
+    id: str, outcome: Outcome, run: str | tuple[str, ...] | Callable[[Workdir], object],
+    *words: str,
     make: Make | None = None, **more: object,
 ) -> Row:  # fmt: skip
     """A row; the command as one text."""

@@ -1,7 +1,8 @@
-"""`modeler fit --method tls` as a user types it: the cases of Briot and Gautier 2012, mistakes."""
+"""`modeler fit --method tls` as a user types it; the paper itself: `reproduce briot-2012`."""
 
 import json
 import re
+from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
@@ -11,148 +12,47 @@ import pytest
 from modeler.cli import main
 from modeler.core.builtin import builtin_text
 from modeler.estimation.model_file import load_model
-
-GAINS = {"11": 2110.0, "12": 2130.0, "13": 2070.0}
-MAKER = "\n[drive_gains]\n" + "".join(f"{joint} = 2001\n" for joint in GAINS)
-TYPED = [word for j, g in GAINS.items() for word in ("--drive-gain", f"{j}={g:g}")]
+from tests.cli.running import answer, complaint, run
 
 
-def paper_text() -> str:
-    """The robot with parameters of the size of Table 3; bars are slender, other links small."""
-    values = {"M6": 0.65}
-    motors = ((83.0, 34.5, 1.0, 7.2), (87.5, 43.0, 0.5, 7.9), (84.1, 24.4, 0.5, 7.93))
-    for leg, (viscous, dry, mass, rotor) in enumerate(motors, start=1):
-        values |= {f"Fv1{leg}": viscous, f"Fs1{leg}": dry, f"Ia1{leg}": rotor}
-        for j in (2, 3, 4, 5):
-            values |= {f"Ia{j}{leg}": 0.001, f"Fv{j}{leg}": 1.5, f"Fs{j}{leg}": 0.7}
-        for j, m, centre, gyration in (
-            (1, mass, 0.0, 0.05), (2, 0.05, 0.0, 0.02), (3, 0.25, 0.155, 0.1),
-            (4, 0.05, 0.0, 0.02), (5, 0.05, 0.0, 0.02),
-        ):  # fmt: skip
-            inertia = m * (centre**2 + gyration**2)
-            values |= {f"{p}{j}{leg}": 0.0 for p in ("XY", "XZ", "YZ", "MY", "MZ")}
-            values |= {f"M{j}{leg}": m, f"MX{j}{leg}": m * centre, f"XX{j}{leg}": 4e-4 * m}
-            values |= {f"YY{j}{leg}": inertia, f"ZZ{j}{leg}": inertia}
-    lines = "".join(f"{name} = {value!r}\n" for name, value in values.items())
-    return f"{builtin_text('orthoglide-2012')}\n[parameters]\n{lines}"
-
-
-def modeler(*words: object) -> int:
-    return main([str(word) for word in words])
-
-
-@pytest.fixture(scope="module")
-def cell(tmp_path_factory):
-    """Logs of currents of the Orthoglide: bare, with 1.983 kg, with 1.136 kg."""
-    folder = tmp_path_factory.mktemp("orthoglide")
-    (folder / "unknown.toml").write_text(paper_text())
-    (folder / "maker.toml").write_text(paper_text() + MAKER)
-    motion = ("--duration", 10, "--rate", 250, "--noise", 0.02)
-    for seed, (name, hidden) in enumerate(
-        {"bare": (), "loaded": ("--hide", "payload:mass=1.983"),
-         "second": ("--hide", "payload:mass=1.136")}.items(), start=1,
-    ):  # fmt: skip
-        out = folder / f"{name}.parquet"
-        words = ("simulate", folder / "unknown.toml", *motion, "--seed", seed, *hidden, *TYPED)
-        assert modeler(*words, "--out", out) == 0
-    assert {f"current{j}" for j in GAINS} <= set(
-        pq.read_table(folder / "bare.parquet").column_names
-    )
-    words = ("fit", folder / "maker.toml", folder / "bare.parquet", *load(folder, "loaded", 1.983),
-             "--method", "tls", "--out", folder / "model.json", "--json", folder / "fit.json",
-             "--robot-out", folder / "found.toml")  # fmt: skip
-    assert modeler(*words) == 0
-    return folder
-
-
-def load(folder, name, mass=None):
+def loaded_log(folder, name, mass=None):
     words = ("--payload-log", folder / f"{name}.parquet")
     return words if mass is None else (*words, "--payload-mass", mass)
 
 
-@pytest.mark.slow
-def test_the_gains_of_table_3_come_out_within_a_percent(cell):
-    fit = json.loads((cell / "fit.json").read_text())
-    found = {entry["name"]: entry for entry in fit["gains"]}
-    for joint, gain in GAINS.items():
-        entry = found[f"g_tau{joint}"]
-        assert entry["value"] == pytest.approx(gain, rel=0.01)
-        assert abs(entry["value"] - gain) < 4.0 * entry["sigma"]
-        assert entry["relative_sigma_percent"] < 1.0 and entry["unit"] == "N/unit"
-    assert fit["method"] == "tls" and fit["singular_values"][-2] > 5.0
-    told = next(line for line in fit["sentences"] if line.startswith("against the robot file"))
-    assert all(f"joint {joint} 2" in told and "% above 2001" in told for joint in GAINS)
+def weighed(capsys, folder: Path, robot: object, name: str) -> dict[str, float]:
+    """Parameters of the load of that log as a fit with the gains of that robot weighs it."""
+    words = ("fit", robot, folder / "bare.parquet", *loaded_log(folder, name))
+    place = folder / "weighed.json"
+    assert run(capsys, *words, "--out", folder / "w.json", "--json", place)[0] == 0
+    return {entry["name"]: entry["value"] for entry in json.loads(place.read_text())["loads"]}
 
 
-@pytest.mark.parametrize(("robot", "low", "high"), [("maker", 1.07, 1.12), ("found", 1.12, 1.155)])
-def test_a_second_load_weighs_right_with_the_gains_that_were_found(
-    cell, tmp_path, robot, low, high
-):
-    """The paper: 1.136 kg is found as 1.09 +- 0.01 (case 1, maker's) and 1.14 +- 0.01 (case 2)."""
-    words = ("fit", cell / f"{robot}.toml", cell / "bare.parquet", *load(cell, "second"))
-    assert modeler(*words, "--out", tmp_path / "m.json", "--json", tmp_path / "f.json") == 0
-    (weight,) = json.loads((tmp_path / "f.json").read_text())["loads"]
-    assert weight["name"] == "M6_load" and low < weight["value"] < high
-
-
-def test_the_model_file_reads_currents_with_the_gains_that_were_found(cell, capsys):
-    model = load_model(cell / "model.json")
-    assert [p.name for p in model.fit.gains] == [f"g_tau{j}" for j in GAINS]
-    for joint, found in zip(model.spec.joints, model.fit.gains, strict=True):
-        assert joint.drive_gain == pytest.approx(found.value, rel=1e-6)
-        assert joint.drive_gain != 2001.0
-    assert modeler("compare", cell / "model.json", cell / "bare.parquet") == 0
-    errors = re.findall(r"^1[123] +([\d.]+) %", capsys.readouterr().out, re.MULTILINE)
-    assert len(errors) == 3 and all(float(error) < 1.0 for error in errors)
-
-
-def test_a_log_with_a_known_load_is_predicted_with_it(cell, tmp_path, capsys):
-    """Figure 3 of the paper: 1.136 kg, which no fit has seen."""
-    place, drawn = tmp_path / "c.json", tmp_path / "p.json"
-    words = ("compare", cell / "model.json", cell / "second.parquet", "--json", place)
-    assert modeler(*words) == 0
-    bare = json.loads(place.read_text())["joints"]
-    capsys.readouterr()
-    assert modeler(*words, "--payload-mass", 1.136, "--picture", drawn) == 0
-    loaded = json.loads(place.read_text())["joints"]
-    assert all(loaded[j]["relative_error"] < 0.04 for j in GAINS)
-    assert all(loaded[j]["rms"] < 0.7 * bare[j]["rms"] for j in GAINS)
-    assert loaded["13"]["rms"] < 0.25 * bare["13"]["rms"]  # along gravity
-    told = capsys.readouterr().out
-    assert "with 1.136 kg  without the load" in told and "beyond doubt" in told
-    names = {picture["name"] for picture in json.loads(drawn.read_text())["pictures"]}
-    assert {f"joint_{j}_models" for j in GAINS} < names
-
-
-@pytest.mark.parametrize(
-    ("words", "told"),
-    [
-        (("--payload-link", "6"), "--payload-link: no load; add --payload-mass KG"),
-        (("--payload-centre", "0,0,0"), "--payload-centre: no load; add --payload-mass KG"),
-        (("--payload-mass", "1", "--payload-centre", "1,a"), "expected x, y and z in m"),
-        (("--payload-mass", "1", "--payload-link", "99"), "payload: no link 99"),
-        (("--payload-mass", "-1"), "expected a mass above 0"),
-    ],
-)
-def test_a_load_that_makes_no_sense_is_refused(cell, capsys, words, told):
-    assert modeler("compare", cell / "model.json", cell / "second.parquet", *words) == 1
-    assert told in capsys.readouterr().err
+ARM_MAKER = "\n[drive_gains]\n" + "".join(f"{joint} = 1.9\n" for joint in "123")
 
 
 @pytest.fixture(scope="module")
 def arm(tmp_path_factory):
-    """Short logs of an arm: currents bare and loaded, and torques."""
+    """Short logs of an arm: currents bare and loaded, and torques; the model of a fit of gains."""
     folder = tmp_path_factory.mktemp("arm")
     drives = [word for j in "123" for word in ("--drive-gain", f"{j}=2")]
     for name, words in {
-        "bare": drives, "loaded": [*drives, "--hide", "payload:mass=2"], "torque": [],
+        "bare": drives, "loaded": [*drives, "--hide", "payload:mass=2"],
+        "second": [*drives, "--hide", "payload:mass=1.2,x=0.3,y=0,z=0"], "torque": [],
     }.items():  # fmt: skip
         out = folder / f"{name}.parquet"
         motion = ("--duration", 8, "--rate", 200, "--seed", len(name))
-        assert modeler("simulate", "demo-arm", *motion, *words, "--out", out) == 0
+        words = ("simulate", "demo-arm", *motion, *words, "--out", out)
+        assert main([str(word) for word in words]) == 0
     changed(folder, "nan", current2=lambda v: np.full_like(v, np.nan))
     changed(folder, "dead", current2=np.zeros_like)
     changed(folder, "holes", current2=lambda v: np.where(np.arange(len(v)) % 50, v, np.nan))
+    (folder / "copy.parquet").write_bytes((folder / "bare.parquet").read_bytes())
+    (folder / "maker.toml").write_text(builtin_text("demo-arm") + ARM_MAKER)
+    words = ("fit", folder / "maker.toml", folder / "bare.parquet", *loaded_log(folder, "holes", 2),
+             "--method", "tls", "--out", folder / "model.json", "--json", folder / "fit.json",
+             "--robot-out", folder / "found.toml")  # fmt: skip
+    assert main([str(word) for word in words]) == 0
     return folder
 
 
@@ -162,6 +62,54 @@ def changed(folder, name, **columns):
         values = change(table[column].to_numpy())
         table = table.set_column(table.column_names.index(column), column, pa.array(values))
     pq.write_table(table, folder / f"{name}.parquet")
+
+
+def test_gains_are_found_and_weigh_a_second_load(arm, capsys):
+    """Missing values do no harm; the model and the robot that are written have the gains."""
+    gains = json.loads((arm / "fit.json").read_text())["gains"]
+    assert [entry["name"] for entry in gains] == ["g_tau1", "g_tau2", "g_tau3"]
+    for entry in gains:
+        assert abs(entry["value"] - 2.0) < 5.0 * entry["sigma"] < 0.2
+    model = load_model(arm / "model.json")
+    for joint, found in zip(model.spec.joints, model.fit.gains, strict=True):
+        assert joint.drive_gain == pytest.approx(found.value, rel=1e-6)
+    for robot, gain in (("found", 2.0), ("maker", 1.9)):  # the load is 1.2 kg, 0.3 m away
+        load = weighed(capsys, arm, arm / f"{robot}.toml", "second")
+        assert load["MX3_load"] == pytest.approx(1.2 * 0.3 * gain / 2.0, rel=0.02)
+    out = answer(capsys, "compare", arm / "model.json", arm / "bare.parquet")
+    errors = re.findall(r"^[123] +([\d.]+) %", out, re.MULTILINE)
+    assert len(errors) == 3 and all(float(error) < 1.0 for error in errors)
+
+
+def test_a_log_with_a_known_load_is_predicted_with_it(arm, tmp_path, capsys):
+    """Figure 3 of the paper, with a load that no fit has seen."""
+    place, drawn = tmp_path / "c.json", tmp_path / "p.json"
+    words = ("compare", arm / "model.json", arm / "second.parquet", "--json", place)
+    carried = ("--payload-mass", 1.2, "--payload-centre", "0.3,0,0")
+    assert run(capsys, *words)[0] == 0
+    bare = json.loads(place.read_text())["joints"]
+    told = answer(capsys, *words, *carried, "--picture", drawn)
+    loaded = json.loads(place.read_text())["joints"]
+    assert all(loaded[j]["relative_error"] < 0.02 for j in loaded)
+    assert loaded["2"]["rms"] < 0.25 * bare["2"]["rms"]  # along gravity
+    assert "with 1.2 kg  without the load" in told and "beyond doubt" in told
+    names = {picture["name"] for picture in json.loads(drawn.read_text())["pictures"]}
+    assert {f"joint_{j}_models" for j in "123"} < names
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("--payload-link 3", "--payload-link: no load; add --payload-mass KG"),
+        ("--payload-centre 0,0,0", "--payload-centre: no load; add --payload-mass KG"),
+        ("--payload-mass 1 --payload-centre 1,a", "expected x, y and z in m"),
+        ("--payload-mass 1 --payload-link 99", "payload: no link 99"),
+        ("--payload-mass -1", "expected a mass above 0"),
+    ],
+)
+def test_a_load_that_makes_no_sense_is_refused(arm, capsys, words, told):
+    model = (arm / "model.json", arm / "second.parquet")
+    assert told in complaint(capsys, "compare", *model, *words.split())
 
 
 LOAD = "--payload-log loaded.parquet"
@@ -175,31 +123,16 @@ MISTAKES = {
     "--payload-log nan.parquet --payload-mass 2": "nan.parquet",
     "--payload-log dead.parquet --payload-mass 2": "no gap|sigma|joint 2",
     "--payload-moved": "--payload-moved: no loaded log; name it",
+    "--method weighted": "let `modeler fit --method tls` find it",
 }
 
 
 @pytest.mark.parametrize("words", MISTAKES)
 def test_a_mistake_is_one_line(arm, monkeypatch, capsys, words):
     monkeypatch.chdir(arm)
-    (arm / "copy.parquet").write_bytes((arm / "bare.parquet").read_bytes())
-    fit = ["fit", "demo-arm", "bare.parquet", "--method", "tls", "--out", "m.json"]
-    assert modeler(*fit, *words.split()) == 1
-    err = capsys.readouterr().err
-    assert re.search(MISTAKES[words], err) and err.count("\n") == 1, err
+    fit = ("fit", "demo-arm", "bare.parquet", "--method", "tls", "--out", "m.json")
+    assert re.search(MISTAKES[words], complaint(capsys, *fit, *words.split()))
     assert not (arm / "m.json").exists()
-
-
-def test_missing_values_do_no_harm(arm, tmp_path):
-    out = tmp_path / "f.json"
-    words = ("fit", "demo-arm", arm / "bare.parquet", *load(arm, "holes", 2), "--method", "tls")
-    assert modeler(*words, "--out", tmp_path / "m.json", "--json", out) == 0
-    for entry in json.loads(out.read_text())["gains"]:
-        assert abs(entry["value"] - 2.0) < 5.0 * entry["sigma"] < 0.2
-
-
-def test_torques_of_a_log_without_gains_say_how_to_find_them(arm, tmp_path, capsys):
-    assert modeler("fit", "demo-arm", arm / "bare.parquet", "--out", tmp_path / "m.json") == 1
-    assert "let `modeler fit --method tls` find it" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -214,12 +147,10 @@ def test_torques_of_a_log_without_gains_say_how_to_find_them(arm, tmp_path, caps
 )
 def test_a_gain_that_cannot_be_simulated(tmp_path, capsys, gain, words):
     out = tmp_path / "a.parquet"
-    assert modeler("simulate", "demo-arm", "--drive-gain", gain, "--out", out) == 1
-    err = capsys.readouterr().err
-    assert words in err and err.count("\n") == 1 and not out.exists()
+    assert words in complaint(capsys, "simulate", "demo-arm", "--drive-gain", gain, "--out", out)
+    assert not out.exists()
 
 
 def test_robot_out_is_refused_of_a_fit_that_ends_in_base_parameters(arm, tmp_path, capsys):
     words = ("fit", "demo-arm", arm / "torque.parquet", "--out", tmp_path / "m.json")
-    assert modeler(*words, "--robot-out", tmp_path / "r.toml") == 1
-    assert "--robot-out" in capsys.readouterr().err
+    assert "--robot-out" in complaint(capsys, *words, "--robot-out", tmp_path / "r.toml")

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from modeler.cli import main
+from tests.cli.running import answer, refusal
 
 
 @pytest.fixture(scope="module")
@@ -20,12 +21,10 @@ def slide(tmp_path_factory) -> Path:
 
 
 def test_text_json_and_pictures(capsys, slide: Path) -> None:
-    words = ["compare", str(slide / "m.json"), str(slide / "a.parquet"), "--free-run"]
-    words += ["--window", "0.5", "--report", str(slide / "f.html")]
-    capsys.readouterr()
-    assert main([*words, "--json", str(slide / "f.json"), "--picture", str(slide / "p")]) == 0
-    out, err = capsys.readouterr()
-    assert err == "" and out.startswith("emps: free run under the logged torques on a.parquet: 7")
+    words = "compare {0}/m.json {0}/a.parquet --free-run --window 0.5 --report {0}/f.html"
+    outputs = " --json {0}/f.json --picture {0}/p"
+    out = answer(capsys, *(words + outputs).format(slide).split())
+    assert out.startswith("emps: free run under the logged torques on a.parquet: 7")
     assert "integrated twice" in out and "written: 3 files in" in out
     page = (slide / "f.html").read_text()
     assert "emps: free run in windows of 0.5 s" in page and "Joint 1: measured and free" in page
@@ -52,14 +51,10 @@ def test_text_json_and_pictures(capsys, slide: Path) -> None:
     ],
 )
 def test_bad_input_is_one_line(capsys, slide: Path, words: str, told: str) -> None:
-    argv = ["compare", "--free-run", str(slide / "m.json"), str(slide / "a.parquet")]
-    argv += words.split()
-    assert main(argv) == 1
-    out, err = capsys.readouterr()
-    assert out == "" and err.startswith(f"modeler: {told}") and err.count("\n") == 1
+    run = ("compare", "--free-run", slide / "m.json", slide / "a.parquet")
+    assert refusal(capsys, *run, *words.split()).startswith(f"modeler: {told}")
 
 
 def test_a_log_given_twice_is_refused(capsys, slide: Path) -> None:
-    log = str(slide / "a.parquet")
-    assert main(["compare", "--free-run", str(slide / "m.json"), log, log]) == 1
-    assert "rows of" in capsys.readouterr().err
+    log = slide / "a.parquet"
+    assert "rows of" in refusal(capsys, "compare", "--free-run", slide / "m.json", log, log)

@@ -10,25 +10,18 @@ import numpy as np
 import pytest
 
 from modeler.api import derive, generate, load, recompile
-from modeler.cli import main
 from modeler.core.errors import ManifestError
 from modeler.estimation.model_file import Addition, fitted_spec, load_model, save_model
 from modeler.estimation.parameter import ParameterEstimate
 from modeler.estimation.result import Verdict
+from tests.cli.running import answer, complaint, refusal, run
 from tests.codegen.fitted_library import Functions
 
 
 @pytest.fixture(scope="module")
-def place(tmp_path_factory):
-    """A folder with the model of a fit."""
-    folder = tmp_path_factory.mktemp("generate")
-    log, model = folder / "log.parquet", folder / "arm.model.json"
-    for words in (
-        f"simulate two-link --duration 8 --rate 200 --out {log}",
-        f"fit two-link {log} --out {model}",
-    ):
-        assert main(words.split()) == 0
-    return model
+def place(two_link):
+    """The file of the model of a fit."""
+    return two_link / "m.json"
 
 
 @pytest.fixture(scope="module")
@@ -41,15 +34,9 @@ def changed(model, **more):
     return dataclasses.replace(model, fit=dataclasses.replace(model.fit, **more))
 
 
-def run(capsys, *words):
-    capsys.readouterr()
-    status = main([str(word) for word in words])
-    return status, *capsys.readouterr()
-
-
 def test_the_robot_after_its_model_leaves_no_fitted_files(place, capsys, tmp_path):
     """But an example that somebody edited, which is told."""
-    assert run(capsys, "generate", place, "--out", tmp_path)[0] == 0
+    answer(capsys, "generate", place, "--out", tmp_path)
     (tmp_path / "programs" / "example_computed_torque.c").write_text("mine")
     status, _, err = run(capsys, "generate", "two-link", "--out", tmp_path)
     assert status == 0 and len(err.splitlines()) == 1
@@ -62,9 +49,8 @@ def test_the_robot_after_its_model_leaves_no_fitted_files(place, capsys, tmp_pat
 
 
 def test_a_model_where_a_robot_is_expected_and_the_other_way(place, capsys, tmp_path):
-    log = place.parent / "log.parquet"
-    status, _, err = run(capsys, "fit", place, log, "--out", tmp_path / "m.json")
-    assert status == 1 and len(err.splitlines()) == 1
+    log = place.parent / "a.parquet"
+    err = complaint(capsys, "fit", place, log, "--out", tmp_path / "m.json")
     assert f"{place}: is a model file; expected a robot" in err
     file = tmp_path / "arm.toml"
     file.write_text(load("two-link").text)
@@ -72,14 +58,13 @@ def test_a_model_where_a_robot_is_expected_and_the_other_way(place, capsys, tmp_
         (file, f"is a robot; expected a model: make one with `modeler fit {file} "),
         ("two-link", "expected a model, which `modeler fit --out` writes, no robot"),
     ):
-        status, _, err = run(capsys, "diagnose", robot, log)
-        assert status == 1 and len(err.splitlines()) == 1
+        err = complaint(capsys, "diagnose", robot, log)
         assert f"{robot}: " in err and told in err
 
 
 def test_the_page_of_a_fit_names_a_file_with_a_blank(place, capsys, tmp_path):
     model, page = tmp_path / "my arm.json", tmp_path / "p.html"
-    words = ("fit", "two-link", place.parent / "log.parquet", "--out", model, "--report", page)
+    words = ("fit", "two-link", place.parent / "a.parquet", "--out", model, "--report", page)
     assert run(capsys, *words)[0] == 0
     commands = re.findall(r"modeler (?:compare|diagnose) [^<]*", html.unescape(page.read_text()))
     assert len(commands) >= 2
@@ -87,9 +72,8 @@ def test_the_page_of_a_fit_names_a_file_with_a_blank(place, capsys, tmp_path):
 
 
 def test_the_c_predicts_what_the_model_does(place, fitted, capsys, tmp_path):
-    status, out, err = run(capsys, "generate", place, "--out", tmp_path / "c",
-                           "--json", tmp_path / "c.json")  # fmt: skip
-    assert (status, err) == (0, "")
+    words = ("generate", place, "--out", tmp_path / "c", "--json", tmp_path / "c.json")
+    out = answer(capsys, *words)
     told = json.loads((tmp_path / "c.json").read_text())
     emitted = generate(fitted, tmp_path / "c")
     assert {name: (tmp_path / "c" / name).read_text() for name in told["files"]} == emitted.files
@@ -107,9 +91,8 @@ def test_the_c_predicts_what_the_model_does(place, fitted, capsys, tmp_path):
 
 
 def test_a_robot_has_no_values(capsys, tmp_path):
-    status, out, _ = run(capsys, "generate", "two-link", "--out", tmp_path / "c",
-                         "--json", tmp_path / "c.json")  # fmt: skip
-    assert status == 0 and "fitted" not in out
+    words = ("generate", "two-link", "--out", tmp_path / "c", "--json", tmp_path / "c.json")
+    assert "fitted" not in answer(capsys, *words)
     assert "fitted_signature" not in json.loads((tmp_path / "c.json").read_text())
     assert generate(derive(load("two-link"))).spec.fitted is None
 
@@ -168,13 +151,9 @@ def test_values_that_belong_to_another_robot_are_refused(fitted):
 def test_what_is_no_model_is_refused_in_one_line(place, capsys, tmp_path):
     (tmp_path / "log.json").write_text("{}")
     for words, told in (
-        (
-            (place, "--effects", "viscous"),
-            "a model, which has the effects that it was fitted with; leave --ef",
-        ),
+        ((place, "--effects", "viscous"), "a model, which has the effects that it was fitted with"),
         ((tmp_path / "log.json",), "JSON, but not a model file; expected the output of"),
         ((tmp_path / "none.json",), "cannot be read (No such file or directory); check the path"),
     ):
-        status, out, err = run(capsys, "generate", *words, "--out", tmp_path / "c")
-        assert (status, out, err.count("\n")) == (1, "", 1) and told in err
+        assert told in refusal(capsys, "generate", *words, "--out", tmp_path / "c")
     assert not (tmp_path / "c").exists()

@@ -10,9 +10,9 @@ import pytest
 from matplotlib.image import imread
 
 from modeler.api import home, load
-from modeler.cli import main
 from modeler.core.builtin import builtin_text
 from modeler.robot.read import read_robot
+from tests.cli.running import answer, refusal, run
 from tests.robot.par_files import par_text
 from tests.robot_texts import CRANK
 
@@ -27,20 +27,8 @@ def crank(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def answer(capsys: pytest.CaptureFixture[str], *words: str) -> str:
-    assert main(["home", *words]) == 0
-    return capsys.readouterr().out
-
-
-def refusal(capsys: pytest.CaptureFixture[str], *words: str) -> str:
-    assert main(["home", *words]) == 1
-    out, err = capsys.readouterr()
-    assert out == "" and err.startswith("modeler: ") and err.count("\n") == 1
-    return err
-
-
 def test_modes_are_told(crank, capsys) -> None:
-    out = answer(capsys, "crank.toml", "--json", "modes.json")
+    out = answer(capsys, "home", "crank.toml", "--json", "modes.json")
     assert out.startswith("crank: 2 assembly modes with q1 = 1.571 rad (90.0 deg)\n")
     assert "A   q2 = -1.861 rad (-106.6 deg), q3 = 0.3354 m\n" in out
     assert out.count("as [home] of the file") == 1
@@ -53,23 +41,25 @@ def test_modes_are_told(crank, capsys) -> None:
 
 
 def test_the_posture_may_be_said(crank, capsys) -> None:
-    out = answer(capsys, "crank.toml", "--near", "q1 = pi/4, q3=-0.2")
+    out = answer(capsys, "home", "crank.toml", "--near", "q1 = pi/4, q3=-0.2")
     assert "with q1 = 0.7854 rad (45.0 deg)" in out and "as [home] of the file" not in out
     assert "[home] of mode A" in out and "q3 = -0.2721" in out
-    assert "q1 = 1.571" not in answer(capsys, "crank.toml", "--anew")
+    assert "q1 = 1.571" not in answer(capsys, "home", "crank.toml", "--anew")
 
 
 @pytest.mark.parametrize("words", [("bare.toml",), ("bare.toml", "--mode", "b")], ids=" ".join)
 def test_a_mode_is_written_and_used(crank, capsys, words) -> None:
-    out = answer(capsys, *words, "--write")
+    out = answer(capsys, "home", *words, "--write")
     letter = words[-1].upper() if len(words) > 1 else "A"
     assert f"mode {letter} written into bare.toml as [home]" in out
     assert Path("bare.toml").read_text().startswith(BARE)
     assert set(read_robot("bare.toml").home) == {"1", "2", "3"}
-    assert main(["derive", "bare.toml"]) == 0
-    out = capsys.readouterr().out
+    out = answer(capsys, "derive", "bare.toml")
     assert "[home] found" not in out and "[home] completed" not in out
-    written, told = read_robot("bare.toml").home, answer(capsys, "bare.toml", "--json", "a.json")
+    written, told = (
+        read_robot("bare.toml").home,
+        answer(capsys, "home", "bare.toml", "--json", "a.json"),
+    )
     assert told.count("as [home] of the file") == 1
     assert json.loads(Path("a.json").read_text())["modes"][0]["home"] == pytest.approx(
         written, abs=1e-6
@@ -81,7 +71,7 @@ def test_the_file_stays_a_file_of_its_system(crank, capsys) -> None:
     """Line ends as they were; through a link, the file itself is written."""
     Path("bare.toml").write_bytes(BARE.replace("\n", "\r\n").encode())
     Path("link.toml").symlink_to("bare.toml")
-    answer(capsys, "link.toml", "--write")
+    answer(capsys, "home", "link.toml", "--write")
     written = Path("bare.toml").read_bytes()
     assert Path("link.toml").is_symlink() and written.count(b"\n") == written.count(b"\r\n")
     assert set(read_robot("bare.toml").home) == {"1", "2", "3"}
@@ -90,7 +80,7 @@ def test_the_file_stays_a_file_of_its_system(crank, capsys) -> None:
 @pytest.mark.parametrize("kind", ["html", "svg", "png", "pdf"])
 def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, kind) -> None:
     name = f"modes.{kind}"
-    assert f"written: {name}" in answer(capsys, "crank.toml", "--picture", name)
+    assert f"written: {name}" in answer(capsys, "home", "crank.toml", "--picture", name)
     if kind == "pdf":
         assert Path(name).read_bytes().startswith(b"%PDF")
     elif kind == "png":
@@ -109,10 +99,10 @@ def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, kind) ->
 def test_modes_stand_in_rows_of_four(crank, capsys, monkeypatch) -> None:
     modes = home(load("stewart"))  # which takes seconds
     monkeypatch.setattr("modeler.cli.home.home_modes", lambda *given: modes)
-    answer(capsys, "stewart", "--picture", "modes.svg")
+    answer(capsys, "home", "stewart", "--picture", "modes.svg")
     found = re.findall(r"<text [^>]*>([A-Z][^<]*)</text>", Path("modes.svg").read_text())
     assert found == ["A (as in the file)", *"BCDEFGH"]
-    answer(capsys, "stewart", "--picture", "modes.png")
+    answer(capsys, "home", "stewart", "--picture", "modes.png")
     pixels = np.any(imread("modes.png")[:, :, :3] < 0.95, axis=2)
     assert pixels.shape[1] == 2800
     panels = [half[:, 700 * k : 700 * (k + 1)] for half in np.vsplit(pixels, 2) for k in range(4)]
@@ -126,31 +116,24 @@ def test_modes_stand_in_rows_of_four(crank, capsys, monkeypatch) -> None:
 
 def test_commands_say_which_home_was_found(crank, capsys) -> None:
     """And the log, the model and the C are of that mode."""
-    assert main(["derive", "bare.toml"]) == 0
     told = "crank: [home] found: mode A at q1 = "
-    out = capsys.readouterr().out
+    out = answer(capsys, "derive", "bare.toml")
     assert out.startswith(told) and "2 assembly modes: `modeler home` shows them" in out
-    words = ["simulate", "bare.toml", "--duration", "2", "--rate", "100", "--out", "log.csv"]
-    assert main(words) == 0
-    assert capsys.readouterr().out.startswith(told)
-    assert main(["fit", "bare.toml", "log.csv", "--out", "model.json"]) == 0
-    assert told in capsys.readouterr().out
+    for line in (
+        "simulate bare.toml --duration 2 --rate 100 --out log.csv",
+        "fit bare.toml log.csv --out model.json",
+    ):
+        status, out, _ = run(capsys, *line.split())
+        assert status == 0 and told in out
     assert "[home]" in json.loads(Path("model.json").read_text())["robot_text"]
 
 
 def test_a_home_in_one_line_is_found_all_the_same(crank, capsys) -> None:
     Path("line.toml").write_text("home = {q1 = 0.5}\n" + BARE)
-    assert main(["derive", "line.toml"]) == 0
-    assert "[home] completed" in capsys.readouterr().out
+    assert "[home] completed" in answer(capsys, "derive", "line.toml")
     before = Path("line.toml").read_bytes()
-    assert "[home] cannot be replaced" in refusal_after(capsys, "line.toml", "--write")
+    assert "[home] cannot be replaced" in run(capsys, "home", "line.toml", "--write")[2]
     assert Path("line.toml").read_bytes() == before
-
-
-def refusal_after(capsys: pytest.CaptureFixture[str], *words: str) -> str:
-    """A refusal at the end of the work."""
-    assert main(["home", *words]) == 1
-    return capsys.readouterr().err
 
 
 MISTAKES = [
@@ -168,7 +151,7 @@ MISTAKES = [
 
 @pytest.mark.parametrize(("words", "told"), MISTAKES, ids=[" ".join(m[0]) for m in MISTAKES])
 def test_mistakes_are_told_in_a_line(crank, capsys, words, told) -> None:
-    assert told in refusal(capsys, *words)
+    assert told in refusal(capsys, "home", *words)
     assert sorted(path.name for path in crank.iterdir()) == ["bare.toml", "crank.toml"]
     assert Path("crank.toml").read_text() == CRANK
 
@@ -176,9 +159,8 @@ def test_mistakes_are_told_in_a_line(crank, capsys, words, told) -> None:
 def test_a_file_that_may_not_be_written_is_told_before_the_work(crank, capsys, monkeypatch) -> None:
     monkeypatch.setattr(os, "access", lambda path, mode: False)
     monkeypatch.setattr("modeler.cli.home.home_modes", lambda *given: pytest.fail("searched"))
-    assert "bare.toml: cannot be written (Permission denied)" in refusal(
-        capsys, "bare.toml", "--write"
-    )
+    err = refusal(capsys, "home", "bare.toml", "--write")
+    assert "bare.toml: cannot be written (Permission denied)" in err
     assert Path("bare.toml").read_text() == BARE
 
 
@@ -188,7 +170,7 @@ def test_another_programs_file_is_never_written_over(crank, capsys, monkeypatch)
     Path("ARM2.PAR").write_text(text)
     monkeypatch.setattr("modeler.cli.home.home_modes", lambda *given: pytest.fail("searched"))
     for name in ("arm.par", "ARM2.PAR", "none.par"):
-        err = refusal(capsys, name, "--write")
+        err = refusal(capsys, "home", name, "--write")
         told = f"convert it with `modeler convert {name} --out {Path(name).with_suffix('.toml')}`"
         assert f"--write: {name} is another program's file" in err and told in err
     assert Path("arm.par").read_text() == Path("ARM2.PAR").read_text() == text
@@ -197,20 +179,19 @@ def test_another_programs_file_is_never_written_over(crank, capsys, monkeypatch)
 
 def test_what_a_conversion_decided_is_said(crank, capsys) -> None:
     Path("arm.par").write_text(par_text({"Ant": "0", "Theta": "t1"}))
-    assert main(["home", "arm.par"]) == 1
-    lines = capsys.readouterr().err.splitlines()
+    lines = run(capsys, "home", "arm.par")[2].splitlines()
     assert lines[0].startswith("modeler: arm.par: ") and "no loop to close" in lines[-1]
 
 
 def test_lengths_that_never_meet_are_told(crank, capsys) -> None:
     Path("far.toml").write_text(BARE.replace('"R", "q2", 0]', '"R", "q2", 0.2]'))
-    err = refusal(capsys, "far.toml")
+    err = refusal(capsys, "home", "far.toml")
     assert 'loop "pin" cannot close near that posture' in err and "nor from 300 others" in err
 
 
 def test_a_built_in_robot_saved_as_a_file_can_be_written(crank, capsys) -> None:
     Path("mine.toml").write_text(builtin_text("orthoglide-2003"))
-    answer(capsys, "mine.toml", "--write")
+    answer(capsys, "home", "mine.toml", "--write")
     # Nothing had to change but what the file leaves at 0.
     before, after = builtin_text("orthoglide-2003").splitlines(), Path("mine.toml").read_text()
     assert [line for line in after.splitlines() if line in before] == before

@@ -12,13 +12,15 @@ import pyarrow.parquet
 import pytest
 
 from modeler import observation
-from modeler.api import compile_model, derive, generate, load
+from modeler.api import compile_model, derive, generate, load, log_maps
 from modeler.cli import main
 from modeler.estimation import stream
 from modeler.validation import compare_long
+from tests.cli.running import complaint, run
 from tests.rotation import rotating_with
 
 ROWS = 9000
+FORMATS = ["run.parquet", pytest.param("run.csv", marks=pytest.mark.rotating)]
 
 
 @pytest.fixture(scope="module")
@@ -49,19 +51,14 @@ def place(tmp_path_factory):
 @pytest.fixture
 def chunked(monkeypatch):
     """Logs of some thousand rows are long."""
-    for where in ("modeler.observation.log.LONG",
-                  "modeler.api.log_maps.LONG"):  # fmt: skip
-        monkeypatch.setattr(where, 4000)
-    monkeypatch.setattr(observation, "LONG", 4000)
     survey = sys.modules["modeler.observation.survey"]
-    monkeypatch.setattr(survey, "LONG", 4000)
-    monkeypatch.setattr(survey, "FINGER", 1024)
-    for where in ("observation.log", "api.log_maps"):
-        monkeypatch.setattr(f"modeler.{where}.FINGER", 1024)
-    monkeypatch.setattr("modeler.api.log_maps.WINDOW", 900)
+    for where in (observation, observation.log, log_maps, survey):
+        monkeypatch.setattr(where, "LONG", 4000)
+    for where in (observation.log, log_maps, survey):
+        monkeypatch.setattr(where, "FINGER", 1024)
+    monkeypatch.setattr(log_maps, "WINDOW", 900)
     monkeypatch.setattr(compare_long, "__defaults__", (lambda share: None, 1024))
-    defaults = (None, lambda share: None, 1024, None)
-    monkeypatch.setattr(stream, "__defaults__", defaults)
+    monkeypatch.setattr(stream, "__defaults__", (None, lambda share: None, 1024, None))
 
 
 def fitted(place, log, name, *options):
@@ -75,8 +72,9 @@ def values(fit):
             np.array([p["sigma"] for p in fit["parameters"]]))  # fmt: skip
 
 
-@pytest.mark.parametrize("log", ["run.parquet", "run.csv"])
+@pytest.mark.parametrize("log", FORMATS)
 def test_a_long_log_is_fitted_in_chunks(log, place, chunked, monkeypatch, capsys):
+    """Fingerprint, rows and span of a log in chunks are those of the log read whole."""
     fit = fitted(place, log, "chunked")
     out = capsys.readouterr().out
     chunks = fit["reading"]["chunks"]
@@ -89,25 +87,14 @@ def test_a_long_log_is_fitted_in_chunks(log, place, chunked, monkeypatch, capsys
     (beta, _), (true, sigma) = values(fit), values(whole)
     assert np.abs((beta - true) / sigma).max() < 3.0  # rows lie elsewhere between the samples
     assert fit["verdict"] == whole["verdict"] or fit["usable"] == whole["usable"]
-
-
-def test_its_model_knows_the_log_again(place, chunked, monkeypatch, capsys):
-    """Fingerprint, rows and span of a log in chunks are those of the log read whole."""
-    fitted(place, "run.parquet", "chunked")
-    monkeypatch.setattr(observation, "LONG", 10**9)
-    fitted(place, "run.csv", "whole")
     logs = [json.loads((place / f"{n}.json").read_text())["logs"][0] for n in ("chunked", "whole")]
     one, other = ({k: log[k] for k in ("rows", "content", "start", "end")} for log in logs)
     assert one == other
-    assert main(["compare", str(place / "chunked.json"), str(place / "run.parquet")]) == 0
-    assert "run.parquet" in capsys.readouterr().out
 
 
 def test_a_log_given_twice_is_refused(place, chunked, capsys):
-    words = ["fit", "two-link", str(place / "run.parquet"), str(place / "run.csv"), "--out",
-             str(place / "m.json")]  # fmt: skip
-    assert main(words) == 1
-    assert "run.csv: got rows of run.parquet again" in capsys.readouterr().err
+    words = ("fit", "two-link", place / "run.parquet", place / "run.csv", "--out", place / "m.json")
+    assert "run.csv: got rows of run.parquet again" in complaint(capsys, *words)
 
 
 def test_a_method_that_needs_all_rows_reads_them_or_says_that_they_are_too_many(
@@ -115,9 +102,8 @@ def test_a_method_that_needs_all_rows_reads_them_or_says_that_they_are_too_many(
 ):
     assert "reading" not in fitted(place, "run.parquet", "robust", "--method", "robust")
     monkeypatch.setattr(observation, "MOST_WHOLE", 5000)
-    words = ["fit", "two-link", str(place / "run.parquet"), "--out", str(place / "m.json")]
-    assert main([*words, "--method", "robust"]) == 1
-    told = capsys.readouterr().err
+    words = ("fit", "two-link", place / "run.parquet", "--out", place / "m.json")
+    told = complaint(capsys, *words, "--method", "robust")
     assert "method robust keeps all rows in memory; got 9000 rows, expected at most 5000" in told
     assert "--method weighted or ordinary" in told
 
@@ -130,14 +116,12 @@ def test_where_only_the_whole_log_will_do_it_is_read_whole(place, chunked, tmp_p
     moved[5000:] += 0.4
     path = tmp_path / "moved.parquet"
     pa.parquet.write_table(table.set_column(1, name, pa.array(moved)), path)
-    words = ["fit", "two-link", str(path), "--out", str(tmp_path / "m.json")]
-    assert main(words) == 0
-    told = capsys.readouterr()
-    assert "counts from another zero from 25 s on" in told.err
-    assert "read as a whole instead" in told.err and "q1: jumps by 0.4 ra" in told.out
+    words = ("fit", "two-link", path, "--out", tmp_path / "m.json")
+    status, out, err = run(capsys, *words)
+    assert status == 0 and "counts from another zero from 25 s on" in err
+    assert "read as a whole instead" in err and "q1: jumps by 0.4 ra" in out
     monkeypatch.setattr(observation, "MOST_WHOLE", 5000)
-    assert main(words) == 1
-    assert "fit its parts, as in moved.parquet@:25" in capsys.readouterr().err
+    assert "fit its parts, as in moved.parquet@:25" in run(capsys, *words)[2]
 
 
 def test_a_damaged_row_group_in_the_middle_is_one_line(place, chunked, tmp_path, capsys):
@@ -146,9 +130,8 @@ def test_a_damaged_row_group_in_the_middle_is_one_line(place, chunked, tmp_path,
     content[middle : middle + 3000] = bytes(range(250)) * 12
     path = tmp_path / "broken.parquet"
     path.write_bytes(content)
-    assert main(["fit", "two-link", str(path), "--out", str(tmp_path / "m.json")]) == 1
-    told = capsys.readouterr().err.strip()
-    assert told.count("\n") == 0 and "broken.parquet: cannot be read as PARQUET beyond row" in told
+    told = complaint(capsys, "fit", "two-link", path, "--out", tmp_path / "m.json")
+    assert "broken.parquet: cannot be read as PARQUET beyond row" in told
     assert not (tmp_path / "m.json").exists()
 
 
@@ -179,23 +162,34 @@ def agree(found, whole, rel=1e-9, least=1e-10):
 
 
 def told_of(words, place, capsys):
-    assert main([*words, "--json", str(place)]) == 0
-    return json.loads(place.read_text()), capsys.readouterr().out
+    status, out, _ = run(capsys, *words, "--json", place)
+    assert status == 0
+    return json.loads(place.read_text()), out
 
 
-@pytest.mark.parametrize("log", ["run.parquet", "run.csv"])
-def test_a_long_log_is_compared_in_chunks(log, place, chunked, tmp_path, monkeypatch, capsys):
+@pytest.fixture(scope="module")
+def model(place):
+    """The model of a fit of the log, read whole."""
+    fitted(place, "run.parquet", "model")
+    return place / "model.json"
+
+
+def written(table, path):
+    (pa.csv.write_csv if path.suffix == ".csv" else pa.parquet.write_table)(table, path)
+
+
+@pytest.mark.parametrize("log", FORMATS)
+def test_a_long_log_is_compared_in_chunks(
+    log, place, model, chunked, tmp_path, monkeypatch, capsys
+):
     """Numbers are those of the log read whole, where rows lie at the same samples.
 
     Read whole, every 16th row lies in the middle of the log: as from its beginning on, of 8992.
     """
-    fitted(place, "run.parquet", "model")
-    capsys.readouterr()
-    table, path = pa.parquet.read_table(place / "run.parquet").slice(0, 8992), tmp_path / log
-    write = pa.csv.write_csv if path.suffix == ".csv" else pa.parquet.write_table
-    write(table, path)
-    words = ["compare", str(place / "model.json"), str(path)]
-    found, out = told_of([*words, "--report", str(tmp_path / "long.html")], tmp_path / "l", capsys)
+    path = tmp_path / log
+    written(pa.parquet.read_table(place / "run.parquet").slice(0, 8992), path)
+    words = ["compare", model, path]
+    found, out = told_of([*words, "--report", tmp_path / "long.html"], tmp_path / "l", capsys)
     assert re.search(r"long logs: all 8992 rows are read once, in [2-9] chunks", out)
     monkeypatch.setattr(observation, "LONG", 10**9)
     whole, out = told_of(words, tmp_path / "whole", capsys)
@@ -203,11 +197,11 @@ def test_a_long_log_is_compared_in_chunks(log, place, chunked, tmp_path, monkeyp
     agree(counted(found), counted(whole))
 
 
-def test_rows_of_a_comparison_are_no_more_than_fit_in_memory(place, chunked, tmp_path, monkeypatch,
-                                                             capsys):  # fmt: skip
-    fitted(place, "run.parquet", "model")
-    words = ["compare", str(place / "model.json"), str(place / "run.parquet")]
-    capsys.readouterr()
+def test_rows_of_a_comparison_are_no_more_than_fit_in_memory(
+    place, chunked, tmp_path, monkeypatch, capsys
+):
+    fitted(place, "run.parquet", "chunked")  # rows are known again by chunks of the same size
+    words = ["compare", place / "chunked.json", place / "run.parquet"]
     every, out = told_of(words, tmp_path / "every", capsys)
     assert "training only: the model was fitted on run.parquet" in out
     monkeypatch.setattr(sys.modules["modeler.validation.predict"], "MOST", 150)
@@ -216,7 +210,7 @@ def test_rows_of_a_comparison_are_no_more_than_fit_in_memory(place, chunked, tmp
     assert some["relative_error"] == pytest.approx(every["relative_error"], rel=0.3)
 
 
-@pytest.mark.parametrize("log", ["run.parquet", "run.csv"])
+@pytest.mark.parametrize("log", FORMATS)
 def test_a_long_log_is_looked_at_in_blocks(log, place, chunked, tmp_path, monkeypatch, capsys):
     """With gaps on the border of blocks and inside, missing values, and a torque at its limit."""
     table = pa.parquet.read_table(place / "run.parquet").to_pydict()
@@ -226,10 +220,10 @@ def test_a_long_log_is_looked_at_in_blocks(log, place, chunked, tmp_path, monkey
     columns["tau1"] = np.clip(columns["tau1"], -np.inf, np.quantile(columns["tau1"], 0.9))
     columns["q2"][[7, 6000]] = np.nan
     path = tmp_path / log
-    write = pa.csv.write_csv if path.suffix == ".csv" else pa.parquet.write_table
-    write(pa.table(columns), path)
-    words = ["log", str(path), "--picture", str(tmp_path / "drawn")]
-    found, out = told_of(words, tmp_path / "long", capsys)
+    written(pa.table(columns), path)
+    words = ["log", path]
+    drawn = ["--picture", tmp_path / "drawn.json"]
+    found, out = told_of([*words, *drawn], tmp_path / "long", capsys)
     assert f"long log: all {ROWS} rows are read for ranges" in out
     monkeypatch.setattr("modeler.api.log_maps.LONG", 10**9)
     whole, _ = told_of(words, tmp_path / "whole", capsys)
@@ -245,16 +239,16 @@ def test_a_long_log_is_looked_at_in_blocks(log, place, chunked, tmp_path, monkey
     agree(flat(found), flat(whole), rel=1e-6, least=1e-9)
 
 
-@pytest.mark.parametrize("words", [["diagnose", "{model}", "{log}"],
-                                   ["compare", "--free-run", "{model}", "{log}"],
-                                   ["add", "{model}", "viscous@1", "{log}", "--out", "{model}2"],
-                                   ["fit", "two-link", "{log}", "--method", "all"]])  # fmt: skip
-def test_a_command_that_needs_all_rows_refuses_too_many(words, place, capsys, monkeypatch):
-    fitted(place, "run.parquet", "model")
+@pytest.mark.parametrize(
+    "words",
+    [
+        "diagnose {model} {log}", "compare --free-run {model} {log}",
+        "add {model} viscous@1 {log} --out {model}2", "fit two-link {log} --method all",
+    ],
+)  # fmt: skip
+def test_a_command_that_needs_all_rows_refuses_too_many(words, place, model, capsys, monkeypatch):
     monkeypatch.setattr("modeler.observation.read.MOST_WHOLE", 5000)
-    said = [word.format(model=place / "model.json", log=place / "run.parquet") for word in words]
-    assert main(said) == 1
-    told = capsys.readouterr().err
+    told = complaint(capsys, *words.format(model=model, log=place / "run.parquet").split())
     assert "run.parquet: got 9000 rows; expected at most 5000 where all are in memory" in told
 
 
@@ -268,9 +262,8 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
 
 
 @rotating_with("memory of long logs")
-def test_memory_does_not_grow_with_the_rows(place, tmp_path):
+def test_memory_does_not_grow_with_the_rows(place, model, tmp_path):
     """360 000 rows more of five columns: 14 MB as floats, and many times that read whole."""
-    fitted(place, "run.parquet", "model")
     table = pa.parquet.read_table(place / "run.parquet")
     peaks = {"log": [], "compare": []}
     for count in (20, 60):
@@ -280,29 +273,27 @@ def test_memory_does_not_grow_with_the_rows(place, tmp_path):
                 time = pa.array(np.array(table["time"]) + k * (ROWS * 5e-3 + 1.0))
                 file.write_table(table.set_column(0, "time", time))
         for command, own in peaks.items():
-            model = [str(place / "model.json")] if command == "compare" else []
-            words = [sys.executable, "-c", PEAK, command, *model, str(path)]
+            read = [str(model)] if command == "compare" else []
+            words = [sys.executable, "-c", PEAK, command, *read, str(path)]
             done = subprocess.run(words, capture_output=True, text=True, check=True)
             own.append(int(done.stdout.split()[-1]))
     for command, (few, many) in peaks.items():
         assert many - few < 100 * 40 * ROWS, (command, few, many)  # whole: 180 and 390 a row
 
 
-def test_a_log_of_any_length_is_diagnosed_by_stretches_of_it(place, monkeypatch, capsys):
+def test_a_log_of_any_length_is_diagnosed_by_stretches_of_it(
+    place, model, tmp_path, monkeypatch, capsys
+):
     """All rows are read: its fingerprint is that of the whole log."""
-    fitted(place, "run.parquet", "whole")
-    words = ["diagnose", str(place / "whole.json"), str(place / "run.parquet"), "--json"]
-    assert main([*words, str(place / "all.json")]) == 0
+    words = ["diagnose", model, place / "run.parquet"]
+    every, _ = told_of(words, tmp_path / "all", capsys)
     chunk = sys.modules["modeler.observation.chunk"]
     for name, value in {"FINGER": 1024, "_ROWS": 4096, "_PARTS": 8}.items():
         monkeypatch.setattr(chunk, name, value)
     monkeypatch.setattr("modeler.observation.read.MOST_WHOLE", 5000)
     monkeypatch.setattr(observation, "SPREAD", 5000)
-    capsys.readouterr()
-    assert main([*words, str(place / "few.json")]) == 0
-    out = capsys.readouterr().out
+    few, out = told_of(words, tmp_path / "few", capsys)
     assert "9000 rows; 4096 of them are looked at, in 8 stretches of 2.56 s" in out
-    every, few = (json.loads((place / f"{n}.json").read_text()) for n in ("all", "few"))
     assert few["verdict"] == every["verdict"] == "nothing significant"
     assert few["joints"]["1"]["error_before"] == pytest.approx(
         every["joints"]["1"]["error_before"], rel=0.2

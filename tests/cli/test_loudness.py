@@ -13,11 +13,7 @@ import pytest
 
 from modeler.cli import main, parser
 from modeler.cli.console import Loudness, clock, using_loudness, working
-
-
-def run(capsys, *words: str) -> tuple[int, str, str]:
-    status = main(list(words))
-    return status, *capsys.readouterr()
+from tests.cli.running import run
 
 
 def names() -> list[str]:
@@ -33,7 +29,7 @@ def test_every_command_has_both(capsys, name: str) -> None:
     assert "-q, --quiet" in text and "-v, --verbose" in text
 
 
-@pytest.mark.parametrize("words", ["-v {}", "--verbose {}", "{} -v", "{} --verbose"])
+@pytest.mark.parametrize("words", ["-v {}", "{} --verbose"])
 def test_verbose_tells_steps_seconds_and_versions(capsys, words: str) -> None:
     usual = run(capsys, "derive", "two-link", "--no-terms")
     status, out, err = run(capsys, *words.format("derive two-link --no-terms").split())
@@ -69,7 +65,7 @@ def test_verbose_shows_warnings_of_libraries_and_quiet_does_not(monkeypatch, rec
         assert main(["robots", "--verbose"]) == 0
 
 
-@pytest.mark.parametrize("words", ["-q {}", "{} -q", "{} --quiet"])
+@pytest.mark.parametrize("words", ["-q {}", "{} --quiet"])
 def test_quiet_leaves_results_and_errors(capsys, tmp_path: Path, words: str) -> None:
     """A line that was read in one way of two is told, unless quiet; an error always."""
     (tmp_path / "m.json").write_text("{}")
@@ -132,15 +128,12 @@ def test_loading_shows_its_seconds_on_a_terminal(monkeypatch) -> None:
     assert re.search(r"\rloading 0\.\d s\r +\r$", terminal.written())
 
 
-def test_what_once_lasted_in_silence_is_a_step(capsys, tmp_path: Path) -> None:
+def test_what_once_lasted_in_silence_is_a_step(capsys, two_link: Path, tmp_path: Path) -> None:
     """Loading, estimating by simulation, drawing: seconds in which nothing moved."""
-    log, model, page = (str(tmp_path / name) for name in ("a.parquet", "m.json", "modes.html"))
-    assert main(["simulate", "two-link", "--duration", "2", "--out", log]) == 0
-    capsys.readouterr()
-    for step, words in (
-        ("estimating", ("fit", "two-link", log, "--out", model)),
-        ("drawing", ("home", "five-bar", "--report", page)),
+    for step, line in (
+        ("estimating", f"fit two-link {two_link}/a.parquet --out {tmp_path}/m.json"),
+        ("drawing", f"home five-bar --report {tmp_path}/modes.html"),
     ):
-        _, _, err = run(capsys, "-v", *words)
+        _, _, err = run(capsys, "-v", *line.split())
         for each in ("loading", step):
             assert f"modeler: {each}: done after" in err

@@ -1,7 +1,5 @@
 """Logs with a joint at rest, no torque, missing torques, short pieces: numpy warns of nothing."""
 
-import subprocess
-import sys
 import warnings
 from pathlib import Path
 
@@ -66,9 +64,3 @@ def test_no_diagnosis_or_motion_warns(folder: Path, monkeypatch, capsys, log: st
         [*diagnose, log], [*diagnose, "train.csv", "--holdout", log], [*excite, "--check", log],
     ]  # fmt: skip
     check_runs(folder, monkeypatch, capsys, commands)
-
-
-def test_the_package_runs_as_a_module() -> None:
-    command = [sys.executable, "-m", "modeler", "robots"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
-    assert done.returncode == 0 and "two-link" in done.stdout

@@ -24,6 +24,7 @@ from modeler.cli.places import (
 )
 from modeler.codegen.package import write_emitted
 from modeler.core.builtin import builtin_file
+from tests.cli.running import refusal
 from tests.modules import module
 
 FILES = ("arm.toml", "arm.par", "m.json", "a.parquet", "b.csv", "other.parquet", "load.parquet",
@@ -103,14 +104,6 @@ def cases() -> Iterator[tuple[str, str, str, str]]:
                     yield command, action.option_strings[0], name, whats.get(name, "a log")
 
 
-def answer(capsys: pytest.CaptureFixture[str], *words: str) -> str:
-    """The one line of a refusal."""
-    status = main(list(words))
-    out, err = capsys.readouterr()
-    assert (status, out) == (1, "") and err.startswith("modeler: ") and err.count("\n") == 1, err
-    return err
-
-
 def ways() -> list[tuple[str, str, str, str, str]]:
     """Every case by its name; one of every command and option by other ways to the same file."""
     first = {case[:2]: case for case in reversed(list(cases()))}.values()
@@ -129,7 +122,7 @@ def test_an_input_is_never_an_output(there, capsys, command, option, name, what,
     if option == "--out" and command == "simulate" and "link" in way:
         place = "alias.csv"
         Path("alias").rename(place)
-    err = answer(capsys, *READING[command].split(), option, place)
+    err = refusal(capsys, *READING[command].split(), option, place)
     assert f"{option} {place}: this is {what}; expected a name of its own" in err
 
 
@@ -143,7 +136,7 @@ def test_two_outputs_are_two_files(there, capsys, command) -> None:
     if first in words:
         at = words.index(first)
         del words[at : at + 2]
-    err = answer(capsys, *words, first, "same.html", second, "alias")
+    err = refusal(capsys, *words, first, "same.html", second, "alias")
     assert f"{second} alias: {first} writes this file too; expected a name of its own" in err
 
 
@@ -159,7 +152,7 @@ def test_stdout_may_go_to_that_file(there, capsys, monkeypatch) -> None:
 def test_a_built_in_robot_is_an_input_too(there, capsys) -> None:
     place = builtin_file("wrist")
     before = place.read_bytes()
-    err = answer(capsys, "derive", "wrist", "--report", str(place))
+    err = refusal(capsys, "derive", "wrist", "--report", str(place))
     assert "this is the robot file that is read" in err and place.read_bytes() == before
 
 
@@ -167,7 +160,7 @@ def test_a_built_in_robot_is_an_input_too(there, capsys) -> None:
 @pytest.mark.parametrize("words", ["fit --out", "compare --report", "derive --json"])
 def test_what_is_no_log_is_not_named_like_one(there, capsys, words, place) -> None:
     command, option = words.split()
-    err = answer(capsys, *READING[command].split(), option, place)
+    err = refusal(capsys, *READING[command].split(), option, place)
     assert f"{option} {place}: this is a log; expected a name of its own" in err
 
 
@@ -176,15 +169,15 @@ def test_places_that_cannot_be_written_are_refused_first(there, capsys, command)
     Path("folder").write_text("a file")
     words = READING[command].split()
     for option, place in (("--json", "folder/below/x.json"), ("--json", "/proc/nowhere/x.json")):
-        assert f"{place}: cannot be written" in answer(capsys, *words, option, place)
+        assert f"{place}: cannot be written" in refusal(capsys, *words, option, place)
     if "--out" in words:
         ends = ".csv" if command == "simulate" else ""
-        err = answer(capsys, *words, "--out", f"folder/below{ends}")
+        err = refusal(capsys, *words, "--out", f"folder/below{ends}")
         assert f"folder/below{ends}: cannot be written" in err
 
 
 def test_a_dash_is_for_json(there, capsys) -> None:
-    err = answer(capsys, "derive", "arm.toml", "--report", "-")
+    err = refusal(capsys, "derive", "arm.toml", "--report", "-")
     assert "--report -: only --json takes - for stdout; expected the name of a file" in err
 
 
@@ -202,14 +195,10 @@ def test_a_folder_keeps_its_names(there, capsys, words, message) -> None:
     Path("folder/overview.csv").write_text("time,q1\n")
     Path("alias").symlink_to("folder/Makefile")
     option = "--picture" if "--picture" in words else "--out"
-    err = answer(capsys, *words.split())
+    err = refusal(capsys, *words.split())
     assert f"{option} folder: " in err and message in err
     assert "expected a folder of its own" in err
     assert [path.name for path in Path("folder").iterdir()] == ["overview.csv"]
-
-
-def matches(folder: type[OutputFolder], name: str) -> bool:
-    return any(fnmatchcase(name, pattern) for pattern in folder.writes)
 
 
 def test_folders_declare_what_they_get(tmp_path: Path) -> None:
@@ -217,7 +206,9 @@ def test_folders_declare_what_they_get(tmp_path: Path) -> None:
         folder = tmp_path / name
         write_emitted(module(name).emitted, folder)
         files = [p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file()]
-        assert len(files) > 10 and all(matches(ModuleFolder, file) for file in files)
+        assert len(files) > 10
+        for file in files:
+            assert any(fnmatchcase(file, pattern) for pattern in ModuleFolder.writes), file
     assert {f"{story.robot}/*" for story in _STORIES} == set(DemoFolder.writes)
 
 

@@ -52,24 +52,20 @@ CONTRACT = {
 
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory) -> dict[str, Any]:
+def results(axis: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     """What five commands write of a machine that has a spring its robot file lacks."""
-    folder = tmp_path_factory.mktemp("schemas")
-    a, b, m, n = (str(folder / name) for name in ("a.csv", "b.csv", "m.json", "n.json"))
-    hidden = ("--hide", "spring:stiffness=40,rest=0.1", "--rate", "250", "--duration", "8")
-    for log, seed in ((a, "1"), (b, "2")):
-        assert main(["simulate", "emps", *hidden, "--seed", seed, "--out", log]) == 0
-    lines = {
-        "derive": ("emps",),
-        "fit": ("emps", a, "--out", m),
-        "compare": (m, b),
-        "diagnose": (m, a, "--holdout", b),
-        "add": (m, "spring", a, "--holdout", b, "--out", n),
-    }
-    found = {"model": m, "better": n}
-    for command, words in lines.items():
-        place = folder / f"{command}.out"
-        assert main([command, *words, "--json", str(place)]) == 0
+    out = tmp_path_factory.mktemp("schemas")
+    a, b, m, n = axis / "a.csv", axis / "b.csv", axis / "m.json", out / "n.json"
+    found: dict[str, Any] = {"model": m, "better": n}
+    for line in (
+        "derive emps",
+        f"fit emps {a} --out {out}/m.json",
+        f"compare {m} {b}",
+        f"diagnose {m} {a} --holdout {b}",
+        f"add {m} spring {a} --holdout {b} --out {n}",
+    ):
+        command, place = line.split()[0], out / "result.json"
+        assert main([*line.split(), "--json", str(place)]) == 0
         found[command] = json.loads(place.read_text())
     return found
 

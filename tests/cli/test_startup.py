@@ -11,7 +11,7 @@ from typing import get_args
 
 import pytest
 
-from modeler.cli import main, parser
+from modeler.cli import parser
 from modeler.cli.derive import _COMMENT, _SHEETS
 from modeler.cli.options import Form
 from modeler.effects.catalogue import CATALOGUE
@@ -78,36 +78,27 @@ NUMBERS = {"scipy", "pyarrow", "cffi", "pandas", "threadpoolctl", "clarabel"}
 SYMBOLS = {"sympy", "casadi", "jinja2", "flint"}
 
 
-@pytest.fixture(scope="module")
-def place(tmp_path_factory) -> Path:
-    """A folder with a log and a model."""
-    folder = tmp_path_factory.mktemp("started")
-    log, model = str(folder / "run.parquet"), str(folder / "m.json")
-    assert main(["simulate", "emps", "--out", log, "--duration", "6", "--seed", "1"]) == 0
-    assert main(["fit", "emps", log, "--out", model]) == 0
-    return folder
-
-
 # Commands of one process, each with what it has no use for.
 LONGER = [
     [("derive scara", PICTURES | NUMBERS | {"jinja2"})],
     [
-        ("generate scara --out {}/c", PICTURES | NUMBERS | {"casadi"}),
+        ("generate scara --out {out}/c", PICTURES | NUMBERS | {"casadi"}),
         ("home five-bar", PICTURES | NUMBERS),
     ],
-    [("show wrist --out {}/w.html", PICTURES | NUMBERS | SYMBOLS - {"jinja2"})],
-    [("log {}/run.parquet", PICTURES | {"pandas", "casadi", "clarabel", "threadpoolctl"})],
+    [("show wrist --out {out}/w.html", PICTURES | NUMBERS | SYMBOLS - {"jinja2"})],
+    [("log {}/a.parquet", PICTURES | {"pandas", "casadi", "clarabel", "threadpoolctl"})],
     [
-        ("fit emps {0}/run.parquet --out {0}/n.json", PICTURES | SLOW | {"pandas", "casadi"}),
-        ("compare {0}/m.json {0}/run.parquet", PICTURES | {"pandas", "casadi"}),
-        ("diagnose {0}/m.json {0}/run.parquet", PICTURES | {"pandas", "casadi"}),
+        ("fit two-link {}/a.parquet --out {out}/n.json", PICTURES | SLOW | {"pandas", "casadi"}),
+        ("compare {0}/m.json {0}/a.parquet", PICTURES | {"pandas", "casadi"}),
+        ("diagnose {0}/m.json {0}/a.parquet", PICTURES | {"pandas", "casadi"}),
     ],
 ]
 
 
 @pytest.mark.parametrize("commands", LONGER, ids=lambda each: each[0][0].split()[0])
-def test_a_command_loads_nothing_long_that_it_has_no_use_for(place: Path, commands) -> None:
-    found = loaded(*(tuple(words.format(place).split()) for words, _ in commands))
+def test_a_command_loads_nothing_long_that_it_has_no_use_for(two_link, tmp_path, commands) -> None:
+    lines = (words.format(two_link, out=tmp_path).split() for words, _ in commands)
+    found = loaded(*map(tuple, lines))
     for (words, unused), (status, _, packages) in zip(commands, found, strict=True):
         assert status == 0 and not packages & unused, words
         if words == "derive scara":  # long packages would be noticed

@@ -13,11 +13,11 @@ from modeler.core.builtin import builtin_text
 WORKS = {
     "derive": ("derive five-bar --json out.json", "out.json"),
     "show": ("show wrist --out page.html", "page.html"),
-    "generate": ("generate model.json --out folder", "folder/manifest.json"),
+    "generate": ("generate m.json --out folder", "folder/manifest.json"),
     "log": ("log a.parquet --robot two-link --report page.html", "page.html"),
-    "physical": ("physical model.json --known m1=3,m2=2 --json out.json", "out.json"),
+    "physical": ("physical m.json --known m1=3,m2=2 --json out.json", "out.json"),
     "convert": ("convert arm.urdf --out arm.toml", "arm.toml"),
-    "export": ("export model.json --like arm.urdf --out better.urdf", "better.urdf"),
+    "export": ("export m.json --like arm.urdf --out better.urdf", "better.urdf"),
     "simulate": ("simulate two-link --duration 1 --out b.csv", "b.csv"),
     "home": ("home five-bar", None),
     "new": ("new own.toml --template parallel", "own.toml"),
@@ -29,10 +29,10 @@ WORKS = {
 """A command of each name, and what it writes."""
 
 REFUSES = {
-    "fit": "fit two-link a.parquet --out m.json",
-    "compare": "compare model.json a.parquet",
-    "diagnose": "diagnose model.json a.parquet",
-    "add": "add model.json load_friction --joint 2 a.parquet --out m.json",
+    "fit": "fit two-link a.parquet --out n.json",
+    "compare": "compare m.json a.parquet",
+    "diagnose": "diagnose m.json a.parquet",
+    "add": "add m.json load_friction --joint 2 a.parquet --out n.json",
     "excite": "excite two-link --out motion.csv",
     "fleet": "fleet two-link a.parquet",
     "demo": "demo --out demo",
@@ -46,25 +46,20 @@ FORMATS = ("urdf", "mjcf", "sdf", "fmu", "casadi", "ros2")
 
 
 @pytest.fixture(scope="module")
-def given(tmp_path_factory):
-    """A log, a model and a URDF, made where there is a compiler."""
-    folder = tmp_path_factory.mktemp("given")
-    for words in (
-        f"simulate two-link --duration 4 --rate 200 --out {folder}/a.parquet",
-        f"fit two-link {folder}/a.parquet --out {folder}/model.json",
-        f"export {folder}/model.json --to urdf --out {folder}/arm.urdf",
-    ):
-        assert main(words.split()) == 0
-    return folder
+def urdf(two_link, tmp_path_factory):
+    """What is written of the model where there is a compiler."""
+    place = tmp_path_factory.mktemp("given") / "arm.urdf"
+    assert main(f"export {two_link}/m.json --to urdf --out {place}".split()) == 0
+    return place
 
 
 @pytest.fixture
-def here(given, tmp_path, monkeypatch):
-    """A folder with these, on a machine without a compiler and with nothing compiled."""
+def here(two_link, urdf, tmp_path, monkeypatch):
+    """Log, model and URDF on a machine without a compiler and with nothing compiled."""
     (tmp_path / "nothing").mkdir()
     folder = tmp_path / "work"
     folder.mkdir()
-    for place in given.iterdir():
+    for place in (two_link / "a.parquet", two_link / "m.json", urdf):
         (folder / place.name).write_bytes(place.read_bytes())
     monkeypatch.setenv("PATH", str(tmp_path / "nothing"))
     monkeypatch.delenv("CC", raising=False)
@@ -87,7 +82,7 @@ def test_these_work(here, name, capsys) -> None:
 
 def test_every_way_out_works(here, capsys) -> None:
     for kind in FORMATS:
-        assert main(["export", "model.json", "--to", kind, "--out", kind]) == 0
+        assert main(["export", "m.json", "--to", kind, "--out", kind]) == 0
     assert "sources only, for nothing could be compiled here" in capsys.readouterr().out
 
 

@@ -10,6 +10,7 @@ import pytest
 from modeler.cli import main, parser
 from modeler.cli.commands import parsed
 from modeler.cli.options import arguments_of, options_of
+from tests.cli.running import answer, refusal
 
 # What each argument of a command takes here; no file has to be there.
 WORDS = {
@@ -133,13 +134,11 @@ def test_the_usage_tells_an_order_that_works(name: str) -> None:
             assert named or option in ("--help", "--quiet", "--verbose"), option
 
 
-def test_numbers_below_zero_are_values(capsys, tmp_path) -> None:
-    words = ["simulate", "two-link", "--duration", "-1", "--out", str(tmp_path / "x.csv")]
-    assert main(words) == 1
-    assert "-1" in capsys.readouterr().err
+def test_numbers_below_zero_are_values(capsys) -> None:
+    assert "-1" in refusal(capsys, *["simulate", "two-link", "--duration", "-1", "--out", "x.csv"])
 
 
 def test_a_name_may_be_cut_short(capsys, tmp_path) -> None:
-    assert main(["derive", "--form", "markdown", "two-link", "--json", str(tmp_path / "j")]) == 0
-    assert "| --- |" in capsys.readouterr().out
+    words = ("derive", "--form", "markdown", "two-link", "--json", tmp_path / "j")
+    assert "| --- |" in answer(capsys, *words)
     assert json.loads((tmp_path / "j").read_text())["robot"] == "two-link"

@@ -195,7 +195,11 @@ print("after")
 """
 
 
-@pytest.mark.parametrize("name", ["/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "link"])
+@pytest.mark.parametrize(
+    "name",
+    ["/dev/stdout", "link", *(pytest.param(f"/{place}/fd/1", marks=pytest.mark.rotating)
+                              for place in ("dev", "proc/self"))],
+)  # fmt: skip
 @pytest.mark.parametrize("into", ["pipe", "file"])
 def test_our_own_stdout_is_written_to_in_order(tmp_path: Path, name: str, into: str) -> None:
     (tmp_path / "link").symlink_to("/dev/stdout")

@@ -53,7 +53,7 @@ def sources(folder: Path, model: CompiledModel) -> list:
     return [source_of(path, model.spec) for path in places]
 
 
-@pytest.mark.parametrize("rows", [100, 300])
+@pytest.mark.parametrize("rows", [300, pytest.param(100, marks=pytest.mark.rotating)])
 def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path, rows: int) -> None:
     """To the bit where they are merged in the same order, by workers of this process."""
     model = compiled()

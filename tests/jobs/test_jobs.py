@@ -52,7 +52,7 @@ def test_a_process_that_ends_is_told() -> None:
         others.each(ends_always, "", range(2))
 
 
-@pytest.mark.parametrize("seconds", [0.0, 1.0])
+@pytest.mark.parametrize("seconds", [0.0, pytest.param(1.0, marks=pytest.mark.rotating)])
 @pytest.mark.parametrize("killed", [False, True])
 def test_an_interrupt_or_a_kill_while_they_start_leaves_no_word(
     seconds: float, killed: bool

@@ -1,6 +1,5 @@
 """The folder in which a row runs, and the good inputs that bad ones are made from."""
 
-import csv
 import hashlib
 import json
 import math
@@ -31,11 +30,13 @@ _MADE = (
     "add m.json offset --joint 1 a.csv --out added.json",
     "generate two-link --out c_code",
     "compare m.json b.csv --report page.html",
+    "export m.json --to urdf --out good.urdf",
+    "export m.json --to mjcf --out good.xml",
 )
 """The good inputs: two logs to fit and to hold out, models, a generated folder."""
 
 
-class Ground:
+class Inputs:
     """The good inputs, made once."""
 
     def __init__(self, folder: Path) -> None:
@@ -72,11 +73,11 @@ class Ground:
         return json.loads((self.folder / name).read_text())
 
 
-class Yard:
+class Workdir:
     """One row's own folder: `work` to run in, `home`, `temporary` and nothing else."""
 
-    def __init__(self, folder: Path, ground: Ground) -> None:
-        self.folder, self.ground = folder, ground
+    def __init__(self, folder: Path, inputs: Inputs) -> None:
+        self.folder, self.inputs = folder, inputs
         self.work, self.home, self.temporary = (
             folder / name for name in ("work", "home", "temporary")
         )
@@ -97,7 +98,7 @@ class Yard:
 
     def take(self, name: str, to: str | None = None) -> Path:
         """A good input, copied."""
-        source, target = self.ground.folder / name, self.path(to or name)
+        source, target = self.inputs.folder / name, self.path(to or name)
         (shutil.copytree if source.is_dir() else shutil.copy)(source, target)
         return target
 
@@ -106,7 +107,7 @@ class Yard:
         for word in words:
             name = word.partition("@")[0]
             plain = name and "/" not in name and name not in (".", "..")
-            good = plain and len(name) < 100 and (self.ground.folder / name).exists()
+            good = plain and len(name) < 100 and (self.inputs.folder / name).exists()
             if good and not os.path.lexists(self.work / name):
                 self.take(name)
 
@@ -114,7 +115,7 @@ class Yard:
         self, name: str, edit: Callable[[Table], Table | None], of: str = "a.csv", **how: Any
     ) -> Path:
         """A log made from a good one by `edit`, as CSV or Parquet."""
-        table = self.ground.log(of)
+        table = self.inputs.log(of)
         table = edit(table) or table
         path = self.path(name)
         if path.suffix == ".parquet":
@@ -127,12 +128,12 @@ class Yard:
         self, name: str, edit: Callable[[dict[str, Any]], object], of: str = "m.json"
     ) -> Path:
         """A model file made from a good one by `edit`, in place; or the text that it returns."""
-        raw = self.ground.model(of)
+        raw = self.inputs.model(of)
         text = edit(raw)
         return self.write(name, text if isinstance(text, str | bytes) else json.dumps(raw))
 
     def state(self) -> dict[str, str]:
-        """What stands in the yard: relative path to kind and fingerprint."""
+        """What stands in the workdir: relative path to kind and fingerprint."""
         found: dict[str, str] = {}
         for path in sorted(self.folder.rglob("*")):
             name = path.relative_to(self.folder).as_posix()
@@ -147,10 +148,8 @@ class Yard:
 
 def read_csv(path: Path) -> Table:
     """The columns of a CSV file of numbers."""
-    with path.open(newline="") as file:
-        rows = list(csv.reader(file))
-    values = np.array([[float(cell or "nan") for cell in line] for line in rows[1:]])
-    return {name: values[:, k] for k, name in enumerate(rows[0])}
+    table = np.genfromtxt(path, delimiter=",", names=True)
+    return {name: table[name].copy() for name in table.dtype.names}
 
 
 def csv_text(table: Mapping[str, Any], separator: str = ",", end: str = "\n") -> str:

@@ -1,0 +1,54 @@
+"""Robots derived once a process: of commands that derive anew, all but the deriving is tested."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+
+from modeler.codegen import emit as emission, workflow
+from modeler.codegen.emit import emit
+from modeler.core.manifest import Emitted
+from modeler.derivation import BaseParameters, SymbolicModel, base_parameters, derive_model
+from modeler.robot import Robot
+
+_MODELS: dict[str, list[tuple[Robot, SymbolicModel]]] = {}
+_BASES: dict[int, BaseParameters] = {}
+_EMITTED: dict[int, Emitted] = {}
+"""By robot text, and by the model, which `_MODELS` keeps."""
+
+
+def _model(robot: Robot) -> SymbolicModel:
+    known = _MODELS.setdefault(robot.text, [])
+    for other, model in known:
+        if other == robot:
+            return model
+    known.append((robot, derive_model(robot)))
+    return known[-1][1]
+
+
+def _base(model: SymbolicModel, *more: Any, **named: Any) -> BaseParameters:
+    if more or named:
+        return base_parameters(model, *more, **named)
+    if id(model) not in _BASES:
+        _BASES[id(model)] = base_parameters(model)
+    return _BASES[id(model)]
+
+
+def _emitted(model: SymbolicModel, base: BaseParameters, *more: Any, **named: Any) -> Emitted:
+    plain = (*more, *named.values()) == (None, "double", False, None)
+    if not plain or _BASES.get(id(model)) is not base:
+        return emit(model, base, *more, **named)
+    if id(model) not in _EMITTED:
+        _EMITTED[id(model)] = emit(model, base)
+    return _EMITTED[id(model)]
+
+
+@contextmanager
+def derived_once() -> Iterator[None]:
+    """While it lasts, a robot that was derived before is not, nor is its plain C emitted again."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(workflow, "derive_model", _model)
+        patched.setattr(workflow, "base_parameters", _base)
+        patched.setattr(emission, "emit", _emitted)
+        yield
