@@ -11,6 +11,7 @@ import pytest
 from hypothesis.internal.conjecture import providers
 
 from modeler.core.json import nulled
+from tests.derived_once import derived_once
 from tests.further_robots import FurtherRobots
 from tests.robots import KINDS, OTHERS
 from tests.rotation import Rotation, today
@@ -102,6 +103,12 @@ def compiled_models_beside_pytest(request: pytest.FixtureRequest) -> Iterator[No
     yield
     if before is None:
         del os.environ["MODELER_CACHE"]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def robots_derived_once() -> Iterator[None]:
+    with derived_once():
+        yield
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -10,14 +10,12 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from modeler.codegen.emit import emit
 from modeler.core.manifest import Emitted
-from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.derive import derive_model
 from modeler.derivation.model import SymbolicModel
 from modeler.derivation.result import BaseParameters
 from modeler.robot.read import read_robot
 from modeler.runtime.model import CompiledModel, load
+from tests.derived_once import base_of, emitted_of, model_of
 
 
 class Module(NamedTuple):
@@ -28,9 +26,9 @@ class Module(NamedTuple):
 
 @cache
 def module(name: str) -> Module:
-    model = derive_model(read_robot(name))
-    base = base_parameters(model)
-    return Module(model, base, emit(model, base))
+    model = model_of(read_robot(name))
+    base = base_of(model)
+    return Module(model, base, emitted_of(model, base, None, "double", False, None))
 
 
 @cache

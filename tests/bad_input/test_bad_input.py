@@ -18,7 +18,6 @@ from tests.bad_input.drawn import run_mutants
 from tests.bad_input.judge import disturbed, ending, faults
 from tests.bad_input.row import Result, Row, row as made
 from tests.bad_input.workdir import Inputs, Workdir
-from tests.cli.derived_once import derived_once
 from tests.rotation import ROTATING
 
 THEMES = (
@@ -29,9 +28,8 @@ ROWS: tuple[Row, ...] = tuple(row for theme in THEMES for row in theme.ROWS)
 
 @pytest.fixture(scope="module")
 def inputs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Inputs]:
-    with derived_once():
-        inputs = Inputs(tmp_path_factory.mktemp("inputs"))
-        yield inputs
+    inputs = Inputs(tmp_path_factory.mktemp("inputs"))
+    yield inputs
     inputs.close()
 
 

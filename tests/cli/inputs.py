@@ -5,14 +5,12 @@ from pathlib import Path
 import pytest
 
 from modeler.cli import main
-from tests.cli.derived_once import derived_once
 
 
 def _made(folder: Path, *lines: str) -> Path:
     """The folder after these commands; `{}` in them is its path."""
-    with derived_once():
-        for line in lines:
-            assert main(line.format(folder).split()) == 0, line
+    for line in lines:
+        assert main(line.format(folder).split()) == 0, line
     return folder
 
 

@@ -1,5 +1,5 @@
 """What the tests of the core share with those of commands."""
 
-from tests.cli.conftest import axis, robots_derived_once
+from tests.cli.inputs import axis
 
-__all__ = ["axis", "robots_derived_once"]
+__all__ = ["axis"]

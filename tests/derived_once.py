@@ -1,4 +1,7 @@
-"""Robots derived once a process: of commands that derive anew, all but the deriving is tested."""
+"""Robots derived once a process: of what derives anew, all but the deriving is tested.
+
+Tests of the derivation call it by itself: they do not come by here.
+"""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,7 +21,7 @@ _EMITTED: dict[int, Emitted] = {}
 """By robot text, and by the model, which `_MODELS` keeps."""
 
 
-def _model(robot: Robot) -> SymbolicModel:
+def model_of(robot: Robot) -> SymbolicModel:
     known = _MODELS.setdefault(robot.text, [])
     for other, model in known:
         if other == robot:
@@ -27,7 +30,7 @@ def _model(robot: Robot) -> SymbolicModel:
     return known[-1][1]
 
 
-def _base(model: SymbolicModel, *more: Any, **named: Any) -> BaseParameters:
+def base_of(model: SymbolicModel, *more: Any, **named: Any) -> BaseParameters:
     if more or named:
         return base_parameters(model, *more, **named)
     if id(model) not in _BASES:
@@ -35,7 +38,7 @@ def _base(model: SymbolicModel, *more: Any, **named: Any) -> BaseParameters:
     return _BASES[id(model)]
 
 
-def _emitted(model: SymbolicModel, base: BaseParameters, *more: Any, **named: Any) -> Emitted:
+def emitted_of(model: SymbolicModel, base: BaseParameters, *more: Any, **named: Any) -> Emitted:
     plain = (*more, *named.values()) == (None, "double", False, None)
     if not plain or _BASES.get(id(model)) is not base:
         return emit(model, base, *more, **named)
@@ -48,7 +51,7 @@ def _emitted(model: SymbolicModel, base: BaseParameters, *more: Any, **named: An
 def derived_once() -> Iterator[None]:
     """While it lasts, a robot that was derived before is not, nor is its plain C emitted again."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(workflow, "derive_model", _model)
-        patched.setattr(workflow, "base_parameters", _base)
-        patched.setattr(emission, "emit", _emitted)
+        patched.setattr(workflow, "derive_model", model_of)
+        patched.setattr(workflow, "base_parameters", base_of)
+        patched.setattr(emission, "emit", emitted_of)
         yield
