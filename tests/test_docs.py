@@ -11,6 +11,7 @@ import subprocess
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -218,21 +219,37 @@ def _labels(picture: Path) -> list[str]:
 
 
 # Pages that take ten seconds and more: of their subjects, the README and the tutorial run some.
-LONG = (
-    "docs/how-to/servo-arms.md",
-    "docs/how-to/drive-gains.md",
-    "docs/how-to/diagnosis.md",
-    "docs/how-to/learned-law.md",
-    "docs/explanation/diagnosis.md",
-    "docs/how-to/free-run.md",
-    "docs/how-to/excitation.md",
-    "docs/how-to/motor-side.md",
-)
+LONG = tuple(
+    f"docs/{page}.md"
+    for page in (
+        "how-to/servo-arms", "how-to/drive-gains", "how-to/diagnosis", "how-to/learned-law",
+        "explanation/diagnosis", "how-to/free-run", "how-to/excitation", "how-to/motor-side",
+    )
+)  # fmt: skip
+DEAR = (
+    "README.md",
+    *(
+        f"docs/{page}.md"
+        for page in (
+            "explanation/least-squares", "explanation/motion-noise", "explanation/paper",
+            "how-to/better-urdf", "how-to/closed-forms", "how-to/controller",
+            "how-to/energy-model", "how-to/estimators", "how-to/exporting", "how-to/fleet",
+            "how-to/logs", "how-to/microcontrollers", "how-to/parallel-robots",
+            "how-to/physical-parameters", "how-to/reproduce", "how-to/show",
+            "reference/emitted-c", "reference/python", "robots/evra", "robots/orthoglide",
+            "robots/parallel-examples", "tutorials/table-to-model",
+        )
+    ),
+)  # fmt: skip
+"""More than a second each: what they show is computed in tests of every day as well."""
 
 
-@pytest.mark.parametrize(
-    "page", [pytest.param(page, marks=ROTATING * (page in LONG)) for page in RUN]
-)
+def marks_of(page: str) -> Any:
+    """When a page is run."""
+    return ROTATING if page in LONG else [pytest.mark.rotating] * (page in DEAR)
+
+
+@pytest.mark.parametrize("page", [pytest.param(page, marks=marks_of(page)) for page in RUN])
 def test_a_reader_gets_what_the_page_shows(page, tmp_path, monkeypatch, regenerate):
     monkeypatch.chdir(tmp_path)
     reader = Reader(page, regenerate)

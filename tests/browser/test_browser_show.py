@@ -16,10 +16,11 @@ from modeler.robot.read import read_robot, robot_from_text
 from tests.browser.chromium import Chromium
 from tests.robots import ROBOTS
 
-SIZES = [(1280, 900), (400, 800)]
+WIDE, NARROW = (1280, 900), (400, 800)
+SIZES = [NARROW, pytest.param(WIDE, marks=pytest.mark.rotating)]
 
 
-def shown(browser: Chromium, place: Path, text: str, size: tuple[int, int] = SIZES[0]) -> Skeleton:
+def shown(browser: Chromium, place: Path, text: str, size: tuple[int, int] = WIDE) -> Skeleton:
     """The page of a robot in the browser, drawn."""
     skeleton = skeleton_of(robot_from_text(text, "robot"))
     page = place / "page.html"
@@ -64,15 +65,17 @@ def test_poses_and_loops_are_those_of_python(calculator: Chromium, name: str) ->
         np.testing.assert_allclose(np.array(pose["R"]).T, expected[:3, :3], atol=1e-12)
         np.testing.assert_allclose(pose["p"], expected[:3, 3], atol=1e-12)
     if skeleton.robot.loops:
-        f, J = calculator.value("equations(asked, at)")
-        np.testing.assert_allclose(f, residuals(skeleton, u, home.size), atol=1e-12)
-        expected = jacobian(skeleton, u, home.size, range(len(u)))
-        np.testing.assert_allclose(J, expected, atol=1e-11)
-        for gap, ours in zip(
-            calculator.value("gapsAt(asked, at)"), gaps_of(skeleton, u), strict=True
-        ):
-            assert gap["distance"] == pytest.approx(ours.distance, abs=1e-12)
-            assert gap["angle"] == pytest.approx(ours.angle, abs=1e-7)
+        check_loops(calculator, skeleton, u, home.size)
+
+
+def check_loops(calculator: Chromium, skeleton: Skeleton, u: np.ndarray, size: float) -> None:
+    """Residuals, slopes and gaps of what was asked about are those of Python."""
+    f, J = calculator.value("equations(asked, at)")
+    np.testing.assert_allclose(f, residuals(skeleton, u, size), atol=1e-12)
+    np.testing.assert_allclose(J, jacobian(skeleton, u, size, range(len(u))), atol=1e-11)
+    for gap, ours in zip(calculator.value("gapsAt(asked, at)"), gaps_of(skeleton, u), strict=True):
+        assert gap["distance"] == pytest.approx(ours.distance, abs=1e-12)
+        assert gap["angle"] == pytest.approx(ours.angle, abs=1e-7)
 
 
 @pytest.mark.parametrize("meets", ["4{i}", "0"])
@@ -86,12 +89,7 @@ def test_every_kind_of_loop_has_its_slopes(calculator: Chromium, kind: str, meet
     calculator.value(
         f"window.asked = {json.dumps(page_content(skeleton, posture))}, window.at = {u.tolist()}, 0"
     )
-    f, J = calculator.value("equations(asked, at)")
-    np.testing.assert_allclose(f, residuals(skeleton, u, 1.6), atol=1e-12)
-    np.testing.assert_allclose(J, jacobian(skeleton, u, 1.6, range(len(u))), atol=1e-11)
-    for gap, ours in zip(calculator.value("gapsAt(asked, at)"), gaps_of(skeleton, u), strict=True):
-        assert gap["distance"] == pytest.approx(ours.distance, abs=1e-12)
-        assert gap["angle"] == pytest.approx(ours.angle, abs=1e-7)
+    check_loops(calculator, skeleton, u, 1.6)
 
 
 MOVES = {
@@ -105,7 +103,10 @@ MOVES = {
 }
 
 
-@pytest.mark.parametrize("name", MOVES)
+@pytest.mark.parametrize(
+    "name",
+    ["five-bar", *(pytest.param(n, marks=pytest.mark.rotating) for n in MOVES if n != "five-bar")],
+)
 def test_sliders_move_the_robot_with_its_loops_closed(browser, tmp_path, name: str) -> None:
     skeleton = shown(browser, tmp_path, builtin_text(name))
     home = np.array(browser.value("modelerShow.u"))
@@ -183,7 +184,7 @@ def test_home_is_copied_as_lines_of_the_file(browser, tmp_path) -> None:
 
 
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("name", ["stewart", "wrist"])
+@pytest.mark.parametrize("name", ["wrist", pytest.param("stewart", marks=pytest.mark.rotating)])
 def test_the_page_works_alone_at_any_width(browser, tmp_path, name: str, size) -> None:
     skeleton = shown(browser, tmp_path, builtin_text(name), size)
     assert browser.complaints == []
@@ -208,7 +209,11 @@ def test_the_page_works_alone_at_any_width(browser, tmp_path, name: str, size) -
 
 
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("name", ["orthoglide-2003", "stewart", "five-bar", "sr400", "puma560"])
+@pytest.mark.parametrize(
+    "name",
+    ["puma560", *(pytest.param(name, marks=pytest.mark.rotating)
+                  for name in ("orthoglide-2003", "stewart", "five-bar", "sr400"))],
+)  # fmt: skip
 def test_no_part_is_drawn_under_the_buttons_and_the_key(browser, tmp_path, name: str, size) -> None:
     shown(browser, tmp_path, builtin_text(name), size)
     for view in ("first", "xy", "xz", "yz", "iso"):
@@ -227,7 +232,7 @@ def test_a_home_that_was_found_is_said_on_the_page(browser, tmp_path) -> None:
     page = tmp_path / "bare.html"
     text = re.sub(r"\[home\][^\[]*", "", builtin_text("five-bar"))
     drawn = show(robot_from_text(text, "five-bar"), page=page)
-    browser.open(page, *SIZES[0])
+    browser.open(page, *WIDE)
     browser.until("window.modelerShow && modelerShow.view.items.length > 0")
     assert browser.value("document.getElementById('note').innerText") == drawn.posture.note
     assert drawn.posture.note.startswith("five-bar: [home] found: mode A at q11 = 2.2")

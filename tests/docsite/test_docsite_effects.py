@@ -22,7 +22,7 @@ from modeler.simulation import HIDDEN
 from tests.rotation import ROTATING
 
 QUICK = ("stribeck", "payload")
-"""A column and a body; the others take turns."""
+"""A column and a body; the others rotate."""
 
 
 @cache
@@ -60,7 +60,12 @@ def test_the_commands_of_every_effect_parse(effect: Effect) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(e.id, marks=() if e.id in QUICK else ROTATING) for e in CATALOGUE]
+    "name",
+    [
+        "stribeck",
+        pytest.param("payload", marks=pytest.mark.rotating),
+        *(pytest.param(e.id, marks=ROTATING) for e in CATALOGUE if e.id not in QUICK),
+    ],
 )
 def test_an_effect_has_its_page(name: str) -> None:
     effect, found = named(name), made(name)
@@ -84,13 +89,16 @@ def test_an_effect_has_its_page(name: str) -> None:
         parser().parse_args(shlex.split(line)[1:])
 
 
-@pytest.mark.parametrize("name", ["stribeck", "position_friction"])
+@pytest.mark.parametrize(
+    "name", ["stribeck", pytest.param("position_friction", marks=pytest.mark.rotating)]
+)
 def test_the_lines_of_a_robot_file_are_those_of_a_robot(name: str) -> None:
     (lines,) = code_blocks(made(name).page, "toml")
     text = with_effects(builtin_text("two-link"), tomllib.loads(lines)["effects"])
     assert {use.effect for use in robot_from_text(text, "two-link").effects} == {name}
 
 
+@pytest.mark.rotating("pages of effects")
 def test_a_picture_is_what_its_commands_draw(tmp_path: Path, monkeypatch, capsys) -> None:
     """End to end: the file that the page names is written, and the values are those it shows."""
     monkeypatch.chdir(tmp_path)
@@ -136,6 +144,7 @@ def test_pictures_of_effects_take_turns(monkeypatch: pytest.MonkeyPatch) -> None
     assert all(days.has_its_turn(place) for place in range(3))
 
 
+@pytest.mark.rotating("pages of effects")
 def test_the_indices_lead_to_all() -> None:
     shown = [made(name) for name in QUICK]
     index = effects_index(shown)
@@ -148,6 +157,7 @@ def test_the_indices_lead_to_all() -> None:
     assert entries == [{e.id: f"gallery/effects/{e.id}.md"} for e in CATALOGUE]
 
 
+@pytest.mark.rotating("pages of effects")
 def test_robots_lead_to_the_pages_about_them() -> None:
     assert "](../../robots/wrist.md)" in exhibit("wrist").page
     assert "../../robots/" not in exhibit("scara").page

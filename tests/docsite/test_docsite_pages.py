@@ -46,6 +46,7 @@ def test_every_place_has_its_page() -> None:
     assert set(listed()) == made | set(WRITTEN)
 
 
+@pytest.mark.rotating("pages of the site")
 def test_the_picture_of_the_house_is_that_of_the_code(regenerate: bool) -> None:
     picture = ROOT / "docs" / "explanation" / "house.svg"
     drawn = house_svg(ROOT / "modeler")
@@ -115,6 +116,7 @@ def test_an_exhibit_says_what_the_robot_has() -> None:
     assert "[scara](scara.md)" in index and f"| 4 | {found.base} | {found.lines} |" in index
 
 
+@pytest.mark.rotating("pages of the site")
 def test_coefficients_that_a_paper_numbers() -> None:
     assert coefficients(derive(load("scara"))) == []
     rows = "\n".join(coefficients(derive(load("wrist")))).splitlines()
@@ -169,6 +171,7 @@ def test_examples_in_docstrings_are_code() -> None:
     assert fenced(">>> 1\n1") == "```python\n>>> 1\n1\n```" and fenced("None.") == "None."
 
 
+@pytest.mark.rotating("pages of the site")
 def test_these_tests_need_no_package_of_the_site() -> None:
     """`make test` installs none of them."""
     without = "import sys; sys.modules.update(mkdocs=None, griffe=None); import docsite.hooks"

@@ -1,7 +1,8 @@
 """One session with the Python API, whose objects the tests look at."""
 
-import collections
-from collections.abc import Iterator
+import collections.abc
+from collections import deque
+from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Any
 
@@ -33,54 +34,72 @@ from modeler.api import (
 HIDDEN = "load_friction@2"
 
 
+MOTION = {"duration": 6.0, "rate": 250.0}
+MADE: dict[str, Callable[["Session"], Any]] = {
+    "robot": lambda s: load("demo-arm"),
+    "derivation": lambda s: derive(s["robot"]),
+    "relations": lambda s: s["derivation"].relations,
+    "closed form": lambda s: s["derivation"].closed_form(),
+    "emitted": lambda s: generate(s["derivation"]),
+    "compiled": lambda s: compile_model(s["emitted"]),
+    "runs": lambda s: [simulate(s["robot"], hide=[HIDDEN], **MOTION, seed=n) for n in (1, 2)],
+    "logs": lambda s: list(read_logs(s["compiled"], s["runs"])),
+    "simulated": lambda s: s["runs"][0],
+    "log": lambda s: s["logs"][0],
+    "observation": lambda s: observe(s["compiled"], s["logs"][:1]),
+    "report": lambda s: s["observation"].report,
+    "model": lambda s: fit(s["derivation"], s["emitted"], s["observation"]),
+    "fit": lambda s: s["model"].fit,
+    "better": lambda s: auto(s["model"], s["logs"][:1], s["logs"][1:]),
+    "addition": lambda s: s["better"].history[-1],
+    "comparison": lambda s: compare(s["model"], s["logs"][1:]),
+    "better comparison": lambda s: compare(s["better"], s["logs"][1:]),
+    "diagnosis": lambda s: diagnose(s["model"], s["logs"][:1], s["logs"][1:]),
+    "fleet": lambda s: fleet(s["robot"], {"one": {"1": s["runs"][0], "2": s["runs"][1]}}),
+    "free run": lambda s: free_run(
+        s["better"], [simulate(s["robot"], hide=[HIDDEN], duration=2.0, rate=250.0, seed=3)]
+    ),
+    "contest": lambda s: contest({"first": s["model"], "better": s["better"]}, s["logs"][1:]),
+    "estimators": lambda s: side_by_side(
+        s["compiled"], s["logs"][:1], s["logs"][1:], ["weighted", "ridge"]
+    ),
+    "modes": lambda s: home(load("five-bar")),
+    "motion": lambda s: excite(load("two-link"), duration=4.0, harmonics=3, starts=1),
+    "physical": lambda s: physical(load("wrist")),
+    "exported": lambda s: export(s["better"], to="urdf"),
+    "list of robots": lambda s: robots(),
+    "list of effects": lambda s: effects(),
+    "list of estimators": lambda s: estimators(),
+}
+
+
+class Session(collections.abc.Mapping[str, Any]):
+    """Every kind of object that the API gives, by the name of what it is; made when asked for."""
+
+    def __init__(self) -> None:
+        self._made: dict[str, Any] = {}
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._made:
+            self._made[name] = MADE[name](self)
+        return self._made[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(MADE.keys() - {"runs", "logs"})
+
+    def __len__(self) -> int:
+        return len(MADE) - 2
+
+
 @cache
-def session() -> dict[str, Any]:
-    """Every kind of object that the API gives, by the name of what it is."""
-    robot = load("demo-arm")
-    derivation = derive(robot)
-    emitted = generate(derivation)
-    compiled = compile_model(emitted)
-    runs = [simulate(robot, hide=[HIDDEN], duration=6.0, seed=seed) for seed in (1, 2)]
-    train, other = ([log] for log in read_logs(compiled, runs))
-    short = simulate(robot, hide=[HIDDEN], duration=2.0, rate=250.0, seed=3)
-    observation = observe(compiled, train)
-    model = fit(derivation, emitted, observation)
-    better = auto(model, train, other)
-    return {
-        "robot": robot,
-        "derivation": derivation,
-        "relations": derivation.relations,
-        "closed form": derivation.closed_form(),
-        "emitted": emitted,
-        "compiled": compiled,
-        "simulated": runs[0],
-        "log": train[0],
-        "observation": observation,
-        "report": observation.report,
-        "model": model,
-        "fit": model.fit,
-        "better": better,
-        "addition": better.history[-1],
-        "comparison": compare(model, other),
-        "better comparison": compare(better, other),
-        "diagnosis": diagnose(model, train, other),
-        "fleet": fleet(robot, {"one": {"1": runs[0], "2": runs[1]}}),
-        "free run": free_run(better, [short]),
-        "contest": contest({"first": model, "better": better}, other),
-        "estimators": side_by_side(compiled, train, other, ["weighted", "ridge"]),
-        "modes": home(load("five-bar")),
-        "motion": excite(load("two-link"), duration=4.0, harmonics=3, starts=1),
-        "physical": physical(load("wrist")),
-        "exported": export(better, to="urdf"),
-        "list of robots": robots(),
-        "list of effects": effects(),
-        "list of estimators": estimators(),
-    }
+def session() -> Session:
+    """That of the process."""
+    return Session()
 
 
-def reached(things: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+def reached(things: Session) -> Iterator[tuple[str, Any]]:
     """All objects of our classes that attributes, entries and items lead to, with the way."""
-    waiting = collections.deque(things.items())
+    waiting = deque(things.items())
     seen: dict[int, Any] = {}
     while waiting:
         way, thing = waiting.popleft()

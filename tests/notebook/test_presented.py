@@ -20,11 +20,13 @@ from modeler.core.result import Presented, presented
 from modeler.robot.read import robot_from_text
 from tests.notebook.session import HIDDEN, reached, session
 
-NAMES = [
+ALWAYS = ("log", "model")
+NAMES = (
     "robot", "derivation", "emitted", "compiled", "simulated", "log", "observation", "report",
     "model", "fit", "better", "addition", "comparison", "diagnosis", "estimators", "modes",
     "contest", "free run", "motion", "physical",
-]  # fmt: skip
+)  # fmt: skip
+EACH = [pytest.param(name, marks=() if name in ALWAYS else pytest.mark.rotating) for name in NAMES]
 
 
 @pytest.mark.slow
@@ -36,7 +38,7 @@ def test_every_object_that_is_reached_prints_one_short_line() -> None:
         assert len(line) <= 200 and "\n" not in line, f"{way}: make it a Brief: {line[:99]}"
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", EACH)
 def test_all_results_have_a_summary(name: str) -> None:
     thing = session()[name]
     assert isinstance(thing, Presented)
@@ -44,7 +46,7 @@ def test_all_results_have_a_summary(name: str) -> None:
     assert 10 < len(first) < 250 and "object at 0x" not in thing.summary()
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", EACH)
 def test_every_table_is_text_html_latex_and_markdown(name: str) -> None:
     thing = session()[name]
     shown = presented(type(thing))
@@ -57,7 +59,7 @@ def test_every_table_is_text_html_latex_and_markdown(name: str) -> None:
         assert _checked(table.to_html()) <= 64
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", EACH)
 def test_every_figure_is_drawn(name: str) -> None:
     thing = session()[name]
     shown = presented(type(thing))
@@ -70,7 +72,7 @@ def test_every_figure_is_drawn(name: str) -> None:
         assert figure.axes and png.startswith(b"\x89PNG") and len(png) > 5000
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", EACH)
 def test_every_result_is_plain_data_a_page_and_files(name: str, tmp_path: Path) -> None:
     thing = session()[name]
     data = thing.to_dict()
@@ -98,6 +100,7 @@ def test_every_result_is_plain_data_a_page_and_files(name: str, tmp_path: Path) 
             thing.save(tmp_path / "a.xyz")
 
 
+@pytest.mark.rotating("results of the session")
 def test_endings_of_their_own_and_figures(tmp_path: Path) -> None:
     made = session()
     assert load(made["robot"].save(tmp_path / "arm.toml")).text == made["robot"].text
@@ -122,9 +125,10 @@ def test_a_figure_is_saved_as_any() -> None:
     assert b"</svg>" in svg.getvalue()
 
 
+@pytest.mark.rotating("results of the session")
 def test_which_have_figures() -> None:
-    drawn = {name for name in NAMES if presented(type(session()[name])).figures(session()[name])}
-    assert drawn >= {"robot", "log", "model", "comparison", "diagnosis", "simulated", "better"}
+    for name in ("robot", "log", "model", "comparison", "diagnosis", "simulated", "better"):
+        assert presented(type(session()[name])).figures(session()[name]), name
     assert "waterfall" in presented(type(session()["better"])).figures(session()["better"])
     with pytest.raises(DataError, match="a model has no waterfall; expected one of parameters"):
         session()["model"].plot("waterfall")
@@ -137,13 +141,19 @@ def test_an_unknown_table_is_refused_with_those_there_are() -> None:
         session()["comparison"].table("errrors")
 
 
-@pytest.mark.parametrize("name", ["robot", "derivation", "better", "comparison", "diagnosis"])
+@pytest.mark.parametrize(
+    "name",
+    ["robot", "derivation",
+     *(pytest.param(name, marks=pytest.mark.rotating)
+       for name in ("better", "comparison", "diagnosis"))],
+)  # fmt: skip
 def test_the_html_of_a_notebook_is_small_and_well_formed(name: str) -> None:
     text = session()[name]._repr_html_()
     assert len(text) < 100_000 and _checked(text) > 0
     assert "http" not in text  # no network
 
 
+@pytest.mark.rotating("results of the session")
 def test_html_says_what_was_found() -> None:
     better = session()["better"]._repr_html_()
     assert "load_friction" in better and "relative_sigma_percent" in better
@@ -165,6 +175,7 @@ def test_what_a_user_wrote_is_escaped() -> None:
     assert "&lt;script&gt;" in robot._repr_html_()
 
 
+@pytest.mark.rotating("results of the session")
 def test_tables_hold_the_numbers_of_the_results() -> None:
     made = session()
     model, comparison, better = made["model"], made["comparison"], made["better"]

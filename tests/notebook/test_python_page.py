@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+import pytest
+
 import modeler.api as api
 from modeler.core.result import presented
 from tests.notebook.session import session
@@ -33,6 +35,7 @@ def test_every_function_stands_there() -> None:
     assert told == offered - {"Mapped", "AnyLog"}
 
 
+@pytest.mark.rotating("results of the session")
 def test_every_table_and_figure_stands_there() -> None:
     made = session()
     told = {row[0]: [set(cell.split(", ")) - {""} for cell in row[1:]] for row in rows(

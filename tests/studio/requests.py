@@ -62,14 +62,19 @@ def let_in(studio: Served, **headers: str) -> str:
     return answer.headers["set-cookie"].partition(";")[0]
 
 
-def websocket_status(studio: Served, headers: Mapping[str, str]) -> int:
-    """What a websocket is answered with: 101 if it is taken."""
+def websocket_request(headers: Mapping[str, str]) -> bytes:
+    """That a websocket be opened."""
     key = base64.b64encode(os.urandom(16)).decode()
     lines = [
         "GET /_nicegui_ws/socket.io/?EIO=4&transport=websocket HTTP/1.1",
         "Connection: Upgrade", "Upgrade: websocket", "Sec-WebSocket-Version: 13",
         f"Sec-WebSocket-Key: {key}", *(f"{name}: {value}" for name, value in headers.items()),
     ]  # fmt: skip
+    return ("\r\n".join(lines) + "\r\n\r\n").encode()
+
+
+def websocket_status(studio: Served, headers: Mapping[str, str]) -> int:
+    """What a websocket is answered with: 101 if it is taken."""
     with socket.create_connection(("127.0.0.1", port_of(studio)), timeout=20) as line:
-        line.sendall(("\r\n".join(lines) + "\r\n\r\n").encode())
+        line.sendall(websocket_request(headers))
         return int(re.match(rb"HTTP/1\.1 (\d+)", line.recv(4096))[1])

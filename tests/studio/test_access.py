@@ -2,26 +2,25 @@
 
 import asyncio
 import re
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
 from modeler.studio.access import Guard
 from tests.studio.requests import ask, let_in, port_of, websocket_status
-from tests.studio.window import Served, served
+from tests.studio.window import Served
 
 SECRET = "what nobody may read"
 
 
 @pytest.fixture(scope="module")
-def studio(tmp_path_factory) -> Iterator[Served]:
-    top = tmp_path_factory.mktemp("access")
-    (top / "secret.csv").write_text(SECRET)
-    with served(top / "project") as one:
-        (one.folder / "logs").mkdir(exist_ok=True)
-        (one.folder / "logs" / "out.csv").symlink_to(top / "secret.csv")
-        yield one
+def studio(served_studio: Served) -> Served:
+    """Beside its folder a file that a link in it leads to."""
+    secret = served_studio.folder.parent / "secret.csv"
+    secret.write_text(SECRET)
+    (served_studio.folder / "logs").mkdir(exist_ok=True)
+    (served_studio.folder / "logs" / "out.csv").symlink_to(secret)
+    return served_studio
 
 
 @pytest.fixture(scope="module")

@@ -13,31 +13,41 @@ import pytest
 
 from modeler.cli import main
 from tests.json_schemas import check_schema
-from tests.studio.requests import ask, let_in
+from tests.studio.requests import ask, let_in, port_of, websocket_request
 from tests.studio.window import Served, served
 
 WORDS = [sys.executable, "-m", "modeler", "studio", "--no-open"]
 
 
-def test_the_address_stands_in_the_json_before_it_serves(tmp_path: Path) -> None:
+def test_the_address_stands_in_the_json_and_an_open_window_does_not_hold_it(tmp_path: Path) -> None:
+    """Ctrl-C while a browser is connected."""
     place = tmp_path / "address.json"
-    with served(tmp_path / "arm", "--json", str(place)) as studio:
+    with (
+        served(tmp_path / "arm", "--json", str(place)) as studio,
+        socket.create_connection(("127.0.0.1", port_of(studio))) as line,
+    ):
         raw = json.loads(place.read_text())
         check_schema("studio", raw)
         assert raw["address"] == studio.address and raw["folder"] == str(tmp_path / "arm")
         assert raw["pid"] == studio.process.pid
         assert place.stat().st_mode & 0o077 == 0  # who has the token is let in
-        assert ask(studio, cookie=let_in(studio)).status == 200
-        assert studio.end() == 130
+        cookie = let_in(studio)
+        assert ask(studio, cookie=cookie).status == 200
+        host = f"127.0.0.1:{port_of(studio)}"
+        line.sendall(websocket_request({"Host": host, "Cookie": cookie}))
+        assert line.recv(12) == b"HTTP/1.1 101"
+        begin = time.monotonic()
+        assert studio.end() == 130 and time.monotonic() - begin < 10
 
 
-def test_json_alone_on_stdout_over_a_pipe(tmp_path: Path) -> None:
+@pytest.mark.rotating("ways to start a studio")
+@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="finds the processes in /proc")
+def test_json_alone_on_stdout_and_ctrl_c_of_a_terminal_goes_to_all(tmp_path: Path) -> None:
+    """The process that draws logs says nothing of it."""
     with subprocess.Popen(
-        [*WORDS, str(tmp_path), "--json", "-"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
+        [*WORDS, str(tmp_path), "--json", "-"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        text=True, start_new_session=True,
+    ) as process:  # fmt: skip
         assert process.stdout is not None and process.stderr is not None
         lines = []
         for line in process.stdout:
@@ -46,20 +56,6 @@ def test_json_alone_on_stdout_over_a_pipe(tmp_path: Path) -> None:
                 break
         raw = json.loads("".join(lines))
         assert ask(Served(tmp_path, raw["address"], process)).status == 403  # it answers
-        process.send_signal(signal.SIGINT)
-        assert process.wait(20) == 130
-        assert process.stdout.read() == "" and process.stderr.read() == "modeler: interrupted\n"
-
-
-@pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="finds the processes in /proc")
-def test_ctrl_c_of_a_terminal_goes_to_all_its_processes(tmp_path: Path) -> None:
-    """The one that draws logs says nothing of it."""
-    with subprocess.Popen(
-        [*WORDS, str(tmp_path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        start_new_session=True,
-    ) as process:  # fmt: skip
-        assert process.stdout is not None and process.stderr is not None
-        process.stdout.readline()
         begun, end = False, time.monotonic() + 20
         while not begun and time.monotonic() < end:
             lists = Path(f"/proc/{process.pid}/task").glob("*/children")
@@ -70,34 +66,7 @@ def test_ctrl_c_of_a_terminal_goes_to_all_its_processes(tmp_path: Path) -> None:
         assert begun
         os.killpg(process.pid, signal.SIGINT)
         assert process.wait(20) == 130
-        assert process.stderr.read() == "modeler: interrupted\n"
-
-
-def test_it_says_how_to_reach_it_over_ssh(tmp_path: Path) -> None:
-    with subprocess.Popen([*WORDS, str(tmp_path)], stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
-        first, second = process.stdout.readline(), process.stdout.readline()
-        process.send_signal(signal.SIGTERM)
-        process.wait(20)
-    port = first.partition("127.0.0.1:")[2].partition("/")[0]
-    assert f"studio of {tmp_path}: http://127.0.0.1:{port}/?token=" in first
-    assert f"ssh -L {port}:127.0.0.1:{port} HOST" in second
-
-
-def test_a_window_that_is_open_does_not_hold_it(tmp_path: Path) -> None:
-    """Ctrl-C while a browser is connected."""
-    with (
-        served(tmp_path) as studio,
-        socket.create_connection(("127.0.0.1", int(studio.root.rpartition(":")[2]))) as line,
-    ):
-        path = "/_nicegui_ws/socket.io/?EIO=4&transport=websocket"
-        head = f"GET {path} HTTP/1.1\r\nHost: {studio.root[7:]}\r\n"
-        more = "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
-        key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
-        line.sendall(f"{head}{more}{key}Cookie: {let_in(studio)}\r\n\r\n".encode())
-        assert line.recv(12) == b"HTTP/1.1 101"
-        begin = time.monotonic()
-        assert studio.end() == 130 and time.monotonic() - begin < 10
+        assert process.stdout.read() == "" and process.stderr.read() == "modeler: interrupted\n"
 
 
 @pytest.mark.parametrize(
@@ -137,6 +106,7 @@ def test_where_it_is_not_installed_it_says_what_to_install(tmp_path: Path, packa
     assert 'run: pip install "modeler-robotics[studio]"' in done.stderr
 
 
+@pytest.mark.rotating("ways to start a studio")
 def test_the_browser_gets_an_address_that_is_good_once(tmp_path: Path, monkeypatch) -> None:
     """What a browser is started with stands in the list of processes; what is printed does not."""
     opener = tmp_path / "opener"
@@ -150,7 +120,11 @@ def test_the_browser_gets_an_address_that_is_good_once(tmp_path: Path, monkeypat
         [*words, str(tmp_path / "p")], stdout=subprocess.PIPE, text=True, env=environment
     ) as process:
         assert process.stdout is not None
-        printed = process.stdout.readline().rpartition(" ")[2].strip()
+        first, second = process.stdout.readline(), process.stdout.readline()
+        printed = first.rpartition(" ")[2].strip()
+        port = first.partition("127.0.0.1:")[2].partition("/")[0]
+        assert f"studio of {tmp_path / 'p'}: http://127.0.0.1:{port}/?token=" in first
+        assert f"ssh -L {port}:127.0.0.1:{port} HOST" in second
         end = time.monotonic() + 20
         while not (tmp_path / "opened").exists() and time.monotonic() < end:
             time.sleep(0.05)

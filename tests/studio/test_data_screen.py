@@ -1,6 +1,5 @@
 """The data screen as a person uses it: logs come in, are mapped, cut, doubted and played."""
 
-import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -9,13 +8,11 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet
 import pytest
-import scipy.io
 
 from modeler.cli import main
 from modeler.core.builtin import builtin_text
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Stretch
-from tests.rotation import rotating_with
 from tests.studio.window import Served, Window, served
 
 JOINTS = (1, 2, 3)
@@ -50,23 +47,13 @@ def parquet(place: Path, columns: dict[str, np.ndarray]) -> Path:
     return place
 
 
-def mat(place: Path, columns: dict[str, np.ndarray]) -> Path:
-    scipy.io.savemat(place, columns)
-    return place
-
-
-def project(folder: Path, robot: str = "demo-arm") -> Path:
-    """A folder in which the robot is described already."""
-    folder.mkdir(exist_ok=True)
-    if robot:
-        (folder / "robot.toml").write_text(builtin_text(robot), encoding="utf-8")
-        Workspace(folder).save(Project("robot.toml"))
-    return folder
-
-
 @pytest.fixture
 def studio(tmp_path: Path) -> Iterator[Served]:
-    with served(project(tmp_path / "arm")) as running:
+    folder = tmp_path / "arm"
+    folder.mkdir()
+    (folder / "robot.toml").write_text(builtin_text("demo-arm"), encoding="utf-8")
+    Workspace(folder).save(Project("robot.toml"))
+    with served(folder) as running:
         yield running
 
 
@@ -90,10 +77,6 @@ def curves(w: Window) -> dict[str, Any]:
     )
 
 
-def field(w: Window, label: str) -> Any:
-    return w.page.get_by_role("combobox", name=label, exact=True)
-
-
 def until(w: Window, served_: Served, holds: Callable[[Any], bool]) -> Any:
     """The project, as soon as its file says so."""
     for _ in range(1200):
@@ -103,7 +86,8 @@ def until(w: Window, served_: Served, holds: Callable[[Any], bool]) -> Any:
     raise AssertionError(served_.project)
 
 
-def test_three_formats_from_the_drop_to_the_fit(
+@pytest.mark.rotating("screens of the studio")
+def test_logs_are_dropped_dragged_brushed_and_played(
     window: Callable[..., Window], studio: Served, measured: dict[str, np.ndarray], tmp_path: Path
 ) -> None:
     w = window().open(studio)
@@ -112,47 +96,19 @@ def test_three_formats_from_the_drop_to_the_fit(
     clean = as_logged(measured)
     spoilt = {**clean, "Drehmoment_2": clean["Drehmoment_2"].copy()}
     spoilt["Drehmoment_2"][3000] += 300.0
-    files = [german(tmp_path / "a.csv", spoilt), parquet(tmp_path / "b.parquet", clean)]
-    drop(w, [*files, mat(tmp_path / "c.mat", clean)])
+    drop(w, [german(tmp_path / "a.csv", spoilt), parquet(tmp_path / "b.parquet", clean)])
     pictured(w)
     found = studio.project
     assert found.mapping == ("time=Zeit", "q<j>=Winkel_{j}:deg", "tau<j>=Drehmoment_{j}")
-    assert [log.file for log in found.logs] == ["logs/a.csv", "logs/b.parquet", "logs/c.mat"]
-    assert found.words("train") == ["logs/a.csv", "logs/b.parquet"]
-    assert found.words("test") == ["logs/c.mat"]
-    w.sees("A guess by names")
     drawn = curves(w)["joint 1y"]
     at = np.interp(drawn["x"], measured["time"], measured["q1"])
     np.testing.assert_allclose(drawn["y"], at, atol=1e-5)
     assert len(drawn["x"]) <= 1500
 
-    # Another unit, by the menu: the picture follows, and the words.
-    field(w, "unit of q1").click()
-    page.get_by_role("option", name="rad", exact=True).click()
-    plot = "document.querySelector('.data-pictures .js-plotly-plot')"
-    page.wait_for_function(f"Math.max(...({plot}?.data?.[0]?.y ?? [])) > 10")
-    np.testing.assert_allclose(curves(w)["joint 1y"]["y"], np.rad2deg(at), atol=1e-3)
-    words = until(w, studio, lambda p: "q1=Winkel_1" in " ".join(p.mapping)).mapping
-    assert "q2=Winkel_2:deg" in words
-    page.get_by_role("button", name="sign of q1").click()
-    until(w, studio, lambda p: any(word.startswith("q1=-Winkel_1") for word in p.mapping))
-    w.page.locator("[aria-label='sign of q1']", has_text="\u2212").wait_for()
-    # A unit that cannot be is refused in one line, and nothing is lost.
-    before = studio.project.mapping
-    unit = field(w, "unit of q1")
-    unit.fill("kg")
-    unit.press("Enter")
-    w.sees('got unit "kg"')
-    assert studio.project.mapping == before
-    # Back, by dragging the column onto its name, and the unit of all joints.
-    page.get_by_role("button", name="sign of q1").click()
-    page.locator("[aria-label='sign of q1']", has_text="+").wait_for()
+    # By dragging a column onto our name, and back.
     page.locator(".mapping-chip", has_text="Winkel_1").drag_to(page.locator("[data-own=q2]"))
     until(w, studio, lambda p: "q2=Winkel_1:deg" in p.mapping)
     page.locator(".mapping-chip", has_text="Winkel_2").drag_to(page.locator("[data-own=q2]"))
-    until(w, studio, lambda p: "q2=Winkel_2:deg" in p.mapping)
-    page.locator(".mapping-all").first.click()
-    page.get_by_role("option", name="deg", exact=True).click()
     until(w, studio, lambda p: p.mapping == found.mapping)
 
     # The spike is a mark on the line: why, and leave it out.
@@ -183,7 +139,6 @@ def test_three_formats_from_the_drop_to_the_fit(
     assert log.out[1] == Stretch(5.0, 6.5)
 
     plays(w, measured)
-    fits(w, studio, tmp_path)
     assert w.complaints == []
 
 
@@ -225,138 +180,3 @@ def plays(w: Window, run: dict[str, np.ndarray]) -> None:
     assert page.evaluate("posed.length") == count
     cursor = page.locator(".data-pictures .studio-cursor span").inner_text()
     assert cursor == f"{float(line.get_attribute('aria-valuenow')):.3f} s"
-
-
-def fits(w: Window, studio: Served, tmp_path: Path) -> None:
-    """What the project says, typed by hand, gives the numbers that the studio gives."""
-    found = studio.project
-    w.go("Fit")
-    w.page.get_by_role("button", name="Fit", exact=True).last.click()
-    done = until(w, studio, lambda p: p.current > 0)
-    step = done.step(done.current)
-    made = json.loads((studio.folder / step.result).read_text(encoding="utf-8"))
-    logs = [word.replace("logs/", f"{studio.folder}/logs/") for word in found.words("train")]
-    maps = [word for own in found.mapping for word in ("--map", own)]
-    said = tmp_path / "typed.json"
-    words = ["fit", "demo-arm", *logs, *maps, "--out", str(tmp_path / "typed.model.json")]
-    assert main([*words, "--json", str(said), "--quiet"]) == 0
-    typed = json.loads(said.read_text(encoding="utf-8"))
-    assert len(logs) == 5  # before and after what is held out, and between what is left out
-    for one, other in zip(made["parameters"], typed["parameters"], strict=True):
-        assert one["name"] == other["name"]
-        assert one["value"] == pytest.approx(other["value"], rel=1e-12)
-
-
-def test_what_cannot_be_read_is_told_in_place(
-    window: Callable[..., Window], studio: Served, measured: dict[str, np.ndarray], tmp_path: Path
-) -> None:
-    w = window().open(studio)
-    w.go("Data")
-    evil = "<img src=x onerror=document.title='taken'>_{}"
-    columns = {"t": measured["time"]}
-    columns |= {evil.format(j): measured[f"q{j}"] for j in JOINTS}
-    columns |= {f"tau{j}": measured[f"tau{j}"] for j in JOINTS}
-    broken = tmp_path / "broken.parquet"
-    broken.write_bytes(b"PAR1 this is none")
-    drop(w, [broken, parquet(tmp_path / "good.parquet", columns)])
-    w.sees("cannot be read as PARQUET")
-    pictured(w)
-    # Names from files are text, wherever they stand.
-    field(w, "column of q2").click()
-    w.page.get_by_role("option", name=evil.format(3), exact=True).click()
-    until(w, studio, lambda p: f"q2={evil.format(3)}" in p.mapping)
-    w.sees(evil.format(1))
-    assert w.page.title() != "taken" and w.page.locator("img").count() == 0
-    # A file that goes away while it is looked at: told, and all is as it was when it is back.
-    before = studio.project
-    place = studio.folder / "logs" / "good.parquet"
-    kept = place.read_bytes()
-    place.unlink()
-    w.click("whole log")
-    w.sees("put the file back")
-    w.page.reload()
-    w.page.wait_for_selector(".studio-screen")
-    w.go("Data")
-    w.sees("good.parquet: cannot be read")
-    assert studio.project.logs == before.logs and studio.project.mapping == before.mapping
-    place.write_bytes(kept)
-    w.page.reload()
-    w.page.wait_for_selector(".studio-screen")
-    w.go("Data")
-    pictured(w)
-    w.page.get_by_text("this window only reads").wait_for(state="hidden")  # the one before left
-    w.click("take logs/broken.parquet off the list")
-    until(w, studio, lambda p: [log.file for log in p.logs] == ["logs/good.parquet"])
-    assert (studio.folder / "logs" / "broken.parquet").exists()
-    assert [c for c in w.complaints if "400" not in c] == []
-
-
-@rotating_with("screens of the studio")
-def test_logs_of_other_names_chosen_where_they_lie_are_each_taken_by_their_own_guess(
-    window: Callable[..., Window], measured: dict[str, np.ndarray], tmp_path: Path
-) -> None:
-    other = {"t": measured["time"]} | {"pos": np.column_stack([measured[f"q{j}"] for j in JOINTS])}
-    other["torque"] = np.column_stack([measured[f"tau{j}"] for j in JOINTS])
-    place = tmp_path / "elsewhere"
-    (place / "deep").mkdir(parents=True)
-    german(place / "deep" / "a.csv", as_logged(measured))
-    far = mat(place / "deep" / "b.mat", other)
-    with served(project(tmp_path / "arm"), "--allow", str(place)) as studio:
-        w = window().open(studio)
-        w.go("Data")
-        w.click("Choose where it lies")
-        dialog = w.page.get_by_role("dialog")
-        dialog.get_by_role("button", name=str(place)).click()
-        dialog.get_by_role("button", name="deep").click()
-        for name in ("a.csv", "b.mat"):
-            dialog.get_by_role("checkbox", name=name).click()
-        dialog.get_by_role("button", name="Take", exact=True).click()
-        pictured(w)
-        w.sees("The logs name their columns differently")
-        assert studio.project.mapping == ("auto",)
-        assert [log.file for log in studio.project.logs] == [str(far.parent / "a.csv"), str(far)]
-        first = curves(w)["joint 2y"]
-        w.click("b.mat", exact=True)
-        w.page.locator(".mapping-chip", has_text="torque[2]").wait_for()
-        pictured(w)
-        second = curves(w)["joint 2y"]
-        between = np.interp(second["x"], first["x"], first["y"])
-        np.testing.assert_allclose(between, second["y"], atol=2e-3)
-        # A unit of one, said beside the guess, is no matter of the other.
-        field(w, "unit of tau2").click()
-        w.page.get_by_role("option", name="mN m", exact=True).click()
-        until(w, studio, lambda p: p.mapping == ("auto", "tau2=torque[2]:mN m"))
-        w.click("a.csv", exact=True)
-        w.page.locator(".mapping-chip", has_text="Drehmoment_2").wait_for()
-        assert field(w, "column of tau2").input_value() == "Drehmoment_2"
-        assert w.complaints == []
-
-
-@rotating_with("screens of the studio")
-def test_many_files_at_once_and_a_robot_to_start_from(
-    window: Callable[..., Window], measured: dict[str, np.ndarray], tmp_path: Path
-) -> None:
-    files = []
-    for k in range(30):
-        rows = slice(200 * k, 200 * k + 400)
-        columns = {"time": measured["time"][rows]}
-        columns |= {
-            f"{kind}{j}": measured[f"{kind}{j}"][rows] for j in JOINTS for kind in ("q", "tau")
-        }
-        files.append(parquet(tmp_path / f"part{k:02}.parquet", columns))
-    with served(project(tmp_path / "none", robot="")) as studio:
-        w = window().open(studio)
-        w.go("Data")
-        drop(w, files)
-        pictured(w)
-        found = studio.project
-        assert [log.file for log in found.logs] == [f"logs/part{k:02}.parquet" for k in range(30)]
-        assert len(found.words("train")) == 29 and found.words("test") == ["logs/part29.parquet"]
-        assert found.mapping == ()
-        w.click("A robot with 3 joints to start from")
-        made = until(w, studio, lambda p: p.robot)
-        assert made.robot == "robot.toml"
-        text = (studio.folder / "robot.toml").read_text(encoding="utf-8")
-        assert '"q3"' in text and '"q4"' not in text
-        w.page.wait_for_selector("iframe.studio-robot")
-        assert w.complaints == []

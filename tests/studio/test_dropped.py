@@ -9,13 +9,13 @@ import resource
 import signal
 import socket
 import threading
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from urllib.parse import quote
 
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import given, settings, strategies as st
 
 from modeler.core.errors import ModelerError
 from modeler.studio import dropped
@@ -25,9 +25,9 @@ from tests.studio.window import Served, served
 
 
 @pytest.fixture(scope="module")
-def studio(tmp_path_factory) -> Iterator[Served]:
-    with served(tmp_path_factory.mktemp("dropped") / "project") as one:
-        yield one
+def studio(served_studio: Served) -> Served:
+    (served_studio.folder / "logs").mkdir(exist_ok=True)
+    return served_studio
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +60,8 @@ def peak(studio: Served) -> int:
 # Names.
 
 
-@given(st.text(max_size=300), st.sampled_from([*KINDS["logs"], ".CSV"]))
+@settings(max_examples=30)
+@given(st.text(max_size=150), st.sampled_from([*KINDS["logs"], ".CSV"]))
 def test_any_name_becomes_a_harmless_one(name: str, ending: str) -> None:
     found = safe_name(name + ending)
     assert found == safe_name(found) and found.endswith(ending)
@@ -216,6 +217,7 @@ def test_what_cannot_fit_is_refused_before_it_comes(tmp_path: Path) -> None:
 # As a person does it.
 
 
+@pytest.mark.rotating("screens of the studio")
 def test_files_are_dropped_in_a_browser(studio: Served, tmp_path: Path, window) -> None:
     """Thirty at once; each is a log of the project."""
     names = [f"run {k} \u00e4%.csv" for k in range(30)]

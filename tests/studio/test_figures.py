@@ -120,6 +120,7 @@ document.title = "drawn";
 </script>"""
 
 
+@pytest.mark.rotating("screens of the studio")
 def test_a_browser_draws_them_without_complaint(tmp_path) -> None:
     playwright = pytest.importorskip("playwright.sync_api", reason="NOT CHECKED: no playwright")
     nicegui = pytest.importorskip("nicegui", reason="NOT CHECKED: no nicegui")

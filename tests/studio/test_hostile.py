@@ -25,6 +25,7 @@ from modeler.studio.project import Project, ProjectLog, Workspace, project_from_
 from modeler.studio.recipe import notebook, recipe, script
 from modeler.studio.studio import Hub, Studio
 from modeler.studio.tasks import FIELDS, LogPart, Step, Stretch, Task, Verb, command_line
+from tests.studio.in_process import without_processes
 
 # What a project of somebody else may do, once it is accepted: these commands, with these options.
 FIT = (
@@ -118,8 +119,11 @@ def test_no_value_is_an_option_or_leads_out(verb: Verb, tmp_path: Path) -> None:
     """A value is refused, or it is that value of that option, and its files are inside."""
     roots = Roots((tmp_path,))
     for field, harm in itertools.product(dataclasses.fields(Task)[1:], HARM):
+        known = field.name in FIELDS[verb].split()
         if field.default in (0, False, None) or field.name == "models":
             continue  # numbers
+        if not known and harm is not HARM[0]:
+            continue  # of no task of that verb, whatever it is
         many = isinstance(field.default, tuple)
         value = LogPart(harm) if field.name in ("logs", "held") else harm
         step = Step(9, 1, task_of(verb, **{field.name: (value,) if many else value}))
@@ -178,6 +182,10 @@ def test_changed_c_of_a_model_is_never_run(tmp_path: Path) -> None:
     hub = Hub(Workspace(folder), (), {})
 
     async def work() -> None:
+        with without_processes():
+            await worked()
+
+    async def worked() -> None:
         done = await hub.run(Task("compare", log))
         await hub.run(Task("page", step=done.number))
         await hub.run(Task("generate"))
@@ -218,7 +226,7 @@ def test_thousands_of_mutated_projects_end_in_a_line(tmp_path: Path) -> None:
     sound = project_text(Project("robot.toml", 1, ("q1=a",), logs=(log,), steps=steps)).encode()
     draw = random.Random(45)
     place = tmp_path / "project.toml"
-    for _ in range(500):
+    for _ in range(300):
         content = bytearray(sound)
         for _ in range(draw.randrange(1, 4)):
             at = draw.randrange(len(content))

@@ -1,17 +1,12 @@
-"""All nine jobs in a row, as a person does them: an arm, a robot with loops, measured logs.
+"""Eight jobs in a row, as a person does them with an arm.
 
 With --regenerate the windows of the arm become the pictures of the studio page and of the README.
 """
 
 import io
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
-import pytest
-
-from tests.rotation import rotating_with
 from tests.studio.window import Served, Window, served
 
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "studio"
@@ -35,32 +30,6 @@ class Person:
     def __init__(self, window: Window, studio: Served, keep: Kept) -> None:
         self.window, self.studio, self.keep = window, studio, keep
         self.page = window.page
-
-    def takes_a_built_in_robot(self, name: str) -> None:
-        self.window.click("Start from a table")
-        self.page.get_by_label("robot", exact=True).last.click()
-        self.page.get_by_role("option", name=name, exact=True).click()
-        self.window.click("Take it")
-        self.window.sees("Base parameters")
-
-    def drops(self, *logs: Path) -> None:
-        """Logs, the first of which is for training."""
-        self.window.go("2  Data")
-        for k, log in enumerate(logs, start=1):
-            self.page.locator("input[type=file]").first.set_input_files(str(log))
-            self.window.sees(f"logs/{log.name}")
-            self.until(lambda k=k: len(self.studio.project.logs) == k)
-        self.until(lambda: self.count("log") == len(logs))
-
-    def chooses(self, log: Path) -> None:
-        """A log where it lies."""
-        self.window.go("2  Data")
-        before = len(self.studio.project.logs)
-        self.window.click("Choose where it lies")
-        self.page.get_by_role("button", name=str(log.parent), exact=True).click()
-        self.page.get_by_role("checkbox", name=log.name).click()
-        self.window.click("Take", exact=True)
-        self.until(lambda: self.count("log") > before)
 
     def count(self, kind: str) -> int:
         return sum(step.verb == kind for step in self.studio.project.steps)
@@ -138,13 +107,6 @@ class Person:
         self.window.sees("Residuals of both logs")
         self.keep("days")
 
-    def asks_for_a_motion(self) -> None:
-        self.window.go("8  Next motion")
-        self.runs("Find the motion", "excite")
-        self.window.sees("Condition number")
-        self.sees_a_curve()
-        self.keep("motion")
-
     def takes_c_away(self) -> None:
         self.window.go("9  Take away")
         self.runs("Write C", "generate")
@@ -154,7 +116,7 @@ class Person:
         self.keep("take")
 
 
-def all_of(person: Person, motion: bool = True) -> list[str]:
+def all_of(person: Person) -> list[str]:
     """From the fit on; the effects that were named."""
     person.derives()
     person.plays()
@@ -165,21 +127,9 @@ def all_of(person: Person, motion: bool = True) -> list[str]:
         person.adds_it()
         person.watches_it_fall()
     person.compares_days()
-    if motion:
-        person.asks_for_a_motion()
     person.takes_c_away()
     assert person.window.complaints == []
     return named
-
-
-def simulated(folder: Path, robot: str, hidden: str) -> list[Path]:
-    """Two runs of a machine with an effect that its robot file lacks."""
-    found = [folder / f"{name}.parquet" for name in ("one", "other")]
-    for seed, place in enumerate(found, start=11):
-        words = ["simulate", robot, "--duration", "8", "--seed", str(seed), "--noise", "0.005"]
-        line = [sys.executable, "-m", "modeler", *words, "--hide", hidden, "--out", str(place)]
-        subprocess.run(line, check=True, stdout=subprocess.DEVNULL)
-    return found
 
 
 def in_few_colours(picture: bytes) -> bytes:
@@ -227,32 +177,5 @@ def test_an_arm_with_a_hidden_effect(tmp_path, window, regenerate: bool) -> None
         seat.click("Try the demo")
         seat.page.wait_for_url("**/data")
         person.until(lambda: person.count("log") == 2)
-        # a motion is searched for, played and taken in test_robot_screen.py
-        assert all_of(person, motion=False) == ["load_friction@2"]
+        assert all_of(person) == ["load_friction@2"]
     (DOCS / "story.png").write_bytes(story(DOCS))
-
-
-@rotating_with("screens of the studio")
-def test_a_robot_with_loops(tmp_path, window) -> None:
-    logs = simulated(tmp_path, "orthoglide-2003", "passive_friction@31:Fv=0.3,Fs=1.0")
-    with served(tmp_path / "orthoglide") as studio:
-        person = Person(window(accept_downloads=True).open(studio), studio, lambda name: None)
-        person.takes_a_built_in_robot("orthoglide-2003")
-        person.drops(*logs)
-        assert all_of(person, motion=False)[0] == "passive_friction@31"
-
-
-@rotating_with("screens of the studio")
-@pytest.mark.measured
-def test_measured_logs(tmp_path, window, measured_folder: Path) -> None:
-    folder = measured_folder / "emps"
-    with served(tmp_path / "emps", "--allow", str(folder)) as studio:
-        person = Person(window(accept_downloads=True).open(studio), studio, lambda name: None)
-        person.takes_a_built_in_robot("emps")
-        person.chooses(folder / "train.parquet")
-        person.chooses(folder / "pulses.parquet")
-        all_of(person)
-        assert studio.project.logs[0].file == str(folder / "train.parquet")
-        fit = next(step for step in studio.project.steps if step.verb == "fit")
-        values = {one["name"]: one["value"] for one in studio.result(fit)["parameters"]}
-        assert values["Fs1"] == pytest.approx(20.0, rel=0.05)  # as published, N

@@ -23,6 +23,7 @@ from modeler.studio.project import FILE, FOLDERS, Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub
 from modeler.studio.tasks import Stretch
 from tests.rotation import ROTATING
+from tests.studio.in_process import without_processes
 from tests.studio.test_dropped import wait_until
 
 # What windows do to a project, without windows: a fit, an effect more, back again, and so on.
@@ -135,5 +136,6 @@ def test_a_full_disk_is_a_line_and_the_project_stays(begun: Path, tmp_path: Path
         await hub.run(commands.fit(hub.project))
         hub.close()
 
-    asyncio.run(work())
+    with without_processes():
+        asyncio.run(work())
     assert check(folder, 2) == 2

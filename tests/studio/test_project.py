@@ -8,7 +8,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import given, settings, strategies as st
 
 from modeler.core.errors import DataError, ModelerError
 from modeler.studio.project import (
@@ -49,6 +49,7 @@ _STEPS = st.lists(
 )  # fmt: skip
 
 
+@settings(max_examples=30)
 @given(
     st.builds(
         Project, st.sampled_from(["", "robot.toml"]), st.just(0), _MAPPING, st.booleans(), _NAMES,

@@ -21,6 +21,7 @@ from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub, Studio
 from modeler.studio.tasks import LogPart, Step, Stretch, Task, bookkeeping
 from tests.rotation import rotating_with
+from tests.studio.in_process import run_command, without_processes
 
 LOGS = (
     ProjectLog("logs/day one.csv", (Stretch(0.0, 4.0), Stretch(4.5)), out=(Stretch(2.0, 2.5),)),
@@ -82,7 +83,7 @@ def test_a_step_is_known_again_but_for_its_number():
 
 def write_log(path: Path, seed: int) -> None:
     """A log of an arm with friction that its model lacks, in degrees, under other names."""
-    run = simulate(load("two-link"), duration=7.0, rate=250.0, seed=seed, hide=["load_friction@1"])
+    run = simulate(load("two-link"), duration=7.0, rate=200.0, seed=seed, hide=["load_friction@1"])
     columns = {"time": run.time}
     for j in range(2):
         columns |= {f"angle_{j + 1}": np.degrees(run.q[:, j]), f"tau{j + 1}": run.tau[:, j]}
@@ -114,7 +115,8 @@ def worked(tmp_path_factory) -> Workspace:
         await hub.run(commands.add(hub.project, found["effect"], found["joint"]))
         await hub.run(commands.compare(hub.project))
 
-    asyncio.run(work())
+    with without_processes():
+        asyncio.run(work())
     return workspace
 
 
@@ -143,12 +145,17 @@ def check_same(workspace: Workspace, fresh: Path) -> None:
 
 
 def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
+    """A shell reads it, so that its words are known; they are carried out here."""
     before = {p: p.stat().st_mtime_ns for p in worked.folder.rglob("*") if p.is_file()}
     (tmp_path / "steps.sh").write_text(recipe.script(retold(worked)), encoding="utf-8")
-    fresh = tmp_path / "fresh"
+    fresh, recorder = tmp_path / "fresh", tmp_path / "recorder"
     fresh.mkdir()
-    environment = os.environ | {"MODELER": f"{sys.executable} -m modeler"}
+    recorder.write_text("#!/bin/sh\nprintf '%s\\0' \"$@\" >> ../words\nprintf '\\n' >> ../words\n")
+    recorder.chmod(0o755)
+    environment = os.environ | {"MODELER": "../recorder"}
     subprocess.run(["sh", "../steps.sh"], cwd=fresh, env=environment, check=True)
+    for words in (tmp_path / "words").read_text(encoding="utf-8").split("\0\n")[:-1]:
+        assert run_command(fresh, words.split("\0"))[0] == 0, words
     check_same(worked, fresh)
     there, here = (
         json.loads((place / "results/2.json").read_text()) for place in (worked.folder, fresh)
@@ -192,7 +199,8 @@ def test_a_fit_after_an_effect_was_added_keeps_it(worked):
     hub.take(added)
     text = (worked.folder / "robot.toml").read_text(encoding="utf-8")
     assert "load_friction" in text and "load_friction" not in plain
-    refit = asyncio.run(hub.run(commands.fit(hub.project), keep=False))
+    with without_processes():
+        refit = asyncio.run(hub.run(commands.fit(hub.project), keep=False))
     made = json.loads((worked.folder / refit.model).read_text(encoding="utf-8"))
     assert made["robot_text"] == text
     hub.take(fit)  # and back

@@ -78,6 +78,7 @@ def opened(browser: Any, served: tuple[Path, int], text: str, parent: str = "loc
     return page, frame
 
 
+@pytest.mark.rotating("screens of the studio")
 def test_postures_are_taken_and_loops_follow(browser, served) -> None:
     robot = skeleton(builtin_text("orthoglide-2003"))
     page, frame = opened(browser, served, builtin_text("orthoglide-2003"))
@@ -105,6 +106,7 @@ def test_postures_are_taken_and_loops_follow(browser, served) -> None:
     page.close()
 
 
+@pytest.mark.rotating("screens of the studio")
 def test_rows_are_lit_and_clicks_are_told(browser, served) -> None:
     page, frame = opened(browser, served, builtin_text("puma560"))
     before = frame.evaluate("document.getElementById('picture').toDataURL()")
@@ -136,6 +138,7 @@ def test_rows_are_lit_and_clicks_are_told(browser, served) -> None:
     page.close()
 
 
+@pytest.mark.rotating("screens of the studio")
 def test_another_robot_keeps_the_eye_and_the_joints(browser, served) -> None:
     text = builtin_text("puma560")
     page, frame = opened(browser, served, text)

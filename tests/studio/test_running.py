@@ -53,9 +53,11 @@ def gone(mark: str, seconds: float = 10.0) -> bool:
 
 
 def test_results_progress_and_seconds(tmp_path: Path) -> None:
-    outcome, seen = run(tmp_path, "simulate", "two-link", "--duration", "4", "--out", "a.csv")
+    outcome, seen = run(
+        tmp_path, "simulate", "two-link", "--duration", "2", "--rate", "500", "--out", "a.csv"
+    )
     assert outcome.status == 0 and outcome.error == "" and (tmp_path / "a.csv").exists()
-    assert outcome.lines[0].startswith("two-link: 4000 samples")
+    assert outcome.lines[0].startswith("two-link: 1000 samples")
     assert {"loading", "simulating two-link", "done"} <= {doing for _, doing in seen}
     shares = [share for share, _ in seen if share is not None]
     assert shares == sorted(shares) and 0 < outcome.seconds < 60
@@ -93,16 +95,20 @@ def test_a_fault_of_the_program_says_how_to_report_it(tmp_path: Path, monkeypatc
     assert "(ZeroDivisionError: by zero); run `modeler robots --verbose`" in outcome.error
 
 
-@pytest.mark.parametrize("given", ["", os.pathsep])
+@pytest.mark.parametrize("given", ["", pytest.param(os.pathsep, marks=pytest.mark.rotating)])
 def test_files_of_the_project_are_no_modules(tmp_path: Path, monkeypatch, given) -> None:
     monkeypatch.setenv("PYTHONPATH", given)
     for name in ("numpy", "json", "argparse", "modeler"):
         (tmp_path / f"{name}.py").write_text("open('was-run', 'w')\n")
-    assert run(tmp_path, "derive", "two-link", "--no-terms")[0].status == 0
+    assert run(tmp_path, "robots", "two-link")[0].status == 0
     assert not (tmp_path / "was-run").exists()
 
 
-@pytest.mark.parametrize("groups", [True, False], ids=["groups", "as on Windows"])
+@pytest.mark.parametrize(
+    "groups",
+    [pytest.param(True, id="groups"),
+     pytest.param(False, id="as on Windows", marks=pytest.mark.rotating)],
+)  # fmt: skip
 def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path, monkeypatch, groups) -> None:
     """Where there are no groups of processes, the command ends itself when its pipe ends."""
     work = tmp_path / "work"

@@ -24,7 +24,7 @@ from modeler.observation import LONG
 from modeler.studio import viewing
 from modeler.studio.viewer import Viewer, answer
 
-HIDDEN = ("--hide", "load_friction@2", "--noise", "0.01", "--duration", "24", "--rate", "500")
+HIDDEN = ("--hide", "load_friction@2", "--noise", "0.01", "--duration", "24", "--rate", "250")
 
 
 @pytest.fixture(scope="module")

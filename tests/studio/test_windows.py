@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from modeler.core.builtin import builtin_text
 from modeler.studio.commands import words_of
@@ -13,24 +14,6 @@ from modeler.studio.studio import Hub, Studio
 from modeler.studio.tasks import Step, Stretch, Task
 from tests.rotation import rotating_with
 from tests.studio.window import served
-
-
-def test_a_second_window_reads_until_it_takes_over(tmp_path: Path, window) -> None:
-    with served(tmp_path / "arm") as studio:
-        first, second = window().open(studio), window().open(studio)
-        second.sees("this window only reads")
-        second.click("Try the demo")
-        second.sees("this window only reads: another one has the project open; go on there")
-        assert studio.project.steps == ()
-        second.click("Take over")
-        first.sees("this window only reads")
-        second.page.get_by_role("button", name="Take over").wait_for(state="hidden")
-        second.click("Try the demo")
-        second.page.wait_for_url("**/data")
-        first.go("3  Fit")  # it follows what the other did
-        first.sees("modeler fit")
-        second.page.close()
-        first.page.get_by_role("button", name="Take over").wait_for(state="hidden")
 
 
 @rotating_with("screens of the studio")
@@ -81,6 +64,7 @@ TOPIC = "/left_arm_controller/joint_trajectory_state_broadcaster/joint_states."
 LINK = "left_arm_shoulder_upper_link_revolute_joint"
 
 
+@pytest.mark.rotating("screens of the studio")
 def test_a_project_of_somebody_else_with_the_long_names_of_ros(
     tmp_path: Path, window, monkeypatch
 ) -> None:
