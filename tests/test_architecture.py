@@ -101,71 +101,39 @@ def _names(lines: list[str]) -> set[str]:
 
 
 # file, its text, what the checker must say of it
-PLANTED = {
-    "north in the south": (
-        "estimation/a.py",
-        "from modeler.derivation import X",
-        "a.py:1: imports modeler",
-    ),
-    "manifest only": ("runtime/a.py", "import modeler.robot.read", "runtime may import core"),
-    "hidden in a function": (
-        "validation/a.py",
-        "def f():\n    import sympy",
-        "a.py:2: imports sympy",
-    ),
-    "package as a name": (
-        "observation/a.py",
-        "from modeler import derivation",
-        "imports modeler.derivation",
-    ),
-    "behind a face": (
-        "estimation/a.py",
-        "from modeler.runtime.bind import X",
-        "what others may use is in modeler/runtime/__init__.pyi",
-    ),
-    "lazy_loader elsewhere": ("core/a.py", "import lazy_loader", "only a room's __init__.py"),
-    "later stage": ("derivation/a.py", "from modeler.codegen import X", "imports modeler.codegen"),
-    "later south stage": (
-        "observation/a.py",
-        "from modeler import estimation",
-        "imports modeler.estimation",
-    ),
-    "core imports ours": ("core/a.py", "import modeler.effects", "core may import nothing"),
-    "cli as a library": ("estimation/a.py", "from modeler.cli import main", "imports modeler.cli"),
-    "simulator and model": (
-        "simulation/a.py",
-        "import modeler.derivation",
-        "may import core, robot",
-    ),
-    "model and simulator": (
-        "estimation/a.py",
-        "from modeler.simulation import X",
-        "modeler.simulation",
-    ),
-    "round elsewhere": (
-        "diagnosis/search.py",
-        "from modeler.codegen import X",
-        "imports modeler.codegen",
-    ),
-    "jinja2 elsewhere": ("codegen/emit.py", "import jinja2", "only codegen/package.py, report/"),
-    "cffi elsewhere": ("runtime/build.py", "from cffi import FFI", "only runtime/bind.py"),
-    "casadi elsewhere": ("derivation/a.py", "import casadi as ca", "only codegen/casadi_"),
-    "undeclared package": ("core/a.py", "import requests", "imports requests"),
-    "relative": ("estimation/a.py", "from .rank import rank", "relative import"),
-    "relative, package": ("estimation/a.py", "from . import rank", "relative import"),
-    "print": ("estimation/a.py", "print('done')", "only cli prints"),
-    "print handed on": ("estimation/a.py", "run(log=print)", "only cli prints"),
-    "import by name": ("estimation/a.py", "importlib.import_module('sympy')", "import by name"),
-    "name": ("estimation/utils.py", "", "name the idea"),
-    "unknown stage": ("magic/a.py", "import sympy", "magic is no stage we know"),
-    "eager package": ("__init__.py", "from modeler.robot import Robot", "imports nothing"),
-    "long module": ("estimation/a.py", "x = 1\n" * (MODULE_LINES + 1), "at most 700"),
-}
+PLANTED = [
+    ("estimation/a.py", "from modeler.derivation import X", "a.py:1: imports modeler"),
+    ("runtime/a.py", "import modeler.robot.read", "runtime may import core"),
+    ("validation/a.py", "def f():\n    import sympy", "a.py:2: imports sympy"),
+    ("observation/a.py", "from modeler import derivation", "imports modeler.derivation"),
+    ("estimation/a.py", "from modeler.runtime.bind import X",
+     "what others may use is in modeler/runtime/__init__.pyi"),
+    ("core/a.py", "import lazy_loader", "only a room's __init__.py"),
+    ("derivation/a.py", "from modeler.codegen import X", "imports modeler.codegen"),
+    ("observation/a.py", "from modeler import estimation", "imports modeler.estimation"),
+    ("core/a.py", "import modeler.effects", "core may import nothing"),
+    ("estimation/a.py", "from modeler.cli import main", "imports modeler.cli"),
+    ("simulation/a.py", "import modeler.derivation", "may import core, robot"),
+    ("estimation/a.py", "from modeler.simulation import X", "modeler.simulation"),
+    ("diagnosis/search.py", "from modeler.codegen import X", "imports modeler.codegen"),
+    ("codegen/emit.py", "import jinja2", "only codegen/package.py, report/"),
+    ("runtime/build.py", "from cffi import FFI", "only runtime/bind.py"),
+    ("derivation/a.py", "import casadi as ca", "only codegen/casadi_"),
+    ("core/a.py", "import requests", "imports requests"),
+    ("estimation/a.py", "from .rank import rank", "relative import"),
+    ("estimation/a.py", "from . import rank", "relative import"),
+    ("estimation/a.py", "print('done')", "only cli prints"),
+    ("estimation/a.py", "run(log=print)", "only cli prints"),
+    ("estimation/a.py", "importlib.import_module('sympy')", "import by name"),
+    ("estimation/utils.py", "", "name the idea"),
+    ("magic/a.py", "import sympy", "magic is no stage we know"),
+    ("__init__.py", "from modeler.robot import Robot", "imports nothing"),
+    ("estimation/a.py", "x = 1\n" * (MODULE_LINES + 1), "at most 700"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize("case", PLANTED)
-def test_a_planted_violation_is_found(tmp_path: Path, case: str) -> None:
-    file, text, words = PLANTED[case]
+@pytest.mark.parametrize(("file", "text", "words"), PLANTED)
+def test_a_planted_violation_is_found(tmp_path: Path, file: str, text: str, words: str) -> None:
     path = tmp_path / file
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -218,7 +186,11 @@ SYMBOLIC = {"sympy", "casadi", "jinja2"}
 STRICT = tuple(s for s in SOUTH if not {*NORTH} & STAGES[s] and not SYMBOLIC & PACKAGES[s])
 
 
-@pytest.mark.parametrize("stages", [STRICT, *((s,) for s in SOUTH if s not in STRICT)], ids=str)
+@pytest.mark.parametrize(
+    "stages",
+    [STRICT, *(pytest.param((s,), marks=pytest.mark.rotating) for s in SOUTH if s not in STRICT)],
+    ids=str,
+)
 def test_numbers_do_not_need_symbols(stages: tuple[str, ...]) -> None:
     loaded = loaded_by(*stages)
     assert {"numpy", *(f"modeler.{stage}" for stage in stages)} <= loaded
@@ -227,25 +199,15 @@ def test_numbers_do_not_need_symbols(stages: tuple[str, ...]) -> None:
         assert not loaded & ((SYMBOLIC - PACKAGES[stage]) | forbidden)
 
 
-def test_the_north_would_be_noticed() -> None:
-    assert loaded_by("derivation", "codegen") >= SYMBOLIC
-
-
+@pytest.mark.rotating("fresh interpreters")
 def test_the_simulator_shares_no_dynamics_with_the_model() -> None:
+    """The rules of imports say so too; and what loads symbols is seen."""
+    assert loaded_by("derivation", "codegen") >= SYMBOLIC
     ours = {name for name in loaded_by("simulation") if name.startswith("modeler.")}
     assert ours == {"modeler.core", "modeler.effects", "modeler.robot", "modeler.simulation"}
 
 
-def test_the_package_itself_loads_nothing() -> None:
-    code = "import modeler, sys; print(*[n for n in sys.modules if n.startswith('modeler.')])"
-    command = [sys.executable, "-c", code]
-    assert not subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
-
-
-ENGINE = ("diagnosis", "report")
-
-
-@pytest.mark.parametrize("stage", ENGINE)
+@pytest.mark.parametrize("stage", ["diagnosis", "report"])
 def test_the_engine_knows_no_effect_by_its_name(stage: str) -> None:
     """What is special about an effect stands in its definition: users' own effects are alike."""
     names = {e.id for e in CATALOGUE if e.columns[0].block is EnergyBlock.OWN}

@@ -2,9 +2,8 @@
 
 import hashlib
 import json
-import subprocess
-import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,8 @@ from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import checksum
 from modeler.estimation.payload import Payload
 from tests.notebook.session import session
+
+ROTATES = pytest.mark.rotating
 
 
 @pytest.fixture(scope="module")
@@ -37,9 +38,15 @@ def logs(folder: Path) -> tuple[str, str]:
 
 @pytest.fixture(scope="module")
 def chain(logs: tuple[str, str]) -> tuple[Any, Any, Any]:
+    """Derivation, C and observation of the first run."""
     derivation = api.derive(api.load("two-link"))
     emitted = api.generate(derivation)
     return derivation, emitted, api.observe(api.compile_model(emitted), [logs[0]])
+
+
+@pytest.fixture(scope="module")
+def model(chain: tuple[Any, Any, Any]) -> Any:
+    return api.fit(*chain)
 
 
 @pytest.mark.slow
@@ -55,7 +62,8 @@ def test_the_simulation_of_the_command_is_that_of_the_function(tmp_path: Path, l
 
 
 @pytest.mark.parametrize(
-    "options", ["", "--method robust", "--method consistent", "--model energy"]
+    "options",
+    ["--method robust", "--model energy", pytest.param("--method consistent", marks=ROTATES)],
 )
 def test_every_way_to_fit_is_that_of_the_command(tmp_path, chain, logs, options: str) -> None:
     words = options.split()
@@ -69,31 +77,17 @@ def test_every_way_to_fit_is_that_of_the_command(tmp_path, chain, logs, options:
     assert model.fit.verdict == told.fit.verdict
 
 
-def test_a_load_is_fitted_as_by_the_command(tmp_path: Path, chain, logs) -> None:
-    derivation, emitted, _ = chain
-    both = api.observe(api.compile_model(emitted), [*logs])
-    payload = Payload(("run2.parquet",), None, 1.5)
-    model = api.fit(derivation, emitted, both, payloads=[payload])
-    words = ["--payload-log", logs[1], "--payload-mass", "1.5", "--out", str(tmp_path / "c.json")]
-    assert main(["fit", "two-link", logs[0], *words]) == 0
-    told = api.open_model(tmp_path / "c.json").fit
-    assert [p.value for p in model.fit.loads] == pytest.approx([p.value for p in told.loads])
-    assert model.fit.verdict == told.verdict
-    assert len(model.table("loads")) == len(told.loads) > 0
-
-
-def test_a_look_at_a_log(folder: Path, logs) -> None:
+def test_a_look_at_a_log(folder: Path, chain, logs) -> None:
     seen = api.look_at(logs[0])
     assert {"q1", "q2", "tau1", "tau2"} <= set(seen.table().column("channel"))
     assert "no doubts" in seen.summary() and len(repr(seen)) < 200
     assert seen.plot()._repr_png_().startswith(b"\x89PNG")
     assert api.write_report(seen, folder / "log.html").exists()
-    piece = api.look_at(f"{logs[0]}@1:3", session()["compiled"])
+    piece = api.look_at(f"{logs[0]}@1:3", api.compile_model(chain[1]))
     assert piece.clock.duration == pytest.approx(2.0, abs=0.01)
 
 
-def test_a_model_is_saved_opened_and_reduced(tmp_path: Path, chain) -> None:
-    model = api.fit(*chain)
+def test_a_model_is_saved_opened_and_reduced(tmp_path: Path, model) -> None:
     again = api.open_model(api.save(model, tmp_path / "m.json"))
     np.testing.assert_array_equal(again.beta, model.beta)
     assert again.fit.to_json() == model.fit.to_json()
@@ -113,7 +107,8 @@ def test_a_model_says_where_its_logs_lay_and_what_they_were(tmp_path, chain, log
     assert [log.checksum for log in model.logs] == bytes_
     again = api.open_model(api.save(model, tmp_path / "m.json"))
     assert again.logs == model.logs
-    pathless = api.fit(derivation, emitted, api.observe(compiled, session()["simulated"]))
+    run = api.simulate(api.load("two-link"), duration=4.0, seed=3)
+    pathless = api.fit(derivation, emitted, api.observe(compiled, run))
     assert [(log.path, log.checksum) for log in pathless.logs] == [("", "")]
     texts = api.generate(model).code.values()  # the C says nothing of logs
     assert not any(logs[0] in text or Path(logs[0]).name in text for text in texts)
@@ -132,27 +127,13 @@ def test_a_folder_has_the_checksum_of_what_lies_in_it(tmp_path: Path) -> None:
     assert checksum(tmp_path / "b") != moved
 
 
-def test_add_undo_and_auto(tmp_path: Path, chain, logs) -> None:
-    model = api.fit(*chain)
+def test_add_and_undo(model, logs) -> None:
     better = api.add(model, "spring", [logs[0]], [logs[1]], joint="1")
     waterfall = better.table("waterfall")
     assert waterfall.column("effect") == ["as fitted", "spring"]
     assert waterfall.column("error")[1] < 0.8 * waterfall.column("error")[0]
     back = api.undo(better, [logs[0]])
     np.testing.assert_allclose(back.beta, model.beta, rtol=1e-9)
-    found = api.auto(model, [logs[0]], [logs[1]])
-    api.save(model, tmp_path / "m.json")
-    words = [str(tmp_path / "m.json"), "auto", logs[0], "--holdout", logs[1]]
-    assert main(["add", *words, "--out", str(tmp_path / "a.json")]) == 0
-    told = api.open_model(tmp_path / "a.json")
-    assert [s.to_json() for s in found.history] == [s.to_json() for s in told.history]
-
-
-def test_the_c_of_a_model_has_its_values(chain, tmp_path: Path) -> None:
-    model = api.fit(*chain)
-    emitted = api.generate(model, tmp_path / "c")
-    assert emitted.spec.fitted is not None
-    assert [p.value for p in emitted.spec.fitted.parameters] == list(model.beta)
 
 
 def test_home_is_that_of_the_command(tmp_path: Path) -> None:
@@ -174,21 +155,13 @@ def test_home_is_that_of_the_command(tmp_path: Path) -> None:
     assert one.modes[0].posture[given] == pytest.approx(1.2)
 
 
-def test_physical_formulas_and_values() -> None:
-    wrist = api.load("wrist")
-    found = api.physical(wrist)
-    smallest = found.sets()
-    known = ",".join(smallest.easiest[0])
-    assert found.formulas(known).steps
-    with pytest.raises(DataError, match="expected a model"):
-        found.values("=1,".join(smallest.easiest[0]) + "=1")
-
-
-def test_physical_values_are_those_of_the_command(tmp_path: Path, chain) -> None:
-    model = api.fit(*chain)
+def test_physical_values_are_those_of_the_command(tmp_path: Path, model) -> None:
     found = api.physical(model)
     known = ",".join(f"{letter}=0.1" for letter in found.sets().easiest[0])
     values = found.values(known)
+    assert found.formulas(",".join(found.sets().easiest[0])).steps
+    with pytest.raises(DataError, match="expected a model"):
+        api.physical(api.load("two-link")).values(known)
     api.save(model, tmp_path / "m.json")
     words = ["--known", known, "--json", str(tmp_path / "p.json")]
     assert main(["physical", str(tmp_path / "m.json"), *words]) == 0
@@ -198,34 +171,30 @@ def test_physical_values_are_those_of_the_command(tmp_path: Path, chain) -> None
     assert values.table().column("sigma") == pytest.approx([row["sigma"] for row in told])
 
 
-def test_motions(chain) -> None:
-    model = api.fit(*chain)
-    given = {"1": (-1.0, 1.0, 2.0, 8.0)}
-    motion = api.excite(model, limits=given, duration=4.0, harmonics=3, starts=1)
-    columns = motion.sampled(100.0)
-    assert np.abs(columns["q1"]).max() <= 1.0 and np.abs(columns["qd1"]).max() <= 2.0 + 1e-9
-    assert motion.table().column("upper limit")[0] == 1.0
+def test_the_page_of_a_model_is_written(folder: Path, model) -> None:
+    check_page(api.write_report(model, folder / "model.html"))
 
 
-def test_catalogues() -> None:
-    assert {"wrist", "ur10e", "emps"} <= set(api.robots().column("name"))
-    assert {"coulomb", "load_friction"} <= set(api.effects().column("effect"))
-    assert {"weighted", "consistent"} <= set(api.estimators().column("method"))
-    own = api.own_effect(api.load("emps"), "fan", columns={"Kf": "v*abs(v)"})
-    assert "fan" in api.effects(own).column("effect")
-
-
+@ROTATES
 @pytest.mark.parametrize(
-    "name", ["robot", "model", "better", "comparison", "diagnosis", "estimators", "contest"]
+    "name", ["robot", "better", "comparison", "diagnosis", "contest", "estimators"]
 )
 def test_every_page_is_written(folder: Path, name: str) -> None:
-    place = api.write_report(session()[name], folder / f"{name}.html")
+    check_page(api.write_report(session()[name], folder / f"{name}.html"))
+
+
+def check_page(place: Path) -> None:
     text = place.read_text(encoding="utf-8")
     assert text.startswith("<!DOCTYPE html>") and len(text) < 1_500_000
 
 
 def _fit(**given: Any) -> Callable[[Any, Any], object]:
     return lambda chain, logs: api.fit(*chain, **given)
+
+
+@cache
+def five_bar() -> Any:
+    return api.load("five-bar")
 
 
 REFUSED: dict[str, tuple[Callable[[Any, Any], object], str]] = {
@@ -275,18 +244,21 @@ REFUSED: dict[str, tuple[Callable[[Any, Any], object], str]] = {
     ),
     "one model": (lambda chain, logs: api.contest({}, logs), "got 0 models"),
     "home": (
-        lambda chain, logs: api.home(api.load("five-bar"), near={"nine": 1.0}),
+        lambda chain, logs: api.home(five_bar(), near={"nine": 1.0}),
         "near names joint nine",
     ),
     "mode": (
-        lambda chain, logs: api.at_home(api.load("five-bar"), session()["modes"], "Z"),
+        lambda chain, logs: api.at_home(five_bar(), api.home(five_bar()), "Z"),
         "there is no such mode; expected one of A",
     ),
     "no loops": (lambda chain, logs: api.home(api.load("emps")), "no loop to close"),
     "undo": (lambda chain, logs: api.undo(api.fit(*chain), logs[:1]), "no effect was added"),
     "page": (lambda chain, logs: api.write_report("x", "x.html"), "as thing; expected a robot"),  # type: ignore[arg-type]
     "model file": (lambda chain, logs: api.open_model("none.json"), "none.json"),
-    "values": (lambda chain, logs: session()["physical"].values("am"), "no value of am"),
+    "values": (
+        lambda chain, logs: api.physical(api.load("two-link")).values("m1"),
+        "no value of m1",
+    ),
 }  # fmt: skip
 
 
@@ -299,9 +271,7 @@ def test_what_cannot_be_is_refused_in_one_line(chain, logs, case: str) -> None:
 
 
 def test_a_star_brings_all_that_is_offered() -> None:
-    """In a fresh process, where nothing was asked for before."""
-    script = "from modeler.api import *; import json; print(json.dumps(sorted(globals())))"
-    said = subprocess.run([sys.executable, "-c", script], capture_output=True, check=True).stdout
+    brought: dict[str, Any] = {}
+    exec("from modeler.api import *", brought)
     kept = {"load", "derive", "on_gpu", "open_model", "Robot", "GpuModel", "show"}
-    brought = {name for name in json.loads(said) if not name.startswith("_")} - {"json"}
-    assert kept <= brought == set(api.__all__)
+    assert kept <= brought.keys() - {"__builtins__"} == set(api.__all__)

@@ -63,12 +63,15 @@ def test_every_function_has_an_example() -> None:
     assert lacking <= {"of", "its_logs", "fittedvalues"} and len(methods) > 12
 
 
-SLOW = {"modeler.api.improve", "modeler.api.model"}  # some seconds: they diagnose
+MARKS = {
+    **dict.fromkeys(("modeler.api.improve", "modeler.api.model"), pytest.mark.slow),  # diagnose
+    **dict.fromkeys(("modeler.api.motion", "modeler.api.checks"), pytest.mark.rotating),
+}
 
 
 @pytest.mark.parametrize(
     "module",
-    [pytest.param(name, marks=[pytest.mark.slow] * (name in SLOW))
+    [pytest.param(name, marks=MARKS.get(name, ()))
      for name in MODULES if examples(name)],
 )  # fmt: skip
 def test_examples_print_what_they_say(module: str, names: dict[str, Any]) -> None:

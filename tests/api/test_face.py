@@ -8,7 +8,6 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import modeler
@@ -66,6 +65,7 @@ def test_every_relative_error_is_a_fraction(run, model) -> None:
 
 
 def test_a_table_is_what_a_frame_is_made_of(model) -> None:
+    pd = pytest.importorskip("pandas")
     for name in ("parameters", "errors", "logs"):
         table = model.table(name)
         assert pd.DataFrame(table).equals(pd.DataFrame(table.to_frame()))

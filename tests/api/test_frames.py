@@ -1,7 +1,5 @@
 """Frames, dicts and paths alike: the same numbers in, and out in the names and units of the log."""
 
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -170,7 +168,15 @@ def test_currents_come_out_as_currents(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "kind", ["index", "nameless index", "since start", "Polars", "UTC", "dict"]
+    "kind",
+    [
+        "index",
+        "UTC",
+        *(
+            pytest.param(k, marks=pytest.mark.rotating)
+            for k in ("nameless index", "since", "Polars", "dict")
+        ),
+    ],
 )
 def test_dates_are_times(kind: str, frame: Any, model: md.Model) -> None:
     since = pandas.to_timedelta(frame["time"], unit="s")
@@ -211,18 +217,3 @@ def test_what_is_no_log_is_refused_in_one_line(case: str, frame: Any) -> None:
     with pytest.raises(DataError, match=said) as told:
         md.identify("two-link", make(frame))
     assert "\n" not in str(told.value)
-
-
-def test_pandas_is_not_loaded_where_none_is_given(run: Path) -> None:
-    """Arrow loads it by itself where it makes tables; a dict and a file need none."""
-    program = (
-        "import sys, modeler as md, numpy as np\n"
-        "run = md.simulate(md.open_robot('two-link'), duration=3.0, seed=5)\n"
-        "given = {'time': run.time, 'q': run.q, 'tau': run.tau}\n"
-        f"model = md.identify('two-link', [given, {str(run)!r}])\n"
-        "print(model.predict(given)['tau'].shape, 'pandas' in sys.modules)"
-    )
-    ran = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False
-    )
-    assert ran.stdout == "(3000, 2) False\n", ran.stderr

@@ -38,6 +38,3 @@ def test_the_story_on_measured_logs(measured_folder: Path, tmp_path: Path) -> No
     assert better.error(log) < 0.75 * model.error(log)  # theirs: 3.11 % of 4.08 %
     assert better.error() < 0.95 * model.error(held_out)
     assert better.to_c(tmp_path / "out").spec.robot == "emps"
-    again = md.load(better.save(tmp_path / "arm.json"))
-    assert again.error(held_out) == better.error(held_out)
-    assert again.missing(held_out).to_dict() == better.missing(held_out).to_dict()

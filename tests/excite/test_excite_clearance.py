@@ -113,7 +113,10 @@ def test_the_slope_of_distances_is_their_derivative(arm):
         assert np.allclose(found[:, j], told, rtol=1e-3, atol=1e-5)
 
 
-@pytest.mark.parametrize("family", ["fourier", "bspline", "trapezoid"])
+@pytest.mark.parametrize(
+    "family",
+    ["fourier", *(pytest.param(f, marks=pytest.mark.rotating) for f in ("bspline", "trapezoid"))],
+)
 def test_a_motion_keeps_links_apart_at_all_times_and_costs_little(arm, family, tmp_path):
     robot, compiled, bounds = arm
     motion = excite(compiled, bounds, Wish(6.0, 3, "condition", 1, family=family))
@@ -179,7 +182,7 @@ def test_loops_are_kept_clear_too():
     found = read_robot("five-bar")
     compiled = compile_model(generate(derive(found)))
     bounds = bounds_of(found, compiled, {}, {}, 0.02)
-    motion = excite(compiled, bounds, Wish(6.0, 3, starts=1, time_limit=1.0))
+    motion = excite(compiled, bounds, Wish(6.0, 3, starts=1, time_limit=0.3))
     assert motion.nearest.bound >= 0.02 and len(motion.nearest.posture) > len(bounds.joints)
 
 

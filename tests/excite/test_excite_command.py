@@ -8,11 +8,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from modeler.cli import main
-from modeler.excitation.families import series
-from modeler.excitation.result import csv_text
-from modeler.excitation.search import Wish, random_motion, task_of
 from modeler.simulation import at_rate, read_motion
-from tests.excite.robots_to_excite import limits_of
 
 
 def run(capsys, *argv) -> tuple[int, str, str]:
@@ -84,37 +80,6 @@ def test_a_log_is_a_motion_by_its_commands(folder):
     assert np.allclose(motion.qdd[inner], there.qdd[inner], atol=2e-3)
 
 
-def test_sigmas_are_smaller_than_along_random_motions_of_the_same_length(folder):
-    """End to end: simulated with five per cent of noise, fitted; geometric mean of the sigmas."""
-    compiled, bounds = limits_of("demo-arm")
-    found = json.loads((folder / "motion.json").read_text())
-    task = task_of(compiled, bounds, Wish(6.0, found["harmonics"]), None, None, None)
-    rng, ours, others = np.random.default_rng(11), sigmas(folder / "m.json"), []
-    for k in range(2):
-        times = np.arange(1201) / 200.0
-        here = series(6.0, found["harmonics"], times)
-        columns = {"time": times}
-        for prefix, values in zip(
-            ("q", "qd", "qdd"), here.motion(random_motion(task, rng)), strict=True
-        ):
-            columns |= {f"{prefix}{j + 1}": values[:, j] for j in range(3)}
-        (folder / f"r{k}.csv").write_text(csv_text(columns))
-        assert simulated(folder / f"r{k}.csv", folder / f"r{k}.parquet") == 0
-        words = ["fit", "demo-arm", folder / f"r{k}.parquet", "--out", folder / f"r{k}.json"]
-        assert main([str(word) for word in words]) == 0
-        others.append(sigmas(folder / f"r{k}.json"))
-    # Noise is a share of the torques, which are larger on larger motions: sigmas are relative.
-    assert all(np.mean(np.log(ours / other)) < np.log(0.8) for other in others)
-    assert np.max(ours) < np.min([np.max(other) for other in others])
-
-
-def sigmas(model) -> np.ndarray:
-    """Of the base parameters, each over the rms noise of the log."""
-    fit = json.loads(model.read_text())["fit"]
-    noise = np.exp(np.mean([np.log(joint["sigma"]) for joint in fit["joints"].values()]))
-    return np.array([p["sigma"] for p in fit["parameters"]]) / noise
-
-
 def test_a_model_is_excited_in_its_essential_parameters(capsys, folder, tmp_path):
     model = json.loads((folder / "m.json").read_text())
     essential = [p["name"] for p in model["fit"]["parameters"] if p["essential"]]
@@ -134,7 +99,7 @@ def test_a_model_is_excited_in_its_essential_parameters(capsys, folder, tmp_path
 
 def test_two_effects_are_told_apart_better_than_by_chance(capsys, folder, tmp_path):
     status, out, err = run(
-        capsys, "excite", folder / "m.json", "--duration", 4, "--harmonics", 4,
+        capsys, "excite", folder / "m.json", "--duration", 4, "--harmonics", 3, "--starts", 1,
         "--between", "load_friction@2,position_friction@2",
         "--out", tmp_path / "b.csv", "--json", tmp_path / "b.json",
     )  # fmt: skip
@@ -235,12 +200,6 @@ def test_a_motion_of_a_file_is_as_long_as_it_is(capsys, folder, tmp_path):
     assert "--duration: got 3 s with --motion" in told and "as long as it is" in told
     assert not (tmp_path / "l.csv").exists()
     assert run(capsys, *words)[0] == 0  # and without that option it is simulated
-
-
-def test_a_choice_draws_nothing(capsys, tmp_path):
-    words = ("excite", "demo-arm", "--choose", 1, "--from", "a.csv")
-    told = refused(capsys, *words, "--picture", tmp_path / "p.png")
-    assert "--picture: got it with --choose" in told
 
 
 def test_one_line_for_a_file_that_is_no_motion_and_for_none(capsys, tmp_path):

@@ -167,11 +167,3 @@ def test_it_adds_more_than_the_motion_that_is_best_alone(recordings):
     )
     assert here < other + 1e-3
     assert there.extended(beside, RATE, Encoders(2048)).gain.after != ()
-
-
-def test_from_takes_no_between(tmp_path, capsys):
-    words = ["excite", "two-link", "--from", "a.csv", "--between", "stribeck@2,spring@2"]
-    assert main([*words, "--out", str(tmp_path / "m.csv")]) == 1
-    assert "--between: got it with --from" in capsys.readouterr().err
-    assert main(["excite", "two-link", "--check", "a.csv", "--out", str(tmp_path / "m.csv")]) == 1
-    assert "--out: got it with --check" in capsys.readouterr().err

@@ -33,7 +33,7 @@ def assert_within(motion: Exciting, bounds: Bounds) -> None:
     assert max((np.abs(qd) / bounds.speed).max(), (np.ptp(q, axis=0) / 2 / bounds.half).max()) > 0.8
 
 
-@pytest.mark.parametrize("name", ["scara", "rx90"])
+@pytest.mark.parametrize("name", ["scara", pytest.param("rx90", marks=pytest.mark.rotating)])
 def test_serial_robots_keep_to_their_limits_and_beat_random_motions(name):
     compiled, bounds = limits_of(name)
     motion = excite(compiled, bounds, Wish(8.0, 5, starts=1))
@@ -133,7 +133,7 @@ def test_the_same_seed_gives_the_same_motion_and_another_one_another():
 def test_the_objectives_do_what_they_are_called():
     compiled, bounds = limits_of("scara")
     found = {
-        name: excite(compiled, bounds, Wish(6.0, 4, name, 2)).quality
+        name: excite(compiled, bounds, Wish(6.0, 4, name, 1)).quality
         for name in ("both", "condition", "information")
     }
     assert found["condition"].condition <= found["both"].condition < found["information"].condition
@@ -198,7 +198,7 @@ def heavy_arm(first, second):
 @pytest.mark.parametrize("first,second", [(16, 4), (1, 0.75)])
 def test_wider_torques_are_never_refused_and_the_narrowest_hold_at_all_times(first, second):
     subject, bounds = heavy_arm(first, second)
-    wish = Wish(6.0, 4, starts=1, seed=1, time_limit=1.0)
+    wish = Wish(6.0, 4, starts=1, seed=1, time_limit=0.4)
     motion = subject.search(bounds, wish)
     compiled, (q, qd, qdd) = subject.compiled, finely(motion)
     loads = np.abs(compiled.inverse_dynamics(q, qd, qdd, subject.beta)).max(axis=0)

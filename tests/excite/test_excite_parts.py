@@ -72,10 +72,10 @@ def test_the_criteria_are_what_they_are_called():
 @pytest.mark.parametrize(
     ("name", "options"),
     [
-        ("wrist", {}),
         ("demo-arm", {"limited": 1e4, "boxes": ("3=-3,3,-3,3,-3,3",)}),
         ("five-bar", {"limited": 1e4}),
-        ("3rrr", {}),
+        pytest.param("wrist", {}, marks=pytest.mark.rotating),
+        pytest.param("3rrr", {}, marks=pytest.mark.rotating),
     ],
 )
 def test_the_slope_of_the_search_is_the_derivative_of_its_value(name, options):

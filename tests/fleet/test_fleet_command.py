@@ -1,5 +1,7 @@
 """`modeler fleet` as a user types it, on logs of the simulator, which has dynamics of its own."""
 
+import contextlib
+import io
 import json
 import re
 from pathlib import Path
@@ -14,7 +16,7 @@ from modeler.core.errors import DataError
 from modeler.robot.edit import with_parameters
 from modeler.robot.read import robot_from_text
 
-MOTION = {"duration": 6.0, "rate": 200.0, "parameter_seed": 4}
+MOTION = {"duration": 4.0, "rate": 200.0, "parameter_seed": 4}
 
 
 @pytest.fixture(scope="module")
@@ -35,6 +37,17 @@ def plant(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.fixture(scope="module")
+def written(plant: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the page and the JSON of the command, and `told.txt`, what it printed."""
+    folder, out = tmp_path_factory.mktemp("written"), io.StringIO()
+    files = ["--report", str(folder / "fleet.html"), "--json", str(folder / "fleet.json")]
+    with contextlib.redirect_stdout(out):
+        assert main(["fleet", "two-link", str(plant), *files]) == 0
+    (folder / "told.txt").write_text(out.getvalue())
+    return folder
+
+
 def run(capsys: pytest.CaptureFixture[str], *words: str) -> str:
     assert main(["fleet", "two-link", *words]) == 0
     out, err = capsys.readouterr()
@@ -49,13 +62,12 @@ def refusal(capsys: pytest.CaptureFixture[str], *words: str) -> str:
     return err
 
 
-def test_text_json_and_page(capsys, plant: Path, tmp_path: Path) -> None:
-    page, file = tmp_path / "fleet.html", tmp_path / "fleet.json"
-    out = run(capsys, str(plant), "--report", str(page), "--json", str(file))
+def test_text_json_and_page(written: Path) -> None:
+    out = (written / "told.txt").read_text()
     assert out.startswith("two-link: 1 of 2 machines drift or are apart from the others, beyond d")
     told = r"machine r2, joint 2: Coulomb friction \(Fs2\) leaps up by \d\d(\.\d)? % at 2026-03-03"
     assert re.search(told, out)
-    found = json.loads(file.read_text())
+    found = json.loads((written / "fleet.json").read_text())
     assert found["verdict"] == "drift" and found["time"] == "days" and found["logs"] == 10
     [one] = found["findings"]
     assert (one["machine"], one["joint"], one["effect"], one["shape"], one["from"]) == (
@@ -66,7 +78,7 @@ def test_text_json_and_page(capsys, plant: Path, tmp_path: Path) -> None:
     assert set(followed) == {"Fv1", "Fs1", "Fv2", "Fs2", "gain 1", "gain 2", "load"}
     own = followed["Fs2"]["machines"]["r2"]
     assert own["at"] == [0.0, 1.0, 2.0, 3.0, 4.0] and len(own["values"]) == 5
-    text = page.read_text()
+    text = (written / "fleet.html").read_text()
     assert "two-link: what drifts where" in text and "Coulomb friction (Fs2) leaps up" in text
     assert "All machines" in text and "What was looked at" in text
 
@@ -121,23 +133,22 @@ def test_rows_given_twice_are_refused(capsys, plant: Path, tmp_path: Path) -> No
     copy.parent.mkdir()
     copy.write_bytes((plant / "r1" / "2026-03-01.parquet").read_bytes())
     assert f"{copy}: got rows of {plant}/r1/2026-03-01.parquet again" in refusal(
-        capsys, str(plant), str(copy)
+        capsys, str(plant / "r1"), str(copy)
     )
 
 
-def test_from_python(plant: Path, tmp_path: Path) -> None:
-    robot = load("two-link")
-    places = sorted(plant.glob("*/*.parquet"))
-    found = fleet(robot, places)
-    by_name = fleet(robot, {
+def test_from_python(plant: Path, written: Path, tmp_path: Path) -> None:
+    """By names of machines and periods it is what the command finds by folders."""
+    found = fleet(load("two-link"), {
         machine: {path.stem: path for path in sorted((plant / machine).glob("*.parquet"))}
         for machine in ("r1", "r2")
     })  # fmt: skip
-    assert [f.machine for f in found.findings] == ["r2"] == [f.machine for f in by_name.findings]
-    assert found.findings[0].change == pytest.approx(by_name.findings[0].change, rel=1e-12)
+    told = json.loads((written / "fleet.json").read_text())
+    [one] = found.findings
+    assert (one.machine, one.change) == ("r2", pytest.approx(told["findings"][0]["change"]))
     assert len(found.table("findings").rows) == 1 and len(found.table("values").rows) == 70
     assert found.plot("quantity 4") is not None and "Fs2" in found.summary()
     place = write_report(found, tmp_path / "f.html", ["of a test"])
     assert "of a test" in place.read_text()
     with pytest.raises(DataError, match="fleet: got the text"):
-        fleet("two-link", places)  # type: ignore[arg-type]
+        fleet("two-link", [plant])  # type: ignore[arg-type]

@@ -8,7 +8,7 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.fleet.fleet import fleet_of
 from modeler.fleet.naming import Named
-from modeler.fleet.result import Fleet, FleetFinding, fleet_lines, sentence
+from modeler.fleet.result import Fleet, fleet_lines, sentence
 from modeler.fleet.summary import SkippedLog
 from tests.fleet.machines import Planted, Scene, compiled, summaries
 from tests.rotation import rotating_with
@@ -37,17 +37,27 @@ def test_many_fleets_without_drift_are_quiet(machines: int, periods: int, daily:
     assert sum(bool(fleet(scene, seed).findings) for seed in range(600, 620)) <= 4
 
 
-DAYS = 10
+DAYS = 8
 PLANTED = {
-    "viscous 30 % in 10 days": ("Fv2", tuple(0.3 * np.linspace(0.0, 1.0, DAYS)), "trend", 30.0),
-    "Coulomb 40 % at once": ("Fs2", (0.0,) * 4 + (0.4,) * 6, "jump", 40.0),
-    "gain 5 % at once": ("gain2", (0.0,) * 6 + (0.05,) * 4, "jump", 5.0),
+    "gain 5 % at once": ("gain2", (0.0,) * 5 + (0.05,) * 3, "jump", 5.0),
+    "viscous 30 % in 8 days": ("Fv2", tuple(0.3 * np.linspace(0.0, 1.0, DAYS)), "trend", 30.0),
+    "Coulomb on one day": ("Fs2", (0.0,) * 4 + (0.5,) + (0.0,) * 3, "one period", 50.0),
+    "Coulomb 40 % at once": ("Fs2", (0.0,) * 4 + (0.4,) * 4, "jump", 40.0),
     "gain of the first joint": ("gain1", tuple(-0.1 * np.linspace(0.0, 1.0, DAYS)), "trend", -10.0),
-    "Coulomb on one day": ("Fs2", (0.0,) * 5 + (0.5,) + (0.0,) * 4, "one period", 50.0),
 }
 
 
-@pytest.mark.parametrize("case", PLANTED)
+@pytest.mark.parametrize(
+    "case",
+    [
+        "Coulomb on one day",
+        *(
+            pytest.param(case, marks=pytest.mark.rotating)
+            for case in PLANTED
+            if case != "Coulomb on one day"
+        ),
+    ],
+)
 def test_what_is_planted_is_found_and_nothing_else(case: str) -> None:
     name, plan, shape, percent = PLANTED[case]
     found = fleet(Scene(machines=2, periods=DAYS, planted=(Planted(1, name, plan),)), 901)
@@ -61,14 +71,16 @@ def test_what_is_planted_is_found_and_nothing_else(case: str) -> None:
 
 
 def test_an_offset_that_leaps_is_found() -> None:
-    plan = (0.0,) * 3 + (4.0,) * 3
-    found = fleet(Scene(machines=2, planted=(Planted(0, "Off1", plan),)), 7, "demo-arm")
+    plan = (0.0,) * 2 + (4.0,) * 2
+    found = fleet(Scene(machines=2, periods=4, planted=(Planted(0, "Off1", plan),)), 7, "demo-arm")
     assert told(found) == [("r1", "Off1", "jump")]
     assert found.findings[0].percent is None  # an offset has no size of its own
     assert "joint 1: constant torque offset (Off1) leaps " in sentence(found.findings[0], "days")
 
 
-@pytest.mark.parametrize("robot", ["two-link", "demo-arm"])
+@pytest.mark.parametrize(
+    "robot", ["two-link", pytest.param("demo-arm", marks=pytest.mark.rotating)]
+)
 def test_a_load_is_no_gain(robot: str) -> None:
     """0.8 kg on the last link weigh on several joints; a gain of one joint is not told."""
     plan = (0.0,) * 2 + (0.8,) * 4
@@ -76,7 +88,10 @@ def test_a_load_is_no_gain(robot: str) -> None:
     assert told(found) == [("r3", "load", "jump")]
     [one] = found.findings
     assert one.change == pytest.approx(0.8, rel=0.2) and one.quantity.joint is None
-    assert "machine r3: load on the last link leaps up by 0." in sentence(one, "periods")
+    text = sentence(one, "periods")
+    assert "machine r3: load on the last link leaps up by 0." in text
+    assert "at day3 and stays, from" in text
+    assert not any("too few to know how values scatter" in note for note in found.notes)
 
 
 @rotating_with("fleets that drift")
@@ -92,7 +107,7 @@ def test_a_gain_is_no_load_and_both_may_be_in_one_fleet() -> None:
 def test_friction_in_units_of_a_drifting_gain_does_not_drift() -> None:
     """A gain that falls by 40 % takes the logged friction with it: one cause, one finding."""
     plan = (0.0,) * 3 + (-0.4,) * 3
-    found = fleet(Scene(planted=(Planted(0, "gain2", plan),)), 12)
+    found = fleet(Scene(machines=2, planted=(Planted(0, "gain2", plan),)), 12)
     assert told(found) == [("r1", "gain 2", "jump")]
 
 
@@ -105,32 +120,28 @@ def test_an_odd_machine_is_found() -> None:
     assert any("above that of the other machines" in sentence(f, "days") for f in found.findings)
 
 
-def warm(scene: Scene, seed: int, others: bool) -> FleetFinding:
-    """The finding in a machine that warms; the others too, or not."""
-    reduced = summaries(dataclasses.replace(scene, warm=True), seed)
-    if not others:
-        reduced = [
-            each if each.named.machine == "r1" else dataclasses.replace(each, temperatures={})
-            for each in reduced
-        ]
-    [one] = fleet_of(compiled().spec, reduced).findings
-    return one
-
-
 def test_a_temperature_that_moves_along_is_told() -> None:
-    plan = tuple(0.3 * np.linspace(0.0, 1.0, 6))
-    scene = Scene(machines=4, planted=(Planted(0, "Fv2", plan),))
-    alone, together = (warm(scene, 3, others) for others in (False, True))
+    spec, plan = compiled().spec, tuple(0.3 * np.linspace(0.0, 1.0, 5))
+    scene = Scene(machines=4, periods=5, planted=(Planted(0, "Fv2", plan),), warm=True)
+    warm = summaries(scene, 3)
+    cold = [dataclasses.replace(each, temperatures={}) for each in warm[5:]]
+    [together], [alone] = (fleet_of(spec, logs).findings for logs in (warm, [*warm[:5], *cold]))
     assert alone.warmth is not None and alone.warmth.along and alone.warmth.shared is None
     assert "may be the cause: compare periods of one temperature" in sentence(alone, "days")
     assert together.warmth is not None and together.warmth.shared is False
     assert "but machines that warm alike do not change so" in sentence(together, "days")
-    leap = Scene(machines=4, planted=(Planted(0, "Fv2", (0.0,) * 5 + (0.4,)),))
-    sudden = warm(leap, 3, False)
+    leap = dataclasses.replace(scene, machines=1, planted=(Planted(0, "Fv2", (0.0,) * 4 + (0.4,)),))
+    [sudden] = fleet_of(spec, summaries(leap, 3)).findings
     assert sudden.warmth is not None and not sudden.warmth.along  # a line is no leap
-    all_ = Scene(machines=4, planted=tuple(Planted(m, "Fv2", plan) for m in range(4)))
-    reduced = summaries(dataclasses.replace(all_, warm=True), 3)
-    findings = fleet_of(compiled().spec, reduced).findings
+    assert "at day5, the last period (whether it stays is not known), from" in sentence(
+        sudden, "days"
+    )
+    everywhere = [
+        dataclasses.replace(each, named=Named(m, each.named.period, m), content=f"{m} {k}")
+        for m in ("r1", "r2", "r3", "r4")
+        for k, each in enumerate(warm[:5])
+    ]
+    findings = fleet_of(spec, everywhere).findings
     assert findings and all(f.warmth is not None and f.warmth.shared for f in findings)
 
 
@@ -148,7 +159,7 @@ def test_what_cannot_be_compared_is_refused() -> None:
 
 
 def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
-    given = [*summaries(Scene(machines=2, periods=3), 1)]
+    given = summaries(Scene(machines=2, periods=3), 1)
     late = dataclasses.replace(given[0], named=Named("r9", "day1", "r9/day1.csv"))
     left = SkippedLog(Named("r1", "day9", "r1/day9.csv"), "r1/day9.csv: damaged")
     found = fleet_of(compiled().spec, [*given, late, left])

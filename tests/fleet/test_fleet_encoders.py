@@ -6,10 +6,8 @@ import numpy as np
 
 from modeler.api import fleet, load
 from modeler.fleet.fleet import fleet_of
-from modeler.fleet.summary import summary
 from modeler.observation.log import Log
-from modeler.observation.settings import Processing
-from tests.fleet.machines import Planted, Scene, compiled, logs
+from tests.fleet.machines import Planted, Scene, compiled, logs, summaries
 
 
 def coarser(log: Log, counts: int) -> Log:
@@ -32,9 +30,7 @@ def test_a_coarse_encoder_is_no_drift_and_hides_none() -> None:
 
 
 def test_logs_that_are_given_one_filter_are_said_to_be_alike() -> None:
-    model, given = compiled(), Processing(position_cutoff=20.0, parallel_cutoff=5.0)
-    pairs = logs(Scene(machines=2, periods=2), 3)
-    found = fleet_of(model.spec, [summary(model, log, named, given) for named, log in pairs])
+    found = fleet_of(compiled().spec, summaries(Scene(machines=2, periods=3), 1))
     [told] = [note for note in found.notes if "filtered" in note]
     assert told == (
         "all logs are filtered alike: positions below 20 Hz, torques and columns below 5 Hz"

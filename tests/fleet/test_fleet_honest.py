@@ -1,4 +1,4 @@
-"""What a fleet must not say of logs that do not fit, of leaps at the end, of what it cannot see."""
+"""What a fleet must not say of logs that do not fit, and of what it cannot see."""
 
 import dataclasses
 
@@ -8,7 +8,7 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.fleet.fleet import fleet_of
 from modeler.fleet.naming import Named
-from modeler.fleet.result import Fleet, fleet_lines, sentence
+from modeler.fleet.result import Fleet, fleet_lines
 from modeler.fleet.summary import LogSummary, SkippedLog, summary
 from modeler.observation.log import Log
 from modeler.observation.settings import Processing
@@ -38,7 +38,9 @@ def exchanged(log: Log) -> Log:
     return dataclasses.replace(log, tau=log.tau[:, [1, 0, *range(2, log.tau.shape[1])]])
 
 
-@pytest.mark.parametrize("robot", ["two-link", "demo-arm"])
+@pytest.mark.parametrize(
+    "robot", ["two-link", pytest.param("demo-arm", marks=pytest.mark.rotating)]
+)
 def test_logs_with_exchanged_torques_are_left_out_with_the_reason(robot: str) -> None:
     """A whole machine, and one day of another: neither drifts, nor is it well."""
     pairs = logs(Scene(machines=3, periods=3), 41, robot)
@@ -59,13 +61,18 @@ def test_logs_with_exchanged_torques_are_left_out_with_the_reason(robot: str) ->
 
 def test_short_logs_are_still_compared() -> None:
     """Too short for a fit of their own, by far: the fleet's inertia is that of all logs."""
-    found = judged(logs(Scene(machines=3, periods=4, duration=2.0), 5))
-    assert found.left == () and found.logs == 12
+    found = judged(logs(Scene(machines=2, periods=3, duration=2.0), 5))
+    assert found.left == () and found.logs == 6
 
 
 @pytest.mark.parametrize(
     ("seed", "plan"),
-    [(71, ("gain1", -0.5)), (72, ("Fv1", -0.9)), (73, ("Fs2", 4.0)), (74, ("load", 5.0))],
+    [
+        (71, ("gain1", -0.5)),
+        pytest.param(74, ("load", 5.0), marks=pytest.mark.rotating),
+        pytest.param(72, ("Fv1", -0.9), marks=pytest.mark.rotating),
+        pytest.param(73, ("Fs2", 4.0), marks=pytest.mark.rotating),
+    ],
 )
 def test_great_drifts_are_no_wrong_logs(seed: int, plan: tuple[str, float]) -> None:
     name, size = plan
@@ -93,30 +100,16 @@ def test_logs_of_more_joints_are_of_another_robot() -> None:
     assert line.startswith("r1/day1.csv and 3 more: ")
 
 
-def test_a_leap_in_the_last_period_is_not_said_to_stay() -> None:
-    for plan, told in [
-        ((0.0,) * 5 + (0.5,), "at day6, the last period (whether it stays is not known), from"),
-        ((0.0,) * 4 + (0.5,) * 2, "at day5 and stays, from"),
-    ]:
-        [one] = fleet_of(
-            compiled().spec, summaries(Scene(planted=(Planted(0, "Fs2", plan),)), 3)
-        ).findings
-        assert told in sentence(one, "periods")
-
-
 def test_a_machine_that_hides_a_parameter_is_told() -> None:
     """Joint 2 of r2 hardly moves: its friction may have risen or not."""
-    pairs, model = [], compiled()
-    rng = np.random.default_rng(4)
-    for named, log in logs(Scene(machines=3, periods=4, noise=0.02), 4):
-        if named.machine == "r2":
-            log = still(log, model, rng)
-        pairs.append((named, log))
-    found = judged(pairs)
+    pairs, rng = logs(Scene(machines=3, periods=4, noise=0.02), 4), np.random.default_rng(4)
+    plain = reduced(pairs)
+    resting = [(named, still(log, compiled(), rng)) for named, log in pairs[4:8]]
+    found = fleet_of(compiled().spec, [*plain[:4], *reduced(resting), *plain[8:]])
     [line] = [note for note in found.notes if note.startswith("machine ")]
     assert line.startswith("machine r2: its logs tell ") and "Fv2 (" in line
-    plain = judged(logs(Scene(machines=3, periods=4, noise=0.02), 4))
-    assert not [note for note in plain.notes if note.startswith("machine ")]
+    notes = fleet_of(compiled().spec, plain).notes
+    assert not [note for note in notes if note.startswith("machine ")]
 
 
 def still(log: Log, model: CompiledModel, rng: np.random.Generator) -> Log:
@@ -130,10 +123,8 @@ def still(log: Log, model: CompiledModel, rng: np.random.Generator) -> Log:
 
 
 def test_few_logs_say_little_of_scatter() -> None:
-    spec = compiled().spec
-    for scene, few in [(Scene(machines=1, periods=3), True), (Scene(machines=2, periods=6), False)]:
-        notes = fleet_of(spec, summaries(scene, 2)).notes
-        assert any("too few to know how values scatter" in note for note in notes) == few
+    notes = fleet_of(compiled().spec, summaries(Scene(machines=1, periods=3), 2)).notes
+    assert any("too few to know how values scatter" in note for note in notes)
 
 
 def test_one_log_besides_those_left_out_says_why() -> None:

@@ -134,7 +134,7 @@ def test_periods_are_in_time() -> None:
         for log, day in zip(plain, (9, 2, 1), strict=True)
     ]
     logs, at, unit = in_time(dated)
-    assert unit == "days" and at.tolist() == [0.0, 1.0, 8.0] and logs == dated[::-1]
+    assert unit == "days" and at.tolist() == [0.0, 1.0, 8.0] and [*logs] == dated[::-1]
     clocked = [
         replace(log, span=(86400.0 * day, 86400.0 * day + 12.0))
         for log, day in zip(plain, (3, 0, 1), strict=True)

@@ -29,7 +29,7 @@ class Case:
 def case(tmp_path_factory) -> Case:
     derivation = derive(load("demo-arm"))
     compiled = compile_model(generate(derivation))
-    run = simulate(derivation.robot, SimulationSettings(duration=6.0, seed=3, torque_noise=0.01))
+    run = simulate(derivation.robot, SimulationSettings(duration=2.5, seed=3, torque_noise=0.01))
     table = Run(log_columns(run))
     path = parquet(tmp_path_factory.mktemp("run") / "run.parquet", table)
     return Case(compiled, table, identify(observe(compiled, [path])).beta)

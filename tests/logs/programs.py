@@ -145,7 +145,7 @@ def iso_index(folder: Path, table: Table) -> Path:
 
 def clock_of_day(folder: Path, table: Table) -> Path:
     """Times of a day in America, after noon."""
-    clock = [(1, 59, 57 + t) if t < 3 else (2, 0, t - 3) for t in table["time"]]
+    clock = [(1, 59, 58.5 + t) if t < 1.5 else (2, 0, t - 1.5) for t in table["time"]]
     stamps = [f"5/1/2024 {h}:{m:02d}:{s:012.9f} PM" for h, m, s in clock]
     body = text_of(rows_of(table)[:, 1:], ",").splitlines()
     lines = [f"{s},{line}" for s, line in zip(stamps, body, strict=True)]

@@ -82,7 +82,7 @@ EMPS = ("Zeit [ms];Weg [mm];Strom (soll);Kraft [kN]\n", [1e3, 1e3, 1e-3])
 
 
 @pytest.fixture(scope="module")
-def ground(tmp_path_factory):
+def inputs(tmp_path_factory):
     """Two runs of one machine with names and units of their own."""
     folder = tmp_path_factory.mktemp("auto")
     import pyarrow.parquet as pq
@@ -98,14 +98,14 @@ def ground(tmp_path_factory):
     return folder
 
 
-def test_what_is_told_to_be_next_reads_the_log_again(ground, tmp_path, capsys, monkeypatch):
+def test_what_is_told_to_be_next_reads_the_log_again(inputs, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name in ("a.txt", "b.txt"):
-        shutil.copy(ground / name, name)
+        shutil.copy(inputs / name, name)
     argv = ["fit", "emps", "a.txt", "--map", "auto", "--out", "m.json"]
     status, out, err = run(capsys, *argv)
     assert (status, err) == (0, "") and "read with ; between columns, decimal commas" in out
-    assert run(capsys, "fit", "emps", ground / "a.parquet", "--out", "p.json")[0] == 0
+    assert run(capsys, "fit", "emps", inputs / "a.parquet", "--out", "p.json")[0] == 0
     assert values(tmp_path / "m.json") == pytest.approx(values(tmp_path / "p.json"), rel=1e-7)
     assert load_model("m.json").mapping["q1"] == "Weg [mm]"
     for _ in range(3):  # fit, then compare and diagnose, then what these say
@@ -116,11 +116,11 @@ def test_what_is_told_to_be_next_reads_the_log_again(ground, tmp_path, capsys, m
             status, more, err = run(capsys, *words[1:])
             assert (status, err) == (0, ""), words
             out += more
-    argv = ["add", "m.json", "asymmetric_viscous", ground / "a.txt", "--out", "better.json"]
+    argv = ["add", "m.json", "asymmetric_viscous", inputs / "a.txt", "--out", "better.json"]
     assert run(capsys, *argv)[0] == 0
     assert load_model("better.json").mapping == load_model("m.json").mapping
-    assert run(capsys, "add", "better.json", "undo", ground / "a.txt", "--out", "u.json")[0] == 0
-    assert run(capsys, "compare", "u.json", ground / "b.parquet")[0] == 0  # our own names serve
+    assert run(capsys, "add", "better.json", "undo", inputs / "a.txt", "--out", "u.json")[0] == 0
+    assert run(capsys, "compare", "u.json", inputs / "b.parquet")[0] == 0  # our own names serve
 
 
 LOG = """# mine
@@ -135,18 +135,18 @@ time = "t"
 """
 
 
-def test_the_guess_is_written_into_the_robot_file(ground, tmp_path, capsys, monkeypatch):
+def test_the_guess_is_written_into_the_robot_file(inputs, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     before = builtin_text("emps").replace("[drive_gains]", "[x]").split("[x]")[0] + LOG
     (tmp_path / "emps.toml").write_text(before)
-    argv = ["log", ground / "a.txt", "--robot", "emps.toml", "--write"]
+    argv = ["log", inputs / "a.txt", "--robot", "emps.toml", "--write"]
     status, out, err = run(capsys, *argv)
     assert (status, err) == (0, "")
     assert "written: [log] in emps.toml in place of its own" in out
     after = (tmp_path / "emps.toml").read_text()
     assert after.startswith(before.partition("[log]")[0]) and "waist" not in after
     assert robot_from_text(after, "emps.toml").drive_gains == {"1": 2.0}
-    assert run(capsys, "fit", "emps.toml", ground / "a.txt", "--out", "m.json")[0] == 0
+    assert run(capsys, "fit", "emps.toml", inputs / "a.txt", "--out", "m.json")[0] == 0
     assert load_model("m.json").mapping == {}
 
 
@@ -158,17 +158,17 @@ WRITES = [
 
 
 @pytest.mark.parametrize(("words", "line"), WRITES)
-def test_what_cannot_be_written_into_is_one_line(ground, capsys, words, line):
-    status, _, err = run(capsys, *[word.format(a=ground / "a.txt") for word in words])
+def test_what_cannot_be_written_into_is_one_line(inputs, capsys, words, line):
+    status, _, err = run(capsys, *[word.format(a=inputs / "a.txt") for word in words])
     assert status == 1 and line in err and err.count("\n") == 1
 
 
-def test_options_stand_in_the_robot_file(ground, tmp_path, capsys, monkeypatch):
+def test_options_stand_in_the_robot_file(inputs, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = builtin_text("emps") + '\n[fit]\nmethod = "ordinary"\ncutoff = 40\ndecimate = 7\n'
     text += '[diagnose]\nwithout = ["asymmetric_viscous", "spring@1"]\n'
     (tmp_path / "emps.toml").write_text(text)
-    log = ground / "a.parquet"
+    log = inputs / "a.parquet"
     _, out, err = run(capsys, "fit", "emps.toml", log, "--out", "m.json")
     said = 'by [fit] of the robot file: method = "ordinary", cutoff = 40, decimate = 7'
     assert said in out + err

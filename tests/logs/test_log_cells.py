@@ -38,7 +38,16 @@ SHOWN = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("how", SHOWN)
+@pytest.mark.parametrize(
+    "how",
+    [
+        *("python", "numpy over lines"),
+        *(
+            pytest.param(how, marks=pytest.mark.rotating)
+            for how in ("json", "numpy", "tuple", "array")
+        ),
+    ],
+)
 def test_lists_in_cells_are_columns(how, case, tmp_path):
     path = tmp_path / "run.csv"
     path.write_text(listed(case, SHOWN[how]))

@@ -124,7 +124,7 @@ def test_rows_that_are_not_even_have_no_rate():
     assert coarse_clock(np.repeat(np.arange(300) * 0.01, 2), [np.repeat(np.arange(300), 2)]) == ""
 
 
-@pytest.mark.parametrize("step", [0.01, 1.0])
+@pytest.mark.parametrize("step", [0.01, 0.1])
 def test_a_coarse_log_is_told_and_its_rate_works(step, case, tmp_path):
     rate = 1.0 / float(np.median(np.diff(case.table["time"])))
     table = {**case.table, "time": step * np.floor(case.table["time"] / step + 1e-9)}

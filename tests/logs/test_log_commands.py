@@ -30,7 +30,7 @@ def run(capsys, *argv):
 
 
 @pytest.fixture(scope="module")
-def ground(tmp_path_factory):
+def inputs(tmp_path_factory):
     """Two runs as MAT files and their twins, a robot file with [log], and both models."""
     folder = tmp_path_factory.mktemp("commands")
     (folder / "emps.toml").write_text(builtin_text("emps") + LOG)
@@ -60,8 +60,8 @@ def values(place):
     return np.array([p["value"] for p in fit["parameters"]])
 
 
-def test_the_model_is_that_of_the_twin(ground):
-    assert values(ground / "m.json") == pytest.approx(values(ground / "p.json"), rel=1e-12)
+def test_the_model_is_that_of_the_twin(inputs):
+    assert values(inputs / "m.json") == pytest.approx(values(inputs / "p.json"), rel=1e-12)
 
 
 COMMANDS = [
@@ -72,10 +72,10 @@ COMMANDS = [
 
 
 @pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])
-def test_the_model_file_carries_the_names(ground, tmp_path, capsys, words):
+def test_the_model_file_carries_the_names(inputs, tmp_path, capsys, words):
     found = []
     for model, ending in (("m.json", "mat"), ("p.json", "parquet")):
-        places = {"model": ground / model, "a": ground / f"a.{ending}", "b": ground / f"b.{ending}",
+        places = {"model": inputs / model, "a": inputs / f"a.{ending}", "b": inputs / f"b.{ending}",
                   "out": tmp_path / "out.json"}  # fmt: skip
         argv = [word.format(**places) for word in words]
         status, _, err = run(capsys, *argv, "--json", tmp_path / "r.json")
@@ -93,46 +93,35 @@ def numbers(value):
     return [float(value)] if isinstance(value, int | float) else []
 
 
-def test_from_python_too(ground):
-    model = load_model(ground / "p.json")
+def test_from_python_too(inputs):
+    model = load_model(inputs / "p.json")
     mapping = {"time": "run.t [ms]", "q1": {"column": "run.x", "unit": "mm", "sign": -1},
                "tau1": "run.F [kN]"}  # fmt: skip
-    found = compare(model, [ground / "b.mat"], mapping).to_dict()
-    twin = compare(model, [ground / "b.parquet"]).to_dict()
+    found = compare(model, [inputs / "b.mat"], mapping).to_dict()
+    twin = compare(model, [inputs / "b.parquet"]).to_dict()
     assert found["relative_error"] == pytest.approx(twin["relative_error"], rel=1e-9)
-    better = add(model, "asymmetric_viscous", [ground / "a.mat"], mapping=mapping)
-    assert undo(better, [ground / "a.mat"], mapping).beta == pytest.approx(model.beta, rel=1e-9)
+    better = add(model, "asymmetric_viscous", [inputs / "a.mat"], mapping=mapping)
+    assert undo(better, [inputs / "a.mat"], mapping).beta == pytest.approx(model.beta, rel=1e-9)
 
 
 MAP = ["--map", "time=run.t:ms", "--map", "q1=-run.x:mm", "--map", "tau<j>=run.F:kN"]
 
 
-def test_map_does_what_log_does(ground, tmp_path, capsys):
+def test_map_does_what_log_does(inputs, tmp_path, capsys):
     status, _, err = run(
-        capsys, "fit", "emps", ground / "a.mat", *MAP, "--out", tmp_path / "f.json"
+        capsys, "fit", "emps", inputs / "a.mat", *MAP, "--out", tmp_path / "f.json"
     )
     assert (status, err) == (0, "")
-    assert values(tmp_path / "f.json") == pytest.approx(values(ground / "p.json"), rel=1e-12)
-    argv = ["fit", "emps", ground / "a.mat", "--holdout", ground / "b.mat", *MAP]
+    assert values(tmp_path / "f.json") == pytest.approx(values(inputs / "p.json"), rel=1e-12)
+    argv = ["fit", "emps", inputs / "a.mat", "--holdout", inputs / "b.mat", *MAP]
     status, _, err = run(capsys, *argv, "--method", "weighted,ordinary")
     assert (status, err) == (0, "")
 
 
-def test_models_side_by_side_read_with_map(ground, capsys):
-    models = [ground / "m.json", ground / "p.json"]
-    status, _, err = run(capsys, "compare", *models, ground / "b.mat", *MAP)
-    assert (status, err) == (0, "")
-
-
-def test_run_embedded_c_knows_the_names_too(ground, capsys):
-    argv = ["compare", ground / "m.json", ground / "b.mat", "--run-embedded-c"]
-    assert run(capsys, *argv)[0] == 0
-
-
-def test_a_mistake_in_log_is_one_line(ground, tmp_path, capsys):
+def test_a_mistake_in_log_is_one_line(inputs, tmp_path, capsys):
     bad = tmp_path / "bad.toml"
     bad.write_text(builtin_text("emps") + LOG.replace("mm", "deg"))
-    status, out, err = run(capsys, "fit", bad, ground / "a.mat", "--out", tmp_path / "f.json")
+    status, out, err = run(capsys, "fit", bad, inputs / "a.mat", "--out", tmp_path / "f.json")
     assert (status, out) == (1, "")
     assert (
         'emps: [log], q<j>: got unit "deg", which is an angle; q1 is a position of joint 1, ' in err
@@ -140,9 +129,9 @@ def test_a_mistake_in_log_is_one_line(ground, tmp_path, capsys):
     assert "which is prismatic: expected a unit such as mm, m, in" in err and err.count("\n") == 1
 
 
-def test_an_output_is_not_named_like_a_log(ground, tmp_path, capsys):
+def test_an_output_is_not_named_like_a_log(inputs, tmp_path, capsys):
     for ending in ("mat", "h5", "mcap"):
-        status, _, err = run(capsys, "fit", "emps", ground / "a.mat", "--out", f"x.{ending}")
+        status, _, err = run(capsys, "fit", "emps", inputs / "a.mat", "--out", f"x.{ending}")
         assert status == 1 and "this is a log; expected a name of its own" in err
 
 

@@ -64,7 +64,14 @@ def serialized(case, encoding):
     [
         ("ros1", "ros1", "ros1msg", "sensor_msgs/JointState", "LZ4"),
         ("", "cdr", "ros2msg", "sensor_msgs/msg/JointState", "ZSTD"),
-        ("ros2", "cdr", "ros2msg", "sensor_msgs/msg/JointState", "NONE"),
+        pytest.param(
+            "ros2",
+            "cdr",
+            "ros2msg",
+            "sensor_msgs/msg/JointState",
+            "NONE",
+            marks=pytest.mark.rotating,
+        ),
     ],
 )
 def test_messages_of_every_profile(profile, encoding, form, kind, packing, case, tmp_path):
@@ -170,7 +177,7 @@ class Control:
         return path
 
 
-@pytest.mark.parametrize("headers", ["valid", "empty"])
+@pytest.mark.parametrize("headers", ["valid", pytest.param("empty", marks=pytest.mark.rotating)])
 def test_values_by_the_names_of_interfaces(headers, case, tmp_path):
     ros, kind, messages = Control(), "control_msgs/msg/DynamicJointState", []
     for stamp, names, q, tau in states(case.table):

@@ -159,7 +159,7 @@ class Run:
     asked: np.ndarray
 
 
-def moved(truth: str, believed: str, links: Sequence[Link], seed: int, seconds: float = 20.0,
+def moved(truth: str, believed: str, links: Sequence[Link], seed: int, seconds: float,
           rate: float = 1000.0) -> Run:  # fmt: skip
     """The arm of an MJCF under computed torques of another, on a sum of sines within its ranges.
 

@@ -24,8 +24,8 @@ def written(folder: Path, seed: int):
     Path(folder, "arm.urdf").write_text(urdf("arm", wrong))
     Path(folder, "arm.xml").write_text(mjcf("arm", wrong))
     truth, believed, logs = mjcf("arm", ARM7), mjcf("arm", wrong), []
-    for k in range(3):
-        run = moved(truth, believed, ARM7, seed + k)
+    for k, seconds in enumerate((14.0, 14.0, 6.0)):
+        run = moved(truth, believed, ARM7, seed + k, seconds)
         logs.append(logged(run, ARM7, seed + 10 + k))
         pq.write_table(pa.table(logs[-1]), folder / f"log{k}.parquet")
     return wrong, logs[-1]
@@ -43,7 +43,7 @@ def rms(errors):
 
 @pytest.mark.parametrize(
     "seed",
-    [None, *(pytest.param(k, marks=ROTATING) for k in (1000, 2000, 3000))],
+    [pytest.param(seed, marks=ROTATING) for seed in (None, 1000, 2000)],
     ids=lambda seed: "fresh" if seed is None else str(seed),
 )
 def test_a_spoilt_file_comes_back_better(tmp_path, monkeypatch, capsys, seed):

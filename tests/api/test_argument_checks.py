@@ -1,4 +1,4 @@
-"""What stands at the door of the API: arguments of a wrong kind are refused in one line."""
+"""Arguments of a wrong kind are refused in one line before a function of the API begins."""
 
 import inspect
 from pathlib import Path

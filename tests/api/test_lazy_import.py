@@ -15,34 +15,33 @@ ROOT = Path(modeler.__file__).parent
 ROOMS = {path.parent.name for path in ROOT.glob("*/__init__.py")}
 
 
-def in_new_process(program: str) -> str:
+PROGRAM = """
+import sys
+heavy = {'numpy', 'sympy', 'pandas', 'sklearn', 'pyarrow', 'lazy_loader', 'pathlib'}
+def loaded():
+    return {n for n in sys.modules if n.startswith('modeler') or n in heavy}
+before = loaded()
+import modeler as md
+print(loaded() - before)
+from modeler import numerics  # it asks the package for the name first
+print('modeler.api' in loaded())
+run = md.simulate(md.load('two-link'), duration=3.0, seed=5)
+given = {'time': run.time, 'q': run.q, 'tau': run.tau}
+model = md.identify('two-link', [given, sys.argv[1]])
+print(md.__version__, model.predict(given)['tau'].shape, loaded() & {'pandas', 'sklearn'})
+"""
+
+
+def test_nothing_is_loaded_before_it_is_used(tmp_path: Path) -> None:
+    """Arrow loads pandas by itself where it makes tables; a dict and a file need none."""
+    place = tmp_path / "run.parquet"
+    modeler.simulate(modeler.load("two-link"), place, duration=3.0, seed=6)
     ran = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False
-    )
-    assert ran.returncode == 0, ran.stderr
-    return ran.stdout
-
-
-def test_import_loads_nothing_before_a_name_is_used() -> None:
-    loaded = "sorted(n for n in sys.modules if n.startswith('modeler') or n in heavy)"
-    heavy = "heavy = {'numpy', 'sympy', 'pandas', 'sklearn', 'pyarrow', 'lazy_loader', 'pathlib'}"
-    told = in_new_process(
-        f"import sys\n{heavy}\nbefore = {loaded}\nimport modeler as md\n"
-        f"print([n for n in {loaded} if n not in before])\n"
-        "print(md.__version__, md.load.__module__, 'pandas' in sys.modules, "
-        "'sklearn' in sys.modules)"
-    )
-    first, second = told.splitlines()
-    assert first == "['modeler']"
-    assert second == f"{modeler.__version__} modeler.api.model False False"
-
-
-def test_rooms_are_not_loaded_by_the_names_of_others() -> None:
-    """`from modeler import numerics` asks the package for the name first."""
-    told = in_new_process(
-        "import sys\nfrom modeler import numerics\nprint('modeler.api' in sys.modules)"
-    )
-    assert told == "False\n"
+        [sys.executable, "-c", PROGRAM, str(place)],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    told = f"{{'modeler'}}\nFalse\n{modeler.__version__} (3000, 2) set()\n"
+    assert ran.stdout == told, ran.stderr
     assert {*modeler._ROOMS} == ROOMS
 
 
