@@ -84,7 +84,12 @@ def test_the_record_is_kept_between_runs(pytester: pytest.Pytester) -> None:
     """Real runs of pytest, alone and by pytest-xdist; to collect is none."""
     pytester.makeconftest(
         f"import sys\nsys.path.insert(0, {str(ROOT)!r})\n"
-        "from tests.conftest import pytest_addoption, pytest_configure\n"
+        "from tests.rotation import Rotation\n"
+        "def pytest_addoption(parser):\n"
+        "    parser.addoption('--every', type=int)\n"
+        "    parser.addoption('--day', type=int, default=0)\n"
+        "def pytest_configure(config):\n"
+        "    config.pluginmanager.register(Rotation(config, (), ()), 'rotation')\n"
         "def pytest_collection_modifyitems(config, items):\n"
         "    items[:] = config.pluginmanager.get_plugin('rotation').select(items)\n"
     )

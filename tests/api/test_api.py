@@ -61,6 +61,7 @@ def test_the_simulation_of_the_command_is_that_of_the_function(tmp_path: Path, l
     np.testing.assert_array_equal(log.tau, run.tau)
 
 
+@pytest.mark.rotating("long tests of api")
 @pytest.mark.parametrize(
     "options",
     ["--method robust", "--model energy", pytest.param("--method consistent", marks=ROTATES)],

@@ -37,6 +37,7 @@ def model(place: Path, logs: list[str]) -> md.Model:
     return md.identify("demo-arm", logs, place / "wed.parquet")
 
 
+@pytest.mark.rotating("long tests of api")
 def test_a_parameter_has_value_sigma_unit_interval_and_sum(model: md.Model) -> None:
     k = [p.name for p in model.fit.parameters].index("ZZ1R")
     found = model["ZZ1R"]
@@ -216,6 +217,7 @@ def test_effects_method_and_options_of_the_robot_file(logs: list[str], tmp_path:
         md.identify("demo-arm", logs, method="tls")
 
 
+@pytest.mark.rotating("long tests of api")
 def test_logs_with_a_load_are_not_taken_for_bare_ones() -> None:
     robot = md.open_robot("two-link")
     bare = md.simulate(robot, duration=4.0, seed=61)

@@ -8,6 +8,7 @@ import pytest
 import modeler as md
 
 
+@pytest.mark.rotating("long tests of api")
 @pytest.mark.measured
 def test_the_story_on_measured_logs(measured_folder: Path, tmp_path: Path) -> None:
     """EMPS, of which its authors print values by the same equations.

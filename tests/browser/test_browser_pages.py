@@ -66,6 +66,7 @@ def shown(browser: Chromium, page: Path, size: tuple[int, int]) -> str:
     return " ".join(str(browser.value("document.body.innerText")).split())
 
 
+@pytest.mark.rotating("long tests of browser")
 @pytest.mark.parametrize("size", SIZES)
 def test_the_diagnosis_is_all_there(browser: Chromium, pages: Pages, size: tuple[int, int]) -> None:
     text = shown(browser, pages.diagnosis, size)

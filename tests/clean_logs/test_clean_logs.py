@@ -12,6 +12,7 @@ DAILY = [182, *(pytest.param(seed, marks=pytest.mark.rotating) for seed in (107,
 SLOW = [pytest.param(seed, marks=pytest.mark.slow) for seed in range(200, 200 + len(PAIRS))]
 
 
+@pytest.mark.rotating("long tests of clean_logs")
 @pytest.mark.parametrize("seed", [*DAILY, *SLOW])
 def test_no_line_is_wrong(seed, tmp_path):
     truth = make_machine(seed, tmp_path)

@@ -90,6 +90,7 @@ def test_generate_leaves_the_files_of_others(capsys, tmp_path):
     assert "over emps.h, edited since an earlier generate" in err
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_fit_and_compare(capsys, two_link, tmp_path):
     out = answer(
         capsys, "compare", two_link / "m.json", two_link / "held.parquet",

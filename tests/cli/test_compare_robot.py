@@ -59,6 +59,7 @@ def next_line(text: str) -> list[str]:
     return shlex.split(line)
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_the_values_of_the_file_are_compared_before_any_fit(folder, capsys) -> None:
     capsys.readouterr()
     assert main(["compare", "arm.urdf", "run.csv", "--json", "before.json"]) == 0

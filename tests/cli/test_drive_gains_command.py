@@ -64,6 +64,7 @@ def changed(folder, name, **columns):
     pq.write_table(table, folder / f"{name}.parquet")
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_gains_are_found_and_weigh_a_second_load(arm, capsys):
     """Missing values do no harm; the model and the robot that are written have the gains."""
     gains = json.loads((arm / "fit.json").read_text())["gains"]

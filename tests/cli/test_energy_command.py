@@ -51,6 +51,7 @@ def fit(folder, *options, effects="viscous,coulomb"):
             "--effects", effects, *options)  # fmt: skip
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_energies_of_a_robot_with_loops_are_fitted_and_compared(capsys, folder):
     out = answer(capsys, *fit(folder, "--model", "energy", "--json", folder / "f.json"))
     raw = json.loads((folder / "f.json").read_text())

@@ -20,6 +20,7 @@ def slide(tmp_path_factory) -> Path:
     return folder
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_text_json_and_pictures(capsys, slide: Path) -> None:
     words = "compare {0}/m.json {0}/a.parquet --free-run --window 0.5 --report {0}/f.html"
     outputs = " --json {0}/f.json --picture {0}/p"

@@ -114,6 +114,7 @@ def test_modes_stand_in_rows_of_four(crank, capsys, monkeypatch) -> None:
         assert all(np.mean(panel != other) > 0.01 for other in panels[:k])
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_commands_say_which_home_was_found(crank, capsys) -> None:
     """And the log, the model and the C are of that mode."""
     told = "crank: [home] found: mode A at q1 = "

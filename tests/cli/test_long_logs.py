@@ -281,6 +281,7 @@ def test_memory_does_not_grow_with_the_rows(place, model, tmp_path):
         assert many - few < 100 * 40 * ROWS, (command, few, many)  # whole: 180 and 390 a row
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_a_log_of_any_length_is_diagnosed_by_stretches_of_it(
     place, model, tmp_path, monkeypatch, capsys
 ):

@@ -179,12 +179,14 @@ def test_sets_of_a_robot(capsys, tmp_path):
     assert raw["sets"]["count"] == 21 and raw["sets"]["easiest"] == [["m1", "m2"]]
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_sets_rated_at_the_values_of_the_robot_file(capsys):
     out = answer(capsys, "physical", "wrist", "--sets", "--cad")
     assert "61879 of 1081575 sets of 8" in out
     assert "the 44 with the fewest inertias" in out and "the least error first" in out
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_a_fit_against_cad(capsys, tmp_path, wrist):
     file, truth = wrist
     cad = tmp_path / "cad.toml"

@@ -119,6 +119,7 @@ def test_letters_that_a_terminal_lacks_are_shown_as_codes(tmp_path: Path, settin
             assert rb"M\xe2nipulateur \xe0 un axe \U0001f916" in text
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_progress_on_a_terminal_without_letters(tmp_path: Path) -> None:
     """A title in brackets is no markup either."""
     (tmp_path / "arm.toml").write_text(ARM, encoding="utf-8")

@@ -27,6 +27,7 @@ def errors(place, words):
     return {name: joint["relative_error"] for name, joint in joints.items()}
 
 
+@pytest.mark.rotating("long tests of compare")
 def test_error_is_one_number_of_one_model_and_log(folder, capsys):
     log, model = folder / "a.parquet", folder / "m.json"
     fit = errors(folder, ["fit", "two-link", log, "--out", folder / "again.json"])

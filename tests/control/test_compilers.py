@@ -18,6 +18,7 @@ def folder(name: str, path, single: bool = False) -> Folder:
     return Folder(derivation(name), path, single)
 
 
+@pytest.mark.rotating("long tests of control")
 @pytest.mark.parametrize(
     ("name", "single", "compilers"),
     [

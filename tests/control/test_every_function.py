@@ -242,6 +242,7 @@ def test_every_function_is_that_of_the_table(folder, name):
     refuse(checked(folder(name), samples=2, seed=31))
 
 
+@pytest.mark.rotating("long tests of control")
 @pytest.mark.parametrize("name", slowly(("tx40", "tree 3", "orthoglide-2003", *FAST), FAST[1:]))
 def test_every_function_in_single_precision(folder, name):
     refuse(checked(folder(name, single=True), samples=2, seed=32))

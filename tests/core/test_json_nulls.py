@@ -105,6 +105,7 @@ def marked(line):
     return pytest.param(line, marks=[pytest.mark.rotating, *slow])
 
 
+@pytest.mark.rotating("long tests of core")
 @pytest.mark.parametrize("line", [*KEPT, *map(marked, COMMANDS)])
 def test_json_of_a_command_holds_no_number_that_is_none(line, folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)

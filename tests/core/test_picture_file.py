@@ -82,6 +82,7 @@ LINES = {  # in this order: some read what others write
 }
 
 
+@pytest.mark.rotating("long tests of core")
 def test_every_command_that_draws_writes_its_pictures(axis, tmp_path, monkeypatch) -> None:
     """Of a machine with a spring that its robot file lacks."""
     monkeypatch.chdir(tmp_path)

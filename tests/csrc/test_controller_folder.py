@@ -225,6 +225,7 @@ def costs(name: str, only: str) -> dict[str, dict[str, object]]:
 BOTH = "inverse_dynamics,regressor"
 
 
+@pytest.mark.rotating("long tests of csrc")
 def test_the_stack_of_a_call_is_a_bound_of_what_it_uses(tmp_path):
     """Painted and looked at after the call; the C library's own frames come on top."""
     found, module = costs("five-bar", BOTH), emitted("five-bar", BOTH)

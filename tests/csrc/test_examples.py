@@ -64,6 +64,7 @@ def driven(folder: Path, machine: Machine, size: float) -> tuple[np.ndarray, np.
     return run.error, observed([folder / "example_residual_observer", 30.0, tick], np.array(seen))
 
 
+@pytest.mark.rotating("long tests of csrc")
 def test_the_examples_follow_the_motion_and_see_a_push(fitted):
     """Measured: errors of 0.1 % of the motion, a push that is 0.2 % too small."""
     folder, plant = fitted
@@ -184,6 +185,7 @@ def draw_learning(time: np.ndarray, off: np.ndarray, error: np.ndarray) -> None:
     place.write_bytes(images(picture)["svg"])
 
 
+@pytest.mark.rotating("long tests of csrc")
 def test_the_adaptive_example_learns_the_parameters(tmp_path, capsys, regenerate):
     """From nothing: beta's error, weighed by what the motion tells, falls; so does tracking's.
 
@@ -233,6 +235,7 @@ def circle(time: np.ndarray, radius: float) -> list[np.ndarray]:
     return [radius * np.array(each).T for each in along]
 
 
+@pytest.mark.rotating("long tests of csrc")
 def test_the_tool_follows_a_path_in_space_and_feels_a_push_of_5_newton(tmp_path):
     """A circle of 5 cm in 2.5 s, the wrist held still; then a push."""
     compiler("gcc")

@@ -95,6 +95,7 @@ def not_found(place: Path, prefix: Path, wanted: str) -> str:
                fails=True)  # fmt: skip
 
 
+@pytest.mark.rotating("long tests of csrc")
 def test_make_installs_what_cmake_and_pkg_config_find_and_takes_it_away_again(folder, tmp_path):
     compiler("cmake"), compiler("pkg-config")
     prefix, place = tmp_path / "a prefix", tmp_path / "consumer"
@@ -129,6 +130,7 @@ def check_pkg_config(place: Path, prefix: Path) -> None:
     run("pkg-config", "--exists", "emps = 1.1.2.3", where=place, fails=True, **path)
 
 
+@pytest.mark.rotating("long tests of csrc")
 @pytest.mark.parametrize("shared", [pytest.param(False, marks=pytest.mark.rotating), True])
 def test_cmake_installs_either_kind(folder, tmp_path, shared):
     compiler("cmake"), compiler("pkg-config")

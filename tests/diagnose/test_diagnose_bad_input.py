@@ -51,6 +51,7 @@ REFUSED: dict[str, tuple[Callable[[Table], Table], str]] = {
 }  # fmt: skip
 
 
+@pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize("mistake", REFUSED)
 def test_logs_that_cannot_be_used_are_refused_in_one_line(
     arm: Path, run: Run, tmp_path: Path, mistake: str

@@ -26,6 +26,7 @@ def eps_of(model, names) -> Mapping[str, float]:
     return {p.name: p.value for p in model.fit.parameters if p.name in names}
 
 
+@pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize(
     "factors",
     [BOTH, *(pytest.param(one, marks=pytest.mark.rotating) for one in [(3, 1, 1), (1, 1, 0.4)])],

@@ -71,6 +71,7 @@ DAILY = ("spring", "time_delay")
 """One of each kind: a torque that is added, and one that comes late."""
 
 
+@pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize(
     "effect", [e if e in DAILY else pytest.param(e, marks=pytest.mark.rotating) for e in NAMED]
 )
@@ -131,6 +132,7 @@ def smoothed(log: Log) -> np.ndarray:
     return -0.5 * stribeck(log)
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_friction_that_vibration_smooths_mends_the_law(case: Case) -> None:
     alone = case.found(smoothed)
     assert alone.effects == () and alone.verdict == "nothing significant"
@@ -147,6 +149,7 @@ def test_a_law_that_is_mended_hides_nothing(case: Case) -> None:
     assert [f.effect for f in both.refinements] == ["stribeck"]
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_a_load_since_the_fit_is_named_with_its_mass(case: Case) -> None:
     """1.2 kg, 0.3 m along x of the last frame, in a simulation of its own."""
     text = load("demo-arm").text

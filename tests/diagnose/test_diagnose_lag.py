@@ -50,6 +50,7 @@ def stated_friction(found: Diagnosis) -> list[str]:
     return [f.effect for f in every if f.effect in friction and f.status != "perhaps"]
 
 
+@pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize(
     ("torque", "joint", "tau"),
     [(LAG2, "2", 0.02), pytest.param(LAG_ALL, None, 0.015, marks=pytest.mark.rotating)],
@@ -80,6 +81,7 @@ def test_ruled_out_it_is_no_friction_either(case: Case) -> None:
     assert all(f.status != "fact" for f in found.effects), found.sentences
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_a_pure_delay_is_no_filter(case: Case) -> None:
     found = case.found(DELAY2)
     assert all(f.status != "fact" for f in found.effects)

@@ -88,6 +88,7 @@ def case_of(effect):
     return effect if effect == next(iter(WHERE)) else pytest.param(effect, marks=marks)
 
 
+@pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize("effect", [*map(case_of, WHERE)])
 def test_what_the_file_lacks_is_named_first(tmp_path, effect):
     seed, joint = WHERE[effect]
@@ -108,6 +109,7 @@ def test_what_the_file_lacks_is_named_first(tmp_path, effect):
         np.testing.assert_allclose(change, [true[0], true[1], 0.0], atol=0.1 * G * np.sin(TILT))
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_nothing_is_named_where_nothing_lacks(tmp_path):
     found = diagnosed(tmp_path, 1)
     assert not found.effects, found.sentences

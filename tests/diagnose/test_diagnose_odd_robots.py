@@ -53,6 +53,7 @@ def write_changed(place: Path, name: str, to: Path) -> None:
     pyarrow.parquet.write_table(pyarrow.table(columns), to)
 
 
+@pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize(
     "name",
     [

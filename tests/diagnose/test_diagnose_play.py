@@ -151,6 +151,7 @@ def test_a_gear_that_rattles_is_no_push(monkeypatch):
         assert diagnosis._push(found) is push
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_play_is_found_beside_a_spring_in_simulated_runs(case: Case, tmp_path: Path) -> None:
     """Joint 1 turns about the vertical: its load is inertia, and changes sign at top speed."""
     signs = np.random.default_rng(3).choice([-1.0, 1.0], 1000)

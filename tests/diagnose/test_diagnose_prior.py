@@ -30,6 +30,7 @@ def fitted(values, seed, hidden=(), uncertainty=None):
     return machine, chain_of(text(values, uncertainty)).fit(runs[:1]), runs[:1], runs[1:]
 
 
+@pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_with_link_data_a_counterbalance_is_named(seed):
     machine, model, *logs = fitted(NOMINAL, seed, (BALANCE,), {"inertial": 0.1})

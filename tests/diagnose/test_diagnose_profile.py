@@ -83,6 +83,7 @@ def test_the_truth_is_where_the_interval_says(effect):
     assert np.mean(inside) >= np.mean(blind)
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_two_exponents_that_do_as_well_are_both_in_the_interval():
     along, truth = found("stribeck@2", 901)
     # the simulated dip has the exponent 2; these logs hold too few slow rows to tell

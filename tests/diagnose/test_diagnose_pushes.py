@@ -51,6 +51,7 @@ def test_a_push_too_short_to_be_sure_is_not_named(case: Case) -> None:
         assert finding.error_after < finding.error_before
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_a_push_whose_torque_changes_its_sign_is_one_push(case: Case, tmp_path: Path) -> None:
     def torque(log: Log) -> np.ndarray:
         turning = np.where(log.time < 12.8, 1.0, -1.0)[:, None]
@@ -105,6 +106,7 @@ def lever(log: Log, helical: bool) -> np.ndarray:
 levers = {helical: partial(lever, helical=helical) for helical in (True, False)}
 
 
+@pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize("helical", [pytest.param(True, marks=pytest.mark.rotating), False])
 def test_a_helical_spring_and_a_constant_pull_are_told_apart(case: Case, helical: bool) -> None:
     diagnosis = case.found(levers[helical])
@@ -143,6 +145,7 @@ def slower(log: Log, every: int, late: float) -> Log:
     return dataclasses.replace(log, qd=None, qdd=None, extra={}, **kept)
 
 
+@pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize(
     ("late", "named"), [pytest.param(0.0054, False, marks=pytest.mark.rotating), (0.009, True)]
 )

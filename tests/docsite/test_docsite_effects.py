@@ -59,6 +59,7 @@ def test_the_commands_of_every_effect_parse(effect: Effect) -> None:
     assert parsed[-1].logs == [hidden.out] and parsed[-1].model == parsed[-2].out
 
 
+@pytest.mark.rotating("long tests of docsite")
 @pytest.mark.parametrize(
     "name",
     [

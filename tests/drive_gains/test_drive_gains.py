@@ -110,6 +110,7 @@ def test_noisy_runs_of_an_arm_spread_as_the_sigmas_say(arm):
     assert np.sqrt(np.mean(np.square(values))) == pytest.approx(1.0, abs=0.2)
 
 
+@pytest.mark.rotating("long tests of drive_gains")
 def test_gains_and_parameters_of_an_arm(arm):
     found = identify_gains(arm.compiled, arm.seen(TRUE), [arm.payload()])
     np.testing.assert_allclose([*found.gains.values()], TRUE, rtol=0.01)
@@ -248,6 +249,7 @@ def test_a_load_that_sat_alike_is_not_said_to_have_moved(arm):
     assert mounted_differently(arm.compiled, seen, [Payload(("one", "two"))]) == []
 
 
+@pytest.mark.rotating("long tests of drive_gains")
 def test_a_robot_with_loops_carries_its_load_on_its_last_moving_row():
     """Not on that of the last coordinate, which the logs would call another robot."""
     runs = runs_of("five-bar", 2.0, duration=12.0, rate=200.0)

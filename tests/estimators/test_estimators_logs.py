@@ -172,6 +172,7 @@ def axis():
     return model, api.observe(model, [log])
 
 
+@pytest.mark.rotating("long tests of estimators")
 def test_the_loop_of_a_drive_is_found_and_its_motion_is_that_of_another_solver(axis):
     model, observation = axis
     robot = DirectModel(model, observation)
@@ -188,6 +189,7 @@ def test_the_loop_of_a_drive_is_found_and_its_motion_is_that_of_another_solver(a
         assert away < 0.02 * np.sqrt(np.mean(logged[inside] ** 2))
 
 
+@pytest.mark.rotating("long tests of estimators")
 @pytest.mark.parametrize("method", rotating_but("didim-robust", FOLLOWED))
 def test_the_axis_comes_back_from_its_force_alone(axis, method):
     model, observation = axis

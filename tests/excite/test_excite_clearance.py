@@ -113,6 +113,7 @@ def test_the_slope_of_distances_is_their_derivative(arm):
         assert np.allclose(found[:, j], told, rtol=1e-3, atol=1e-5)
 
 
+@pytest.mark.rotating("long tests of excite")
 @pytest.mark.parametrize(
     "family",
     ["fourier", *(pytest.param(f, marks=pytest.mark.rotating) for f in ("bspline", "trapezoid"))],

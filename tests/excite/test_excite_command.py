@@ -42,6 +42,7 @@ def simulated(motion, log) -> int:
     return main([*map(str, words), "--out", str(log)])
 
 
+@pytest.mark.rotating("long tests of excite")
 def test_what_is_written_is_the_motion_and_what_it_uses(folder):
     raw = json.loads((folder / "motion.json").read_text())
     table = pacsv.read_csv(folder / "motion.csv")
@@ -97,6 +98,7 @@ def test_a_model_is_excited_in_its_essential_parameters(capsys, folder, tmp_path
     assert len(q) == 1601 and np.allclose(q[:800], q[800:1600]) and q[0] == q[-1]
 
 
+@pytest.mark.rotating("long tests of excite")
 def test_two_effects_are_told_apart_better_than_by_chance(capsys, folder, tmp_path):
     status, out, err = run(
         capsys, "excite", folder / "m.json", "--duration", 4, "--harmonics", 3, "--starts", 1,

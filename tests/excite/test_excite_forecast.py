@@ -50,6 +50,7 @@ def sigmas(fitted) -> np.ndarray:
     return np.array([parameter.sigma for parameter in fitted.parameters])
 
 
+@pytest.mark.rotating("long tests of excite")
 @pytest.mark.parametrize("counts", [0, 4096])
 def test_forecast_sigmas_are_those_that_fits_find(arm, known, counts) -> None:
     model, motion = known

@@ -83,6 +83,7 @@ def write(place: Path, columns: dict[str, np.ndarray]) -> str:
     return str(place)
 
 
+@pytest.mark.rotating("long tests of excite")
 def test_the_command_refuses_what_breaks_limits(tmp_path: Path, capsys) -> None:
     robot = tmp_path / "pair.toml"
     robot.write_text(ROBOT + LIMITS)

@@ -103,6 +103,7 @@ def test_torques_in_mujoco_are_those_of_the_c(name: str, tolerance: float) -> No
     assert apart(stated(load(name)), 3) < tolerance
 
 
+@pytest.mark.rotating("long tests of export")
 @pytest.mark.parametrize("seed", [8, pytest.param(9, marks=pytest.mark.rotating)])
 def test_bodies_that_are_half_stated_have_the_torques_of_the_c(seed: int) -> None:
     """Random values for some parameters; what is not stated is 0 in the C, and felt."""

@@ -169,6 +169,7 @@ def test_a_fit_that_could_not_be_built_becomes_one_that_could(fitted) -> None:
     assert elbow[0].now >= 0.0
 
 
+@pytest.mark.rotating("long tests of export")
 def test_what_hangs_on_a_link_changes_only_where_it_must(tmp_path) -> None:
     """The finger weighs 0.2 kg, and the fit says that slider and finger come to less."""
     box = b'<mass value="0.1"/><inertia ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"/>'

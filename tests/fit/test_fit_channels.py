@@ -71,6 +71,7 @@ MISTAKES = {
 UNSEEN = {"zero": "90 degrees", "twice": "scale error of 2", "torque sign": "wrong sign"}
 
 
+@pytest.mark.rotating("long tests of fit")
 @pytest.mark.parametrize("name", ROBOTS)
 def test_a_fit_to_sound_channels_is_not_doubted(name):
     machine, logs = runs(name)

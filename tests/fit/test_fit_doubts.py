@@ -214,6 +214,7 @@ def test_the_model_file_keeps_it_and_old_ones_have_none(log, tmp_path):
         fit_from_json({**model.fit.to_json(), "usable": "yes"}, model.fit.covariance)
 
 
+@pytest.mark.rotating("long tests of fit")
 def test_every_command_that_takes_the_model_says_so(log, tmp_path, capsys):
     tau = log.tau.copy()
     tau[:, 1] *= -1.0

@@ -44,6 +44,7 @@ def repeated(arm):
     return fits, {method: np.array(values) for method, values in scores.items()}
 
 
+@pytest.mark.rotating("long tests of fit")
 @pytest.mark.parametrize("method", ["weighted", "ordinary"])
 def test_the_sigmas_cover_the_truth(repeated, method):
     z = repeated[1][method]

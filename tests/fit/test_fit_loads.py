@@ -44,6 +44,7 @@ def run(arm, seed, name, payload=False, coulomb=0.0):
     return Log(name, made.joints, made.time, made.q, made.tau + coulomb * moves)
 
 
+@pytest.mark.rotating("long tests of fit")
 @pytest.mark.parametrize(("seed", "more"), [(1, 0.0), (3, 1.2)])
 def test_what_is_told_is_the_model_that_is_written(arm, tmp_path, seed, more):
     """Oracle: `compare` of the written file on the bare log."""
@@ -172,6 +173,7 @@ def fit_loaded(folder, words, tail=""):
     return main(f"{base}{folder}/loaded{tail}.parquet {words} --out {folder}/m.json".split())
 
 
+@pytest.mark.rotating("long tests of fit")
 def test_drive_gains_are_refused_where_the_mass_is_not_told(logs, capsys):
     assert fit_loaded(logs, f"--payload-mass {UNTOLD} --method tls", "_i") == 1
     assert "or from the load's inertia" in capsys.readouterr().err

@@ -81,6 +81,7 @@ def chain(name: str, text: str = "") -> tuple[IdentifiedModel, Comparison]:
 results = cache(chain)
 
 
+@pytest.mark.rotating("long tests of fit")
 @pytest.mark.parametrize(
     "robot", [r if r in QUICK else pytest.param(r, marks=ROTATING) for r in PUBLISHED]
 )

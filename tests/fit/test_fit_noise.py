@@ -82,6 +82,7 @@ def slow_noise(size):
     return measured
 
 
+@pytest.mark.rotating("long tests of fit")
 @pytest.mark.parametrize(
     ("measured", "seed"), [*rotating((counts(2**20), 1), (counts(4096), 2)), (white(2e-3), 3)]
 )

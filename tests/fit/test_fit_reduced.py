@@ -75,6 +75,7 @@ def test_it_is_the_fit_of_the_smaller_table(fitted):
     assert reduced.ratio < reduced.limit
 
 
+@pytest.mark.rotating("long tests of fit")
 def test_its_sigmas_cover_the_truth_and_are_smaller(robot):
     arm, beta = robot
     truth = dict(zip((base.name for base in arm.spec.base), beta, strict=True))
@@ -266,6 +267,7 @@ def repeated(memory: float) -> tuple[np.ndarray, np.ndarray, FitResult]:
     return np.array(errors), np.array(inside), fit
 
 
+@pytest.mark.rotating("long tests of fit")
 @pytest.mark.parametrize(("memory", "within"), [*rotating((0.0, 0.15)), (0.2, 0.25)])
 def test_sigmas_and_band_cover_the_truth(memory: float, within: float) -> None:
     """White noise and noise that lasts: rms 1 in units of sigma, two deviations hold 95 %.

@@ -80,6 +80,7 @@ OTHERS = [
 ONE, ALL = (1,), (0, 1, 2)
 
 
+@pytest.mark.rotating("long tests of fit")
 @pytest.mark.parametrize(
     ("rest", "commands"),
     [(ONE, SHORT), (ONE, SHORT_FITS),

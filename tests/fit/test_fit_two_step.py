@@ -101,6 +101,7 @@ def test_step_one_finds_the_inertia_gravity_and_friction_of_the_paper(exact):
         assert found["sin"] == pytest.approx(9.81 * g1_sin, rel=1e-9)
 
 
+@pytest.mark.rotating("long tests of fit")
 def test_the_sigmas_of_both_fits_are_those_of_many_runs():
     """Monte Carlo with the truth: rms z about 1, and 95 % of |z| below 1.96."""
     model, ways, truth = (compiled(_ROBOT), _directions(_ROBOT), _beta(_ROBOT))
@@ -264,6 +265,7 @@ e = [-2, 2, 3, 15]
 """
 
 
+@pytest.mark.rotating("long tests of fit")
 def test_a_joint_that_never_moves_alone_is_named(tmp_path, capsys):
     """12 s reach the slide only: that, and no unit or sign, is why the elbow is not described."""
     robot, log = tmp_path / "pr.toml", tmp_path / "a.parquet"

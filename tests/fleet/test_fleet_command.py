@@ -62,6 +62,7 @@ def refusal(capsys: pytest.CaptureFixture[str], *words: str) -> str:
     return err
 
 
+@pytest.mark.rotating("long tests of fleet")
 def test_text_json_and_page(written: Path) -> None:
     out = (written / "told.txt").read_text()
     assert out.startswith("two-link: 1 of 2 machines drift or are apart from the others, beyond d")
@@ -99,6 +100,7 @@ def test_processes_and_lists_give_the_same(capsys, plant: Path, tmp_path: Path) 
         table.unlink()
 
 
+@pytest.mark.rotating("long tests of fleet")
 def test_a_log_that_cannot_be_used_is_left_out(capsys, plant: Path, tmp_path: Path) -> None:
     bad = tmp_path / "r1" / "2026-02-01.parquet"
     bad.parent.mkdir()
@@ -137,6 +139,7 @@ def test_rows_given_twice_are_refused(capsys, plant: Path, tmp_path: Path) -> No
     )
 
 
+@pytest.mark.rotating("long tests of fleet")
 def test_from_python(plant: Path, written: Path, tmp_path: Path) -> None:
     """By names of machines and periods it is what the command finds by folders."""
     found = fleet(load("two-link"), {

@@ -3,6 +3,7 @@
 import dataclasses
 
 import numpy as np
+import pytest
 
 from modeler.api import fleet, load
 from modeler.fleet.fleet import fleet_of
@@ -15,6 +16,7 @@ def coarser(log: Log, counts: int) -> Log:
     return dataclasses.replace(log, q=np.floor(log.q / step) * step)
 
 
+@pytest.mark.rotating("long tests of fleet")
 def test_a_coarse_encoder_is_no_drift_and_hides_none() -> None:
     """Machine 5 of 5 has 1000 counts a turn; its friction drifts, and so does that of machine 2."""
     planted = tuple(Planted(m, name, (0.0, 0.4, 0.4)) for m, name in ((1, "Fv2"), (4, "Fs2")))

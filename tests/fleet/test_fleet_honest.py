@@ -38,6 +38,7 @@ def exchanged(log: Log) -> Log:
     return dataclasses.replace(log, tau=log.tau[:, [1, 0, *range(2, log.tau.shape[1])]])
 
 
+@pytest.mark.rotating("long tests of fleet")
 @pytest.mark.parametrize(
     "robot", ["two-link", pytest.param("demo-arm", marks=pytest.mark.rotating)]
 )
@@ -100,6 +101,7 @@ def test_logs_of_more_joints_are_of_another_robot() -> None:
     assert line.startswith("r1/day1.csv and 3 more: ")
 
 
+@pytest.mark.rotating("long tests of fleet")
 def test_a_machine_that_hides_a_parameter_is_told() -> None:
     """Joint 2 of r2 hardly moves: its friction may have risen or not."""
     pairs, rng = logs(Scene(machines=3, periods=4, noise=0.02), 4), np.random.default_rng(4)

@@ -98,6 +98,7 @@ def inputs(tmp_path_factory):
     return folder
 
 
+@pytest.mark.rotating("long tests of logs")
 def test_what_is_told_to_be_next_reads_the_log_again(inputs, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name in ("a.txt", "b.txt"):

@@ -164,6 +164,7 @@ def test_topics_are_listed_without_choosing(case, capsys, tmp_path):
     assert 'names = {1 = "waist", 2 = "shoulder", 3 = "elbow"}' in out
 
 
+@pytest.mark.rotating("long tests of logs")
 def test_page_pictures_and_windows(capsys, tmp_path, table):
     path = parquet(tmp_path / "run.parquet", table)
     argv = ["log", f"{path}@1:2", "--report", tmp_path / "page.html", "--picture", tmp_path / "p"]

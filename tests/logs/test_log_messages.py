@@ -194,6 +194,7 @@ def test_values_by_the_names_of_interfaces(headers, case, tmp_path):
     assert case.fitted(path, MAPPING) == pytest.approx(case.beta, rel=1e-5)
 
 
+@pytest.mark.rotating("long tests of logs")
 def test_feedback_is_measured_and_reference_is_commanded(case, tmp_path):
     ros, kind = Control(), "control_msgs/msg/JointTrajectoryControllerState"
     messages = [

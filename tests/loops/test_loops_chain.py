@@ -14,6 +14,7 @@ from tests.loops.chain import check_chain
 from tests.rotation import ROTATING, rotating_with
 
 
+@pytest.mark.rotating("long tests of loops")
 @pytest.mark.parametrize("robot", ["five-bar", pytest.param("orthoglide-2003", marks=ROTATING)])
 def test_a_hidden_friction_is_named_and_added(robot: str, tmp_path: Path) -> None:
     check_chain(robot, tmp_path)

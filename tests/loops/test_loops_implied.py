@@ -90,6 +90,7 @@ def test_relations_and_rank_hold_over_wide_postures(name):
     check_laws(read_robot(name), module(name).model, module(name).base)
 
 
+@pytest.mark.rotating("long tests of loops")
 @pytest.mark.parametrize("name", FURTHER)
 def test_further_robots(name, loop_robots_folder):
     """Counts, proof, all printed forms, and the laws."""

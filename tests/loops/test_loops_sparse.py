@@ -42,6 +42,7 @@ def dense():
     return with_limits(0.0)
 
 
+@pytest.mark.rotating("long tests of loops")
 @pytest.mark.parametrize("reach", [1.0, *rotating(0.05, 0.3)])
 def test_dense_pivoting_closes_the_same_postures(dense, reach):
     sparse = plain(NAME)

@@ -56,6 +56,7 @@ def relative_error(log, beta, processing=None):
 WRONG = ("jumps", "rings", "stays at", "stuck at its limit", "repeats", "spike")
 
 
+@pytest.mark.rotating("long tests of observation")
 @pytest.mark.parametrize(
     ("channel", "rows"), [("q", 4), *rotating(("tau", 10), ("qd", 4), ("q", 10), ("tau", 4))]
 )

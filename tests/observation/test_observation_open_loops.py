@@ -103,6 +103,7 @@ def test_the_nearest_posture_that_closes_stands_in():
     assert nearest_closed(model, log.q[open_]) is None
 
 
+@pytest.mark.rotating("long tests of observation")
 @pytest.mark.parametrize("further", [False, pytest.param(True, marks=ROTATING)])
 def test_fit_compare_diagnose_and_free_run_go_through(further, tmp_path, capsys):
     log, open_ = log_of(0.955, noise=0.3)
@@ -119,6 +120,7 @@ def test_fit_compare_diagnose_and_free_run_go_through(further, tmp_path, capsys)
     assert main(["compare", model, data, "--free-run"]) == 0
 
 
+@pytest.mark.rotating("long tests of observation")
 def test_all_samples_open_is_one_line(tmp_path, capsys):
     data = str(written(tmp_path / "run.csv", beyond()))
     assert main(["fit", "five-bar", data, "--out", str(tmp_path / "model.json")]) == 1

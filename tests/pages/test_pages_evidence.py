@@ -84,6 +84,7 @@ def series(panel: Panel, kind: type, label: str):
     return next(s for s in panel.series if isinstance(s, kind) and s.label.startswith(label))
 
 
+@pytest.mark.rotating("long tests of pages")
 @pytest.mark.parametrize(
     "effect",
     ["stribeck", "spring", "motor_ripple", *rotating("load_friction"),
@@ -160,6 +161,7 @@ def test_figures_stand_by_the_picture(case: Case, tmp_path: Path) -> None:
     assert text in html.unescape(page)
 
 
+@pytest.mark.rotating("long tests of pages")
 def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:
     """40 ms of nonsense in a log: the axes stay, the rows are left out, a line says so."""
 

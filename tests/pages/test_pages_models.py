@@ -68,6 +68,7 @@ def plain(page: str) -> str:
     return " ".join(re.sub(r"<[^>]*>", " ", body).split())
 
 
+@pytest.mark.rotating("long tests of pages")
 def test_two_models_are_told_apart_where_one_has_the_spring(made: Made) -> None:
     found = made.json("c2.json")
     first, second = found["models"]

@@ -128,6 +128,7 @@ for path in sys.argv[2:]:
 """
 
 
+@pytest.mark.rotating("long tests of robot")
 @pytest.mark.skipif(sys.platform != "linux", reason="NOT CHECKED: memory limits are of Linux")
 def test_bombs_are_refused_in_bounded_memory(tmp_path: Path):
     """In a process that may take 1 GiB of addresses, the libraries included, and 60 s."""

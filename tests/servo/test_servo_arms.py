@@ -62,6 +62,7 @@ def in_sigmas(result):
     return {p.name: ((p.value - true) / p.sigma, p.sigma / true) for p, true in own}
 
 
+@pytest.mark.rotating("long tests of servo")
 @pytest.mark.parametrize("fps", [30.0, pytest.param(50.0, marks=ROTATING)])
 def test_a_data_set_tells_armature_friction_and_damping(arm, tmp_path, fps):
     robot, servos = load("so101"), [TRUTH] * 6
@@ -110,6 +111,7 @@ def test_the_table_places_links_as_the_file_does():
     )
 
 
+@pytest.mark.rotating("long tests of servo")
 @pytest.mark.parametrize(
     ("reach", "doubted"), [(95.0, True), pytest.param(130.0, False, marks=pytest.mark.rotating)]
 )

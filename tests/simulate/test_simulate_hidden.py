@@ -472,6 +472,7 @@ def test_effects_on_motors_of_robots_with_loops(five_bar):
     assert np.abs(more[:, 0]).max() < 1e-9
 
 
+@pytest.mark.rotating("long tests of simulate")
 def test_sensors_and_loads_of_robots_with_loops(five_bar):
     source, before = five_bar
     weak = simulate(source, settings_of("drive_gain@11:ratio=1.1", LOOPED))

@@ -19,6 +19,7 @@ from tests.studio.window import Served, served
 WORDS = [sys.executable, "-m", "modeler", "studio", "--no-open"]
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_the_address_stands_in_the_json_and_an_open_window_does_not_hold_it(tmp_path: Path) -> None:
     """Ctrl-C while a browser is connected."""
     place = tmp_path / "address.json"

@@ -154,6 +154,7 @@ def test_a_large_log_is_never_in_memory(studio: Served, cookie: str, size: int) 
     assert peak(studio) - before < 40 * 2**20
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_a_studio_that_only_reads_takes_nothing(studio: Served) -> None:
     with served(studio.folder) as second:
         answer = drop(second, let_in(second), "second.csv", b"1")
@@ -161,6 +162,7 @@ def test_a_studio_that_only_reads_takes_nothing(studio: Served) -> None:
     assert "second.csv" not in there(studio)
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_killed_while_receiving_is_swept_away_by_the_next(tmp_path: Path) -> None:
     with (
         served(tmp_path / "p") as one,

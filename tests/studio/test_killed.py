@@ -94,6 +94,7 @@ def working_in(folder: Path) -> list[str]:
     return found
 
 
+@pytest.mark.rotating("long tests of studio")
 @pytest.mark.skipif(not Path("/proc/self/cwd").exists(), reason="NOT CHECKED: needs /proc")
 @pytest.mark.parametrize("times", [1, pytest.param(10, marks=ROTATING)])
 def test_killed_at_random_moments(begun: Path, tmp_path: Path, times: int) -> None:

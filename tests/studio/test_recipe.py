@@ -144,6 +144,7 @@ def check_same(workspace: Workspace, fresh: Path) -> None:
     assert effects[0][1] == "load_friction"
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
     """A shell reads it, so that its words are known; they are carried out here."""
     before = {p: p.stat().st_mtime_ns for p in worked.folder.rglob("*") if p.is_file()}

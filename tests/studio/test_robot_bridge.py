@@ -170,6 +170,7 @@ def test_another_robot_keeps_the_eye_and_the_joints(browser, served) -> None:
     page.close()
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_nobody_else_is_heard(browser, served) -> None:
     text = builtin_text("puma560")
     page, frame = opened(browser, served, text, parent="127.0.0.1")  # another origin

@@ -52,6 +52,7 @@ def gone(mark: str, seconds: float = 10.0) -> bool:
     return True
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_results_progress_and_seconds(tmp_path: Path) -> None:
     outcome, seen = run(
         tmp_path, "simulate", "two-link", "--duration", "2", "--rate", "500", "--out", "a.csv"
@@ -104,6 +105,7 @@ def test_files_of_the_project_are_no_modules(tmp_path: Path, monkeypatch, given)
     assert not (tmp_path / "was-run").exists()
 
 
+@pytest.mark.rotating("long tests of studio")
 @pytest.mark.parametrize(
     "groups",
     [pytest.param(True, id="groups"),

@@ -38,6 +38,7 @@ def story(folder: Path, told: Told, place: str = "/") -> None:
     asyncio.run(all_of_it())
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_a_fit_is_judged_joint_by_joint(arm: Path) -> None:
     async def told(page: Page) -> None:
         text = page.texts()
@@ -114,6 +115,7 @@ def test_the_error_falls_and_undo_loses_nothing(arm: Path) -> None:
     story(arm, told, "/missing")
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_what_is_taken_away(arm: Path) -> None:
     async def told(page: Page) -> None:
         await page.click("Write C")
@@ -152,6 +154,7 @@ def plots(page: Page, name: str) -> list[Any]:
     ]
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
     async def told(page: Page) -> None:
         await page.sees("Joint 2: measured and predicted")  # the worst one at first
@@ -206,6 +209,7 @@ def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
     story(arm, told, "/fails")
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_days_and_models_are_compared(arm: Path) -> None:
     async def told(page: Page) -> None:
         await page.sees("Joint 1: residual over velocity")
@@ -361,6 +365,7 @@ def test_base_parameters_are_derived_of_a_built_in_robot(tmp_path: Path) -> None
     story(tmp_path, told, "/robot")
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
     run = simulate(load("two-link"), duration=6.0, rate=250.0, seed=11)
     columns = {"Zeit": run.time}
@@ -473,6 +478,7 @@ def test_a_second_window_reads_until_it_takes_over(tmp_path: Path) -> None:
     asyncio.run(both())
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_nothing_of_a_foreign_project_is_run_before_it_is_accepted(
     arm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

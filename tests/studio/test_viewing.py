@@ -67,6 +67,7 @@ def test_thinning_keeps_every_extreme_and_the_ends() -> None:
 # Logs.
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_a_window_of_a_log_has_its_rows_and_its_extremes(folder) -> None:
     table = pyarrow.parquet.read_table("a.parquet")
     clock, q1 = table["time"].to_numpy(), table["q1"].to_numpy()

@@ -41,6 +41,7 @@ def test_the_simulated_torque_is_the_column(name):
     assert max(0.6 * LEAST, 5 * error) < share < 1.6 * MOST
 
 
+@pytest.mark.rotating("long tests of unnamed_laws")
 @pytest.mark.parametrize(
     ("name", "encoder"),
     [("load_speed", "fine"), pytest.param("dither", "4096", marks=pytest.mark.rotating)],
