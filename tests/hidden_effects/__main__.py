@@ -50,8 +50,7 @@ def parser() -> argparse.ArgumentParser:
     add("--first", type=int, default=0, metavar="SEED", help="leave out seeds below this one")
     for name, told in MORE.items():
         usual = {"nargs": "?", "const": PAIRS} if name == "two" else {}
-        also = ["--strangers"] if name == "held-out" else []  # as it was called before
-        add(f"--{name}", *also, type=int, default=0, metavar="N", help=f"and {told}", **usual)
+        add(f"--{name}", type=int, default=0, metavar="N", help=f"and {told}", **usual)
     add("--out", type=Path, help="folder that keeps cases and results: run again, and it goes on")
     add("--table", type=Path, help="page to write, in Markdown")
     add("--jobs", type=int, default=1, help="processes; default: 1")
