@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.image import imread
 
 from modeler.api import home, load
 from modeler.core.builtin import builtin_text
@@ -79,6 +78,8 @@ def test_the_file_stays_a_file_of_its_system(crank, capsys) -> None:
 
 @pytest.mark.parametrize("kind", ["html", "svg", "png", "pdf"])
 def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, kind) -> None:
+    from matplotlib.image import imread
+
     name = f"modes.{kind}"
     assert f"written: {name}" in answer(capsys, "home", "crank.toml", "--picture", name)
     if kind == "pdf":
@@ -103,6 +104,8 @@ def test_modes_stand_in_rows_of_four(crank, capsys, monkeypatch) -> None:
     found = re.findall(r"<text [^>]*>([A-Z][^<]*)</text>", Path("modes.svg").read_text())
     assert found == ["A (as in the file)", *"BCDEFGH"]
     answer(capsys, "home", "stewart", "--picture", "modes.png")
+    from matplotlib.image import imread
+
     pixels = np.any(imread("modes.png")[:, :, :3] < 0.95, axis=2)
     assert pixels.shape[1] == 2800
     panels = [half[:, 700 * k : 700 * (k + 1)] for half in np.vsplit(pixels, 2) for k in range(4)]

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.image import imread
 
 from modeler.api import load, show
 from modeler.cli import main
@@ -64,6 +63,8 @@ def test_a_page_needs_nothing_else(here: Path, name: str) -> None:
     "name", ["wrist", *(pytest.param(n, marks=pytest.mark.rotating) for n in ("stewart", "emps"))]
 )
 def test_a_picture_is_drawn(here: Path, name: str) -> None:
+    from matplotlib.image import imread
+
     kinds = ("pdf", "png", "svg") if name == "wrist" else ("png", "svg")
     for kind in kinds:
         assert main(["show", name, "--picture", f"{name}.{kind}"]) == 0
@@ -88,6 +89,8 @@ def test_the_same_robot_gives_the_same_picture() -> None:
     for kind in (".png", ".svg", ".pdf"):
         first, again = (picture_bytes(skeleton, posture, kind) for _ in range(2))
         assert first == again
+    from matplotlib.image import imread
+
     assert imread(BytesIO(picture_bytes(skeleton, posture, ".png"))).ndim == 3
 
 

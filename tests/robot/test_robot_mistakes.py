@@ -130,6 +130,7 @@ IN_ARM = [
     ("limits range", '["-pi", 2.5', '["pi", 2.5', '[limits], "1" .. lower 3.14 .. lower < upper'),
     ("limits speed", "2.5, 3, 10", "2.5, 0, 10", '[limits], "1" .. speed 0 .. both positive'),
     ("physical joint", "[physical.1]", "[physical.7]", '[physical], "7" .. no moving joint'),
+    ("physical value", "[physical.1]", "[physical]\n1 = 3\n[physical.9]", '"1": got 3 .. a table'),
     ("physical key", 'mass = "m1"', 'mas = "m1"', '[physical] .. key "mas" .. mean "mass"?'),
     ("physical missing", 'mass = "m1"\n', "", '[physical], "1" .. mass is missing .. inertia'),
     ("centre", '["x1", 0, "z1 - D3"]', '["x1"]', "centre .. got 1 entries, expected 3"),

@@ -12,7 +12,7 @@ from modeler.robot.read import read_robot, robot_from_text
 from modeler.simulation.closing import constraints_of, followed
 from modeler.simulation.rigid import world_frames
 from tests.further_robots import FurtherRobots
-from tests.robots import ROBOTS, TIED
+from tests.robots import LOOPED, ROBOTS, TIED
 
 
 def variables(skeleton, u):
@@ -56,7 +56,7 @@ def test_home_is_the_posture_that_the_simulator_closes(name: str) -> None:
     assert all(gap.distance < 1e-9 and gap.angle < 1e-7 for gap in gaps_of(skeleton, home.u))
 
 
-@pytest.mark.parametrize("name", [n for n in TIED if read_robot(n).loops])
+@pytest.mark.parametrize("name", LOOPED)
 def test_slopes_are_those_of_the_residuals(name: str) -> None:
     skeleton = skeleton_of(read_robot(name))
     home = home_posture(skeleton)

@@ -8,9 +8,9 @@ from modeler.robot.read import read_robot
 from modeler.robot.robot import Robot
 from modeler.simulation import PlantParameters
 from tests.oracles.complex_step import Oracle
-from tests.robots import TIED, one_always
+from tests.robots import LOOPED, one_always
 
-LOOPS = one_always((name for name in TIED if read_robot(name).loops), "five-bar")
+LOOPS = one_always(LOOPED, "five-bar")
 
 
 def without_effects(name: str) -> Robot:
