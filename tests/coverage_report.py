@@ -24,7 +24,7 @@ def report_lines(report: Mapping[str, Any]) -> Iterator[str]:
             for k, count in enumerate(_counts(file["summary"])):
                 packages[package][k] += count
         functions += [
-            (round(own["summary"]["percent_covered"]), path, name, _counts(own["summary"]))
+            (own["summary"]["percent_covered"], -own["summary"]["num_statements"], path, name)
             for name, own in file["functions"].items()
             if own["summary"]["num_statements"] >= LEAST
         ]
@@ -33,8 +33,8 @@ def report_lines(report: Mapping[str, Any]) -> Iterator[str]:
         row = f"{package:<14}{lines:>8}{run / max(lines, 1):>9.1%}"
         yield f"{row}{branches:>10}{taken / max(branches, 1):>9.1%}"
     yield f"the {LISTED} functions least covered (test or delete them):"
-    for percent, path, name, (lines, run, *_) in sorted(functions)[:LISTED]:
-        yield f"{percent:>4} %  {run} of {lines} lines  {path}: {name or '(module)'}"
+    for percent, lines, path, name in sorted(functions)[:LISTED]:
+        yield f"{percent:>4.0f} % of {-lines} lines  {path}: {name or '(module)'}"
 
 
 def _counts(summary: Mapping[str, int]) -> tuple[int, int, int, int]:
