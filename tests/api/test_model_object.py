@@ -55,6 +55,7 @@ def test_a_parameter_has_value_sigma_unit_interval_and_sum(model: md.Model) -> N
     assert model["Fv3"].relation == "" and "Fv3" in model and "ZZ2" not in model
 
 
+@pytest.mark.rotating("long tests of api")
 def test_a_lopsided_interval_stays_lopsided(model: md.Model) -> None:
     one = dataclasses.replace(model["Fv1"], value=2.0, sigma=1.0, interval=(1.0, 6.0))
     assert one.conf_int() == pytest.approx((1.0, 6.0))

@@ -87,6 +87,7 @@ def test_the_judge_sees_an_unclear_line(err, piece, inputs, tmp_path):
     assert any(piece in line for line in found)
 
 
+@pytest.mark.rotating("long tests of bad_input")
 def test_the_judge_sees_what_was_changed_and_left(inputs, tmp_path):
     given = made("x: y", "works", "fit r.toml a.csv --out m.json")
     workdir = Workdir(tmp_path, inputs)

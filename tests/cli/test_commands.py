@@ -107,6 +107,7 @@ def test_fit_and_compare(capsys, two_link, tmp_path):
     assert "<html" in (tmp_path / "page.html").read_text()[:500]
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_fit_json_and_windows(capsys, two_link, tmp_path):
     out = answer(
         capsys, "fit", "two-link", f"{two_link / 'a.parquet'}@0:4", f"{two_link / 'b.parquet'}@2:",

@@ -80,6 +80,7 @@ def test_the_values_of_the_file_are_compared_before_any_fit(folder, capsys) -> N
     assert "arm.model.json predicts joints 1 and 2 best" in capsys.readouterr().out
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_a_file_that_states_the_truth_has_no_error_but_noise(folder, capsys) -> None:
     """Friction too; rotors and offsets of a simulated machine are drawn, so they are set."""
     assert main(["convert", "true.urdf", "--out", "true.toml"]) == 0

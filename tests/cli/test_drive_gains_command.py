@@ -82,6 +82,7 @@ def test_gains_are_found_and_weigh_a_second_load(arm, capsys):
     assert len(errors) == 3 and all(float(error) < 1.0 for error in errors)
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_a_log_with_a_known_load_is_predicted_with_it(arm, tmp_path, capsys):
     """Figure 3 of the paper, with a load that no fit has seen."""
     place, drawn = tmp_path / "c.json", tmp_path / "p.json"

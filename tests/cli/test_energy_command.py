@@ -63,6 +63,7 @@ def test_energies_of_a_robot_with_loops_are_fitted_and_compared(capsys, folder):
     assert json.loads((folder / "c.json").read_text())["relative_error"] < 0.1
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_compare_predicts_with_the_essential_parameters(capsys, folder):
     effects = "viscous,coulomb,offset"  # the simulated robot has no offset
     status, out, _ = run(capsys, *fit(folder, "--json", folder / "f.json", effects=effects))

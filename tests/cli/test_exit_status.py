@@ -48,6 +48,7 @@ def test_done_at_fault_wrong_usage(words: str, status: int) -> None:
         assert "--help`" in done.stderr
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_memory_runs_out_in_a_log(tmp_path: Path) -> None:
     """A log of 4 GB (holes, no disk) for a process of 2 GB."""
     with (tmp_path / "x.npy").open("wb") as file:
@@ -86,6 +87,7 @@ def test_what_the_system_refuses_of_a_path_is_one_line(words: str, capsys) -> No
     assert line.startswith(f"modeler: {name}: cannot be") and line.count("\n") == 1
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_interrupted(tmp_path: Path) -> None:
     """In the midst of the work, which `--verbose` tells."""
     words = ("-v", "simulate", "panda", "--duration", "600", "--out", str(tmp_path / "x.parquet"))

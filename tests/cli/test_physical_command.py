@@ -235,6 +235,7 @@ def test_a_model_needs_values(capsys, wrist):
     assert err.startswith("modeler: --known: no value of am; expected am=VALUE")
 
 
+@pytest.mark.rotating("long tests of cli")
 def test_several_roots_need_a_hint(capsys, wrist):
     file, truth = wrist
     known = (file, "--known", listed(truth, (*SEVEN, "bJ11")))

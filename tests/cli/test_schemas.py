@@ -85,6 +85,7 @@ def without(content: Any, fixed: Any) -> Iterator[tuple[str, Any]]:
                 yield f"{name}/{deeper}", {**content, name: changed}
 
 
+@pytest.mark.rotating("long tests of cli")
 @pytest.mark.parametrize("command", CONTRACT)
 def test_a_renamed_field_is_noticed(results, command: str) -> None:
     content = results[command]

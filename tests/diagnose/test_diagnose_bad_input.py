@@ -71,6 +71,7 @@ def test_logs_that_cannot_be_used_are_refused_in_one_line(
     assert sorted(path.name for path in tmp_path.iterdir()) == ["bad.parquet"]
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_a_log_too_short_is_no_evidence_of_anything(arm: Path, run: Run, tmp_path: Path) -> None:
     short = {n: v[: int(2.0 * RATE)] for n, v in table(arm / "other.parquet").items()}
     place = written(tmp_path / "short.parquet", short)

@@ -85,6 +85,7 @@ def test_a_hidden_effect_is_named_with_its_values(case: Case, effect: str) -> No
         assert first.parameters[name] == pytest.approx(value, rel=tolerance), name
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_every_effect_tells_what_other_looks_say(case: Case) -> None:
     """In the fields that scripts read."""
     diagnosis = case.found(spring)

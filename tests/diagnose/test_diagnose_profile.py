@@ -120,6 +120,7 @@ def test_an_effect_without_shapes_has_no_profile():
     assert found("asymmetric_viscous@2", 903)[0] is None
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_what_is_added_is_stored_and_told_with_it(tmp_path):
     truth = simulated("stribeck@2", 901)[2]
     log, better = added_to("stribeck@2", 901)

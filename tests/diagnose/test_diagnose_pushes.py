@@ -118,6 +118,7 @@ def test_a_helical_spring_and_a_constant_pull_are_told_apart(case: Case, helical
     assert first.ties == pushing and (first.status == "fact") is not helical
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_shapes_are_sought_where_the_values_can_be(case: Case) -> None:
     """Of a helical spring for a constant pull, some of the best shapes ask for the wrong sign."""
     start = case.found(levers[False]).search.start

@@ -90,6 +90,7 @@ def test_an_effect_has_its_page(name: str) -> None:
         parser().parse_args(shlex.split(line)[1:])
 
 
+@pytest.mark.rotating("long tests of docsite")
 @pytest.mark.parametrize(
     "name", ["stribeck", pytest.param("position_friction", marks=pytest.mark.rotating)]
 )

@@ -61,6 +61,7 @@ def test_what_is_written_is_the_motion_and_what_it_uses(folder):
         assert abs(table[f"qd{name}"][0].as_py()) == 0.0
 
 
+@pytest.mark.rotating("long tests of excite")
 def test_the_simulated_robot_is_commanded_exactly_that_motion(folder):
     log = pq.read_table(folder / "log.parquet")
     raw = json.loads((folder / "motion.json").read_text())

@@ -198,6 +198,7 @@ SAID = {
 }
 
 
+@pytest.mark.rotating("long tests of fit")
 @pytest.mark.parametrize("mistake", ["turns", *rotating("late", "sign")])
 def test_every_command_says_the_same(arm, capsys, mistake):
     """Of a log beside a model of another one, and of a log beside its own model."""
@@ -274,6 +275,7 @@ def told_late(name, rng, hidden=(), lagged=((), 0.0), **late):
     return [one.line for one in found if "late" in one.line or "filter" in one.line]
 
 
+@pytest.mark.rotating("long tests of fit")
 @pytest.mark.parametrize("name", ["demo-arm", pytest.param("puma560", marks=ROTATING)])
 def test_whose_time_and_by_how_much(name):
     rng, names = np.random.default_rng([8, *name.encode()]), runs(name)[1][0].joints
@@ -290,6 +292,7 @@ def milliseconds(line):
     return float(line.partition(" ms")[0].split()[-1])
 
 
+@pytest.mark.rotating("long tests of fit")
 def test_a_filtered_torque_is_told_with_its_time_and_not_as_late():
     rng = np.random.default_rng(10)
     for joints, whose in (([1], "joint 2: its torque comes"), (range(3), "all torques come")):

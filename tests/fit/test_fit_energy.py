@@ -135,6 +135,7 @@ def test_both_verdicts_say_how_many_values_are_known(fitted):
     assert "knows 5 parameters where that knows 8" in first
 
 
+@pytest.mark.rotating("long tests of fit")
 def test_the_stated_uncertainty_of_the_torques_is_the_true_one(arm, repeated):
     """sqrt(tr(W C W^T)): mean square of the true error of predicted torques, over all fits."""
     truth, errors, stated = some_beta(arm), {0: [], 1: []}, {0: [], 1: []}

@@ -143,6 +143,7 @@ def test_emps_published_values():
     assert model.fit.processing.parallel_cutoff == pytest.approx(16.0, rel=0.2)
 
 
+@pytest.mark.rotating("long tests of fit")
 def test_tx40_published_values():
     """Janot, Vandanjon, Gautier 2014, of the same robot and log: the columns that are excited."""
     found = values(results("tx40")[0])

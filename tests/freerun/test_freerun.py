@@ -41,6 +41,7 @@ def arm_run(arm):
     return free_run(model, [log], compiled)
 
 
+@pytest.mark.rotating("long tests of freerun")
 def test_the_true_values_give_the_simulated_motion(arm_run) -> None:
     """Within 0.5 % of the spread of positions, on joints that reverse and stick many times.
 
@@ -51,6 +52,7 @@ def test_the_true_values_give_the_simulated_motion(arm_run) -> None:
     assert arm_run.numerical < 2e-3
 
 
+@pytest.mark.rotating("long tests of freerun")
 @pytest.mark.parametrize(
     ("name", "share"), [("ZZ1R", 1.1), pytest.param("Fs1", 1.3, marks=ROTATING)]
 )

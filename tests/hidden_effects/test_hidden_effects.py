@@ -20,6 +20,7 @@ CASES = [
 ]
 
 
+@pytest.mark.rotating("long tests of hidden_effects")
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 def test_what_is_hidden_is_found(case, tmp_path, plant_compiler):
     assert case.seed in DEVELOPMENT

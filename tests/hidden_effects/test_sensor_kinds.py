@@ -118,6 +118,7 @@ def test_what_positions_bury_is_not_visible():
     assert seen[0.5, "white2"] > 3 * seen[12.0, "white2"]
 
 
+@pytest.mark.rotating("long tests of hidden_effects")
 def test_a_kind_of_sensor_is_the_same_arm(tmp_path):
     case = Case(("coulomb",), "med", 3, "2R", sensor="late")
     truth = make_case(case, tmp_path / "late", visible=0.25)

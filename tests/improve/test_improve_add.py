@@ -40,6 +40,7 @@ def test_two_effects_added_one_after_the_other_and_undone(case: Case, tmp_path: 
     np.testing.assert_allclose(back.beta, one.beta, rtol=1e-9)
 
 
+@pytest.mark.rotating("long tests of improve")
 def test_what_a_diagnosis_names_is_added(case: Case) -> None:
     model, train, holdout = case.hidden(two)
     found = case.found(two)

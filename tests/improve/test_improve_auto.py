@@ -142,6 +142,7 @@ def loaded(log: Log) -> np.ndarray:
     return on_joint(log, 1, 0.08 * np.abs(load) * np.tanh(v[:, 1] / 0.002))
 
 
+@pytest.mark.rotating("long tests of improve")
 def test_add_finds_the_value_that_the_diagnosis_prints(case: Case) -> None:
     """Effects that read torques are linearised about the model with them, in both."""
     model, train, holdout = case.hidden(loaded)

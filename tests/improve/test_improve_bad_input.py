@@ -58,6 +58,7 @@ LOOPS: dict[str, tuple[str, str]] = {
 }
 
 
+@pytest.mark.rotating("long tests of improve")
 @pytest.mark.parametrize(
     "mistake",
     ["reads a load", *(pytest.param(name, marks=pytest.mark.rotating) for name in LOOPS

@@ -39,6 +39,7 @@ def learned(case: Case, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path,
     return folder, train, holdout
 
 
+@pytest.mark.rotating("long tests of improve")
 def test_the_error_falls_and_physics_stays(learned: tuple[Path, Log, Log]) -> None:
     better = load_model(learned[0] / "better.json")
     first, last = better.history

@@ -57,6 +57,7 @@ def own(case: Case) -> Case:
     return dataclasses.replace(case, chain=chain_of(api.load("demo-arm").text + OWN))
 
 
+@pytest.mark.rotating("long tests of improve")
 def test_it_is_found_added_judged_and_taken_out(own: Case, tmp_path: Path) -> None:
     fitted, train, holdout = own.hidden(brake)
     save_model(tmp_path / "arm.json", fitted)
@@ -193,6 +194,7 @@ def test_one_that_reads_a_temperature_is_tried_where_one_is_logged(own: Case) ->
     assert use.instances[0].shapes["T0"] == pytest.approx(mean, abs=0.5)
 
 
+@pytest.mark.rotating("long tests of improve")
 def test_commands(own: Case, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """fit, diagnose, add, undo and the page of the effect, as a user types them."""
     _, train, holdout = own.hidden(brake)

@@ -127,6 +127,7 @@ def test_a_cluster_gives_what_this_process_gives(workers: cluster.Cluster) -> No
         workers.begun(refused, "log", range(4), max)()
 
 
+@pytest.mark.rotating("long tests of jobs")
 def test_a_fit_is_the_local_one(workers: cluster.Cluster, place: Path) -> None:
     """To 1e-10 of the values, all logs at once, chunk after chunk; a worker is lost on the way."""
     model = compiled()
@@ -159,6 +160,7 @@ def test_workers_must_see_the_same_file(workers: cluster.Cluster, place: Path, t
         list(by_workers(workers, emitted())(model, source, chosen))
 
 
+@pytest.mark.rotating("long tests of jobs")
 def test_commands_on_a_cluster(address: str, place: Path, tmp_path: Path, capsys) -> None:
     """A fleet to the letter; a fit of many files; what needs all rows in one memory is refused."""
     words = ["fleet", "two-link", *(str(place / name) for name in ("r1", "r2"))]
@@ -182,6 +184,7 @@ def test_commands_on_a_cluster(address: str, place: Path, tmp_path: Path, capsys
     assert told in capsys.readouterr().err
 
 
+@pytest.mark.rotating("long tests of jobs")
 def test_what_does_not_answer_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed", reason=WHY)
     monkeypatch.setattr(cluster, "_ANSWER", 0.3)

@@ -16,6 +16,7 @@ from modeler.core.jobs import Workers, in_pairs, open_workers, pairs
 from tests.jobs.work import added, ends_always, refused, third
 
 
+@pytest.mark.rotating("long tests of jobs")
 @pytest.mark.parametrize("count", [1, 2, 3, 5, 8, 13, 64])
 def test_pairs_make_one_of_all_in_order(count: int) -> None:
     """Each merge takes neighbours, earlier first; no branch is higher than a binary tree's."""

@@ -184,6 +184,7 @@ def test_what_is_not_proven_is_not_used():
     assert "not provably, are solved for: 3, 2" in base.proof.statement
 
 
+@pytest.mark.rotating("long tests of loops")
 def test_the_proof_says_how_far_the_postures_went(loop_robots_folder):
     derivation = of_file(loop_robots_folder / "rccc_wide.toml")
     robot, base = derivation.robot, derivation.base

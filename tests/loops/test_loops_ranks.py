@@ -146,6 +146,7 @@ def test_coefficients_may_be_sums_and_quotients():
     assert sympy.simplify(terms["M4"] - expected) == 0
 
 
+@pytest.mark.rotating("long tests of loops")
 @pytest.mark.parametrize("name", ["sr400", pytest.param("orthoglide-2012", marks=ROTATING)])
 def test_loops_at_other_lengths_keep_their_rank(name):
     """The relations are symbols: true at any lengths, not only those of the file."""

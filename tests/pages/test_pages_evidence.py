@@ -126,6 +126,7 @@ def test_the_law_is_drawn_as_it_is(case: Case) -> None:
     assert np.abs(means.y - slope * means.x - rest).max() < 0.02
 
 
+@pytest.mark.rotating("long tests of pages")
 def test_the_spectrum_of_a_ripple_loses_its_line(case: Case) -> None:
     search = diagnosis_of(case, motor_ripple).search
     spectrum = panels(evidence_picture(evidence_of(search, search.steps[0])))["order spectrum"]
@@ -135,6 +136,7 @@ def test_the_spectrum_of_a_ripple_loses_its_line(case: Case) -> None:
     assert after.y[place] < 0.1 * before.y[place]
 
 
+@pytest.mark.rotating("long tests of pages")
 @pytest.mark.parametrize("effect", ["stribeck", "motor_ripple"])
 def test_captions_name_the_colours_that_are_drawn(case: Case, effect: str) -> None:
     search = diagnosis_of(case, HIDDEN[effect][0]).search

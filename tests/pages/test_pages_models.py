@@ -81,6 +81,7 @@ def test_two_models_are_told_apart_where_one_has_the_spring(made: Made) -> None:
     assert "b.json predicts joint" in text and "2 models side by side" in text
 
 
+@pytest.mark.rotating("long tests of pages")
 def test_the_order_of_models_and_logs_is_free(
     made: Made, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -17,6 +17,7 @@ LEAST = {"guegan-2003": 75, "briot-2012": 16, "houda": 45, "hanssen-2000": 87}
 """Lines that the oracles judge."""
 
 
+@pytest.mark.rotating("long tests of papers")
 @each_paper("briot-2012")
 def test_every_charge_and_every_equality_is_found_by_other_means(name):
     """About 20 s for all papers."""

@@ -31,6 +31,7 @@ def one(name, **changes):
     return check_line(paper, line, robots_of(name))
 
 
+@pytest.mark.rotating("long tests of papers")
 @pytest.mark.parametrize("name", paper_names())
 def test_nothing_differs_but_what_is_known_to(name):
     lines = lines_of(name)

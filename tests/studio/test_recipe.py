@@ -181,6 +181,7 @@ def test_the_notebook_makes_the_same_in_an_empty_folder(worked, tmp_path):
     assert float(said.split()[-1]) == pytest.approx(compared["relative_error"], rel=1e-12)
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_going_back_and_forth_loses_nothing(worked):
     every = worked.project.steps
     fit, preview, added = (s for s in every if s.model)

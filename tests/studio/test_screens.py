@@ -65,6 +65,7 @@ def test_a_fit_is_judged_joint_by_joint(arm: Path) -> None:
     story(arm, told, "/fit")
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_an_effect_is_banned_previewed_and_added(arm: Path) -> None:
     async def told(page: Page) -> None:
         project = page.project

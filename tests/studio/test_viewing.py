@@ -165,6 +165,7 @@ def test_ten_minutes_of_seven_joints_stay_fluent(tmp_path) -> None:
 # Torques.
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_the_verdict_is_that_of_the_command(folder, capsys) -> None:
     assert main(["compare", "m.json", "b.parquet"]) == 0
     told = capsys.readouterr().out
@@ -343,6 +344,7 @@ def test_memory_that_runs_out_is_one_line(monkeypatch) -> None:
         answer("log_facts", ("a",))
 
 
+@pytest.mark.rotating("long tests of studio")
 def test_a_log_that_is_called_differently_is_judged_as_the_command_judges_it(folder: Path) -> None:
     table = pa.parquet.read_table("b.parquet")
     names = [name.replace("tau", "effort_") for name in table.column_names]

@@ -188,6 +188,7 @@ def test_a_fit_with_a_wrong_length_gives_the_right_coefficients():
     assert system.to_data @ beta == pytest.approx(data_of(system, letters), rel=1e-9, abs=1e-9)
 
 
+@pytest.mark.rotating("long tests of terms")
 def test_quotients_of_lengths_have_names():
     system = system_of("orthoglide-2003")
     assert system.abbreviations["k1"] == "1/D41"

@@ -252,6 +252,7 @@ def brute_force(system, size: int) -> list[tuple[str, ...]]:
     return found
 
 
+@pytest.mark.rotating("long tests of terms")
 def test_the_wrist_as_counted_elsewhere():
     found = known_sets(system_of("wrist"))
     assert (found.size, found.smallest, found.count, found.possible) == (8, 8, 61879, 1081575)
