@@ -1,11 +1,13 @@
 """The shape of an emitted function body: order, names, counts."""
 
 import re
+from fractions import Fraction
 
 import pytest
 
-from modeler.codegen.block import make_block
+from modeler.codegen.block import make_block, number_text
 from modeler.codegen.targets import DOUBLE, FUNCTIONS, SINGLE, TILES
+from modeler.core.errors import EmitError
 from modeler.derivation.graph import Graph
 from tests.modules import module
 
@@ -90,6 +92,14 @@ def test_a_tile_has_lanes_for_what_moves_and_numbers_for_what_does_not():
     assert made.body[-2:] == (
         "out[3] = modeler_lanes_spread(0.0);", "out[4] = modeler_lanes_spread(-1.0);"
     )  # fmt: skip
+
+
+def test_single_precision_has_its_own_limits():
+    assert number_text(Fraction("0.1"), SINGLE).text == "0.1f"
+    assert number_text(Fraction(1, 3), SINGLE).text == "(1.0f/3.0f)"
+    assert number_text(Fraction(1, 2**24 + 1), SINGLE).text == f"{1 / (2**24 + 1)!r}f"
+    with pytest.raises(EmitError, match=r"too large for single precision, which has .* rescale"):
+        number_text(Fraction(10**39), SINGLE)
 
 
 def test_the_sign_that_turns_over_a_width_follows_the_target():

@@ -81,7 +81,6 @@ def state(case: Case, torque: object) -> State:
     return state_of(SearchData(case.compiled, seen), (), model.beta)
 
 
-@pytest.mark.rotating("long tests of diagnose")
 def test_the_hidden_equation_is_the_first_with_its_value(found: Diagnosis) -> None:
     first = first_of(found)
     (equation,) = first.definition["columns"].values()

@@ -120,7 +120,6 @@ def test_an_odd_machine_is_found() -> None:
     assert any("above that of the other machines" in sentence(f, "days") for f in found.findings)
 
 
-@pytest.mark.rotating("long tests of fleet")
 def test_a_temperature_that_moves_along_is_told() -> None:
     spec, plan = compiled().spec, tuple(0.3 * np.linspace(0.0, 1.0, 5))
     scene = Scene(machines=4, periods=5, planted=(Planted(0, "Fv2", plan),), warm=True)
