@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 from scipy.sparse import block_diag, csr_array, diags_array
 
+from modeler.core.brief import Brief
 from modeler.numerics.filters import only
 from modeler.observation.low_speed import signals_of
 from modeler.observation.motion import Segment
@@ -24,7 +25,7 @@ _TAPS = 16  # samples of each row, of the many over which the parallel filter ta
 
 
 @dataclass(frozen=True)
-class Doubt:
+class Doubt(Brief):
     """Why a log, or a fit to it, may not be what it looks like.
 
     Attributes:

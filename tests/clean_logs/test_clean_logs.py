@@ -9,7 +9,16 @@ from tests.clean_logs.machines import PAIRS, Truth, make_machine
 DAILY = [182, *(pytest.param(seed, marks=pytest.mark.rotating) for seed in (107, 103))]
 """Sticks and held, with two joints and with more; held and single, what once was said to ring."""
 
-SLOW = [pytest.param(seed, marks=pytest.mark.slow) for seed in range(200, 200 + len(PAIRS))]
+KNOWN = {202: "16 rows at the coarse end of a torque are called clipped"}
+"""Seeds with a false line that is known and not yet mended."""
+
+SLOW = [
+    pytest.param(
+        seed,
+        marks=[pytest.mark.slow, *(pytest.mark.xfail(reason=KNOWN[k]) for k in {seed} & {*KNOWN})],
+    )
+    for seed in range(200, 200 + len(PAIRS))
+]
 
 
 @pytest.mark.rotating("long tests of clean_logs")
