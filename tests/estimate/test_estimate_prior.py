@@ -141,19 +141,19 @@ def test_placeholders_have_no_prior_and_are_told_by_name():
 
 def test_a_body_that_the_data_contradict_is_told_and_left_out(model):
     told = 0
-    for seed in range(10):
+    for seed in range(20):
         chi = true_chi(seed)
         chi |= {p + "3": 2.2 * NOMINAL[p + "3"] for p in PREFIXES}
         found, white = estimated_beside(model, seed, chi)
         told += len(found.contradicted) == 1 and found.contradicted[0].startswith("link 3: the dat")
         free = [i for i, base in enumerate(model.spec.base) if base.name.endswith("3")]
         np.testing.assert_allclose(found.beta[free], white.beta[free], rtol=0.2, atol=0.3)
-    assert told >= 9
+    assert told >= 19
 
 
 def test_a_true_prior_is_not_told_as_contradicted(model):
-    told = [estimated_beside(model, s, true_chi(s))[0].contradicted for s in range(100, 125)]
-    assert sum(map(bool, told)) <= 1
+    told = [estimated_beside(model, s, true_chi(s))[0].contradicted for s in range(100, 160)]
+    assert sum(map(bool, told)) <= 2
 
 
 def log_of(model, chi, seed=0, seconds=6.0, noise=None, name="made.csv"):

@@ -524,7 +524,7 @@ def test_whoever_makes_the_checksums_fit_gets_a_line_or_a_model_that_can_be_used
 def test_a_changed_robot_text_never_gives_another_robot(saved_text, tmp_path):
     """With checksums that fit: it gives the same C, no robot, or it is told."""
     told = 0
-    for seed in range(10):
+    for seed in range(16):
         raw, draw = json.loads(saved_text), random.Random(f"robot {seed}")
         text = raw["robot_text"]
         place = draw.choice([i for i, letter in enumerate(text) if letter in "0123456789.-q"])
@@ -537,4 +537,4 @@ def test_a_changed_robot_text_never_gives_another_robot(saved_text, tmp_path):
         except ModelerError as error:
             assert "\n" not in str(error)
             told += 1
-    assert told > 2
+    assert told > 5

@@ -38,6 +38,8 @@ def test_clipping_is_caught_and_clean_signals_are_not():
     assert np.all(np.abs(clipped[caught]) == 1.0)
     one_sided = saturated(np.minimum(1.5 * sine, 1.0), t)
     assert one_sided.any() and not one_sided[sine < 0].any()
+    switched = 10.0 * np.sign(np.round(sine))  # full torque, none, full torque back
+    assert np.array_equal(saturated(switched, t), switched != 0.0)
     for resolution in (1e-4, 1e-3, 1e-2, 0.1):  # crests of 3 to 200 equal samples
         for scale in (1.0, 1.0 / 3.0):
             rounded = np.round(sine / resolution) * resolution * scale
@@ -51,6 +53,10 @@ def test_a_held_torque_and_that_of_a_joint_at_rest_are_not_at_a_limit():
     t = np.arange(4000) / 1000.0
     held = np.repeat(np.sin(2 * np.pi * t)[::20], 20)
     assert not saturated(held, t).any()
+    fresh = np.random.default_rng(2).integers(-9, 10, 200)
+    fresh[60:62] = 12  # twice the largest, which is a limit only where the log holds no value
+    held, mended = np.repeat(fresh, 20), np.interp(t, t[::20], fresh)
+    assert saturated(mended, t).any() and not saturated(mended, t, logged=held).any()
     random = np.random.default_rng(1)
     torque = np.where(t < 2.0, np.sin(9.0 * t) + 0.01 * random.normal(size=4000), 3.0)
     assert not saturated(torque, np.minimum(t, 2.0)).any()

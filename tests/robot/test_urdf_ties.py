@@ -161,7 +161,6 @@ def test_couplings_that_are_not_plain_are_refused(text: str, message: str) -> No
 
 # Loops.
 
-ORIGIN = '<origin xyz="%s"/>'
 FOUR = (
     joint("ja", "base", "a", kind="continuous"),
     joint("jb", "a", "b", '<origin xyz="0 0 0.2"/>', "continuous"),
