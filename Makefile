@@ -75,6 +75,9 @@ clean:
 	@touch $@
 
 define beside_mypy
+for place in $(TESTS); do \
+  test -e "$${place%%::*}" || { echo "TESTS=$$place: there is no such file or folder" >&2; exit 1; }; \
+done; \
 $(BIN)/python -m ruff check . && $(BIN)/python -m ruff format --check . || exit 1; \
 mkdir -p build; $(BIN)/python -m mypy >build/mypy.txt 2>&1 & types=$$!; \
 trap 'kill $$types 2>/dev/null' INT TERM; \

@@ -14,7 +14,7 @@ from modeler.core.json import nulled
 from tests.derived_once import derived_once
 from tests.further_robots import FurtherRobots
 from tests.robots import KINDS, OTHERS
-from tests.rotation import Rotation, today
+from tests.rotation import Rotation, number_of_runs, today
 
 pytest_plugins = ["pytester"]
 
@@ -33,7 +33,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--regenerate", action="store_true", help="rewrite generated/ instead of comparing with it"
     )
     parser.addoption(
-        "--every", type=int, default=1, metavar="RUNS",
+        "--every", type=number_of_runs, default=1, metavar="RUNS",
         help="run each case that repeats what others show once in so many runs",
     )  # fmt: skip
     parser.addoption(
@@ -50,13 +50,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """With --regenerate, only what compares kept files: everything else would be run in vain."""
     if config.getoption("--regenerate"):
         keepers = {"compare_with_generated", "regenerate"}
-        left = [item for item in items if not keepers & set(getattr(item, "fixturenames", ()))]
-    else:
-        chosen = set(config.pluginmanager.get_plugin("rotation").select(items))
-        left = [item for item in items if item not in chosen]
-    if left:
-        config.hook.pytest_deselected(items=left)
-        gone = set(left)
+        gone = {item for item in items if not keepers & set(getattr(item, "fixturenames", ()))}
+        config.hook.pytest_deselected(items=[*gone])
         items[:] = [item for item in items if item not in gone]
     items.sort(key=lambda item: not item.nodeid.partition("::")[0].endswith(LONGEST))
 

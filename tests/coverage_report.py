@@ -26,7 +26,7 @@ def report_lines(report: Mapping[str, Any]) -> Iterator[str]:
         functions += [
             (own["summary"]["percent_covered"], -own["summary"]["num_statements"], path, name)
             for name, own in file["functions"].items()
-            if own["summary"]["num_statements"] >= LEAST
+            if name and own["summary"]["num_statements"] >= LEAST  # the rest of a module has none
         ]
     yield f"{'package':<14}{'lines':>8}{'covered':>9}{'branches':>10}{'covered':>9}"
     for package, (lines, run, branches, taken) in sorted(packages.items()):
@@ -34,7 +34,7 @@ def report_lines(report: Mapping[str, Any]) -> Iterator[str]:
         yield f"{row}{branches:>10}{taken / max(branches, 1):>9.1%}"
     yield f"the {LISTED} functions least covered (test or delete them):"
     for percent, lines, path, name in sorted(functions)[:LISTED]:
-        yield f"{percent:>4.0f} % of {-lines} lines  {path}: {name or '(module)'}"
+        yield f"{percent:>4.0f} % of {-lines} lines  {path}: {name}"
 
 
 def _counts(summary: Mapping[str, int]) -> tuple[int, int, int, int]:

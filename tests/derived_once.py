@@ -39,7 +39,7 @@ def base_of(model: SymbolicModel, *more: Any, **named: Any) -> BaseParameters:
 
 
 def emitted_of(model: SymbolicModel, base: BaseParameters, *more: Any, **named: Any) -> Emitted:
-    plain = (*more, *named.values()) == (None, "double", False, None)
+    plain = (*more, *named.values()) in ((), (None, "double", False, None))
     if not plain or _BASES.get(id(model)) is not base:
         return emit(model, base, *more, **named)
     if id(model) not in _EMITTED:

@@ -28,7 +28,7 @@ class Module(NamedTuple):
 def module(name: str) -> Module:
     model = model_of(read_robot(name))
     base = base_of(model)
-    return Module(model, base, emitted_of(model, base, None, "double", False, None))
+    return Module(model, base, emitted_of(model, base))
 
 
 @cache

@@ -4,6 +4,7 @@ A case runs at the latest in the N-th run of `--every N`; one that failed runs u
 The record is kept in pytest's cache folder (`modeler/rotation`): case -> runs it has waited.
 """
 
+import argparse
 import time
 from collections import Counter, defaultdict
 from collections.abc import Collection, Mapping, Sequence
@@ -37,6 +38,13 @@ def rotating_with(group: str) -> Any:
     return marked
 
 
+def number_of_runs(text: str) -> int:
+    """Type of `--every`: a whole number from 1 on."""
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"got {text}; expected 1 or more runs")
+    return int(text)
+
+
 def today() -> int:
     """Days since 1970, UTC."""
     return int(time.time() // 86400)
@@ -58,15 +66,18 @@ class Rotation:
         self._waits: dict[str, int] = {}
         self._ran: set[str] = set()
 
-    def select(self, items: Sequence[pytest.Item]) -> list[pytest.Item]:
-        """The tests of this run."""
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        """Leaves out what rests; of what -m and -k leave, so that no other case counts a run."""
         every, day = self._config.getoption("every"), self._config.getoption("day")
         if every == 1:
-            return list(items)
+            return
         cases = rotating_cases(items, self._kinds, self._others, every)
         failed = self._config.cache.get("cache/lastfailed", {})
         self._waits = plan_run(cases, self._config.cache.get(RECORD, {}), failed, day)
-        return [item for item in items if not self._waits.get(item.nodeid)]
+        rest = [item for item in items if self._waits.get(item.nodeid)]
+        self._config.hook.pytest_deselected(items=rest)
+        items[:] = [item for item in items if not self._waits.get(item.nodeid)]
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         self._ran.add(report.nodeid)

@@ -268,6 +268,12 @@ def test_what_windows_cannot_hold_would_be_found(name: str) -> None:
     assert _RESERVED.fullmatch(name) and not _RESERVED.fullmatch("console.py")
 
 
+def test_the_hook_before_commits_has_the_ruff_of_the_tests(pins) -> None:
+    hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text(encoding="utf-8"))
+    (ruff,) = (repo for repo in hooks["repos"] if repo["repo"].endswith("/ruff-pre-commit"))
+    assert ruff["rev"] == f"v{pins['ruff']}"
+
+
 def test_there_is_no_lock_file() -> None:
     names = {Path(name).name.lower() for name in kept_files()}
     assert not {name for name in names if name.endswith(".lock") or name == "pylock.toml"}

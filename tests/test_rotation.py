@@ -81,7 +81,7 @@ def test_quick(k):
 
 
 def test_the_record_is_kept_between_runs(pytester: pytest.Pytester) -> None:
-    """Real runs of pytest, alone and by pytest-xdist; to collect is none."""
+    """Real runs of pytest, alone and by pytest-xdist; to collect, or to leave all out, is none."""
     pytester.makeconftest(
         f"import sys\nsys.path.insert(0, {str(ROOT)!r})\n"
         "from tests.rotation import Rotation\n"
@@ -90,15 +90,13 @@ def test_the_record_is_kept_between_runs(pytester: pytest.Pytester) -> None:
         "    parser.addoption('--day', type=int, default=0)\n"
         "def pytest_configure(config):\n"
         "    config.pluginmanager.register(Rotation(config, (), ()), 'rotation')\n"
-        "def pytest_collection_modifyitems(config, items):\n"
-        "    items[:] = config.pluginmanager.get_plugin('rotation').select(items)\n"
     )
     pytester.makepyprojecttoml('[tool.pytest.ini_options]\nmarkers = ["rotating"]\n')
     pytester.makepyfile(PROJECT)
     ran: list[set[str]] = []
-    for words in ([], ["-n", "2"], ["--collect-only"], [], []):
+    for words in ([], ["-n", "2"], ["--collect-only"], ["-k", "absent"], [], []):
         result = pytester.runpytest_subprocess("-v", "--every", "3", *words)
-        if "--collect-only" in words:
+        if {"--collect-only", "-k"} & {*words}:
             continue
         ran.append({word for line in result.outlines for word in line.split() if "::test_" in word})
     assert len(set().union(*ran[:3])) == 13
@@ -110,8 +108,7 @@ def test_the_record_is_kept_between_runs(pytester: pytest.Pytester) -> None:
 
 def test_what_is_longest_is_begun_first() -> None:
     items: list[Any] = [Item(f"tests/{file}::test") for file in ("a.py", LONGEST[0], "b.py")]
-    plugin = SimpleNamespace(get_plugin=lambda name: SimpleNamespace(select=list))
-    config: Any = SimpleNamespace(getoption=lambda name: None, pluginmanager=plugin)
+    config: Any = SimpleNamespace(getoption=lambda name: None)
     pytest_collection_modifyitems(config, items)
     assert all(any((ROOT / "tests").rglob(file)) for file in LONGEST)
     assert [item.nodeid[6:-6] for item in items] == [LONGEST[0], "a.py", "b.py"]
