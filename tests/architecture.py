@@ -99,12 +99,12 @@ MODULE_LINES = 700
 
 def broken_rules(package: Path) -> list[str]:
     """All that breaks a rule in the folder of a package, as "file:line: what, and the rule"."""
-    found: list[str] = []
+    breaks: list[str] = []
     for path in modules(package):
         relative = path.relative_to(package).as_posix()
         text = path.read_text(encoding="utf-8")
-        found += [f"{relative}:{line}: {what}" for line, what in _breaks(relative, text)]
-    return found
+        breaks += [f"{relative}:{line}: {what}" for line, what in _breaks(relative, text)]
+    return breaks
 
 
 @cache
@@ -239,10 +239,10 @@ def circles(package: Path) -> list[set[str]]:
     exported = _exported(package)
     graph = {
         name: {
-            found
+            imported
             for _, target in _targets(path.read_text(encoding="utf-8"))
-            for found in exported.get(target, {target, target.rpartition(".")[0]})
-            if found in names and found != name and names[found].name != "__init__.py"
+            for imported in exported.get(target, {target, target.rpartition(".")[0]})
+            if imported in names and imported != name and names[imported].name != "__init__.py"
         }
         for name, path in names.items()
         if path.name != "__init__.py"
@@ -285,11 +285,11 @@ def _targets(text: str) -> Iterator[tuple[int, str]]:
 
 
 def _reached(graph: Mapping[str, set[str]], start: str) -> set[str]:
-    found: set[str] = set()
+    reached: set[str] = set()
     left = list(graph[start])
     while left:
         name = left.pop()
-        if name not in found:
-            found.add(name)
+        if name not in reached:
+            reached.add(name)
             left += graph.get(name, ())
-    return found
+    return reached

@@ -61,8 +61,8 @@ def chain_of(robot: str | Path | Robot) -> Chain:
     """Of a built-in robot, a robot file or its text, or a robot."""
     if isinstance(robot, str) and "\n" in robot:
         return _of_text(robot, "robot.toml")
-    own = robot if isinstance(robot, Robot) else api.open_robot(robot)
-    return _of_text(own.text, own.name)
+    opened = robot if isinstance(robot, Robot) else api.open_robot(robot)
+    return _of_text(opened.text, opened.name)
 
 
 @lru_cache(maxsize=64)
@@ -90,8 +90,8 @@ def diagnose_case(folder: Path, withheld: Sequence[str] = ()) -> dict[str, Any]:
         if (folder / "loaded.parquet").exists():
             asked = [folder / "loaded.parquet", folder / "loaded_holdout.parquet"]
         start = time.perf_counter()
-        found = api.diagnose(model, asked[:1], asked[1:], without=[*withheld, *same])
-    return found.to_json() | {"seconds": time.perf_counter() - start}
+        diagnosis = api.diagnose(model, asked[:1], asked[1:], without=[*withheld, *same])
+    return diagnosis.to_json() | {"seconds": time.perf_counter() - start}
 
 
 @contextmanager

@@ -150,10 +150,10 @@ def compare_with_generated(
         assert folder.is_dir(), f"generated/{name} is missing; make it with pytest --regenerate"
         assert sorted(names(folder)) == sorted(emitted)
         for file, text in emitted.items():
-            kept = (folder / file).read_bytes().decode()
+            expected = (folder / file).read_bytes().decode()
             difference = "".join(
                 difflib.unified_diff(
-                    kept.splitlines(True), text.splitlines(True),
+                    expected.splitlines(True), text.splitlines(True),
                     f"generated/{name}/{file}", "emitted now",
                 )
             )  # fmt: skip

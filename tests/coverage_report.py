@@ -24,9 +24,9 @@ def report_lines(report: Mapping[str, Any]) -> Iterator[str]:
             for k, count in enumerate(_counts(file["summary"])):
                 packages[package][k] += count
         functions += [
-            (own["summary"]["percent_covered"], -own["summary"]["num_statements"], path, name)
-            for name, own in file["functions"].items()
-            if name and own["summary"]["num_statements"] >= LEAST  # the rest of a module has none
+            (counts["summary"]["percent_covered"], -counts["summary"]["num_statements"], path, name)
+            for name, counts in file["functions"].items()
+            if name and counts["summary"]["num_statements"] >= LEAST  # else: rest of a module
         ]
     yield f"{'package':<14}{'lines':>8}{'covered':>9}{'branches':>10}{'covered':>9}"
     for package, (lines, run, branches, taken) in sorted(packages.items()):

@@ -21,8 +21,8 @@ def schemas() -> dict[str, dict[str, Any]]:
 @cache
 def validator(name: str) -> Draft202012Validator:
     """Of one file; it finds the others by their `$id`."""
-    found = [(each["$id"], Resource.from_contents(each)) for each in schemas().values()]
-    registry: Registry[Any] = Registry().with_resources(found)
+    resources = [(each["$id"], Resource.from_contents(each)) for each in schemas().values()]
+    registry: Registry[Any] = Registry().with_resources(resources)
     return Draft202012Validator(schemas()[name], registry=registry)
 
 
@@ -37,5 +37,5 @@ def faults(name: str, content: Any) -> list[str]:
 
 def check_schema(name: str, content: Any) -> None:
     """Fails with what is wrong."""
-    found = faults(name, content)
-    assert not found, "\n".join(["docs/schema says otherwise", *found[:10]])
+    breaks = faults(name, content)
+    assert not breaks, "\n".join(["docs/schema says otherwise", *breaks[:10]])

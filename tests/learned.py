@@ -25,8 +25,8 @@ def scipy_value(law: Law, *x: np.ndarray) -> np.ndarray:
         knots = low + width * np.arange(-3, count + 4)
         splines.append(BSpline(knots, np.eye(count + 3), 3))
     weights = [
-        spline(np.clip(own, low, high))
-        for spline, own, low, high in zip(splines, x, law.low, law.high, strict=True)
+        spline(np.clip(column, low, high))
+        for spline, column, low, high in zip(splines, x, law.low, law.high, strict=True)
     ]
     table = np.array(law.values).reshape([count + 3 for count in law.cells])
     if len(weights) == 1:
@@ -42,14 +42,14 @@ def text_with(robot: str, laws: Mapping[str, tuple[str, Law]], more: str = "") -
         laws: {joint: (equation, its law)}.
         more: lines of [effects].
     """
-    text, own, lines = builtin_text(robot), [], more
+    text, tables, lines = builtin_text(robot), [], more
     for k, (joint, (equation, law)) in enumerate(laws.items()):
         name, prefix = f"learned_{joint}", f"Law{'abcdef'[k]}"
-        own += [
+        tables += [
             f"[own_effects.{name}]", f'columns = {{{prefix} = "{equation}"}}', 'unit = "N*m"',
             f"law = {{low = {list(law.low)}, high = {list(law.high)}, cells = {list(law.cells)}, "
             f"values = {list(law.values)}}}", "",
         ]  # fmt: skip
         lines += f'{name} = ["{joint}"]\n'
     head, section, rest = text.partition("[effects]\n")
-    return "\n".join([head, *own, section or "[effects]\n"]) + lines + rest
+    return "\n".join([head, *tables, section or "[effects]\n"]) + lines + rest

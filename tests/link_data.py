@@ -25,13 +25,13 @@ coulomb = "all"
 def links(seed: int = 1) -> dict[str, float]:
     """Inertial parameters of three clouds of points, stretched along x as links are."""
     rng = np.random.default_rng(seed)
-    found = {}
+    values = {}
     for joint, mass, length in (("1", 40.0, 0.3), ("2", 25.0, 0.6), ("3", 12.0, 0.5)):
         places = rng.normal(size=(30, 3)) * [0.3, 0.12, 0.12] * length
         places[:, 0] += 0.5 * length
         body = ten_of_points(np.full(30, mass / 30), places)
-        found |= {prefix + joint: value for prefix, value in body.items()}
-    return found
+        values |= {prefix + joint: value for prefix, value in body.items()}
+    return values
 
 
 def text(
@@ -53,7 +53,7 @@ def compiled(robot: str) -> CompiledModel:
 
 def drawn(share: float, rng: np.random.Generator, values: dict[str, float]) -> dict[str, float]:
     """Links that lie about the stated ones: m, c and I drawn, then moved to the joint's origin."""
-    found = dict(values)
+    link_values = dict(values)
     for joint in "123":
         I, first, mass = moments(values, joint)
         centre = first / mass
@@ -67,20 +67,20 @@ def drawn(share: float, rng: np.random.Generator, values: dict[str, float]) -> d
         moved = about + m * (c @ c * np.eye(3) - np.outer(c, c))
         ten = [*moved[np.triu_indices(3)], *(m * c), m]
         names = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-        found |= {f"{prefix}{joint}": float(x) for prefix, x in zip(names, ten, strict=True)}
-    return found
+        link_values |= {f"{prefix}{joint}": float(x) for prefix, x in zip(names, ten, strict=True)}
+    return link_values
 
 
 def buildable(share: float, rng: np.random.Generator, values: dict[str, float]) -> dict[str, float]:
     """The first drawn links that could be built."""
     while True:
-        found = drawn(share, rng, values)
+        candidate = drawn(share, rng, values)
         second = []
         for joint in "123":
-            I, first, mass = moments(found, joint)
+            I, first, mass = moments(candidate, joint)
             second.append(np.trace(I) / 2.0 * np.eye(3) - I - np.outer(first, first) / mass)
-        if min(np.linalg.eigvalsh(own)[0] for own in second) > 0.0:
-            return found
+        if min(np.linalg.eigvalsh(inertia)[0] for inertia in second) > 0.0:
+            return candidate
 
 
 def moments(values: dict[str, float], joint: str) -> tuple[np.ndarray, np.ndarray, float]:

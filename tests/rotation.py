@@ -119,12 +119,12 @@ def rotating_cases(
     members: dict[str, list[str]] = defaultdict(list)
     for name, group in groups.items():
         members[group].append(name)
-    found = _robots([item for item in items if item.nodeid not in groups], kinds, others, every)
+    cases = _robots([item for item in items if item.nodeid not in groups], kinds, others, every)
     for group, names in members.items():
         period = every if group in quick else min(every, len(names))
         first = crc32(group.encode())
-        found |= {name: ((k + first) % period, period) for k, name in enumerate(names)}
-    return found
+        cases |= {name: ((k + first) % period, period) for k, name in enumerate(names)}
+    return cases
 
 
 def plan_run(
@@ -172,14 +172,14 @@ def _robots(
         if robots := _texts(item) & {*kinds, *others}:
             cases[_function(item.nodeid)][item.nodeid] = robots
     phase = {robot: k for k, robot in enumerate(others)}
-    found = {}
+    rotating_robots = {}
     for of_function in cases.values():
         beside = set().union(*of_function.values())
         if len(beside - {*kinds}) >= SWEEP and any(r <= {*kinds} for r in of_function.values()):
             for name, robots in of_function.items():
                 if robots - {*kinds}:
-                    found[name] = (min(phase[r] for r in robots - {*kinds}), every)
-    return found
+                    rotating_robots[name] = (min(phase[r] for r in robots - {*kinds}), every)
+    return rotating_robots
 
 
 def _texts(item: pytest.Item) -> set[str]:

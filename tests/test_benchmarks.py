@@ -19,14 +19,14 @@ KEYS = [key for line in LINES for key in line.keys]
 def test_every_key_is_there_once_and_documented() -> None:
     names = [key.name for key in KEYS]
     assert len(set(names)) == len(names) > 80
-    told = figures_told(DOCS.read_text(encoding="utf-8"))
-    assert not (set(names) - told.keys()), "docs/explanation/benchmarks.md is made by --markdown"
-    assert all(re.match(r"-?\d", figure) for figure in told.values())
+    figures = figures_told(DOCS.read_text(encoding="utf-8"))
+    assert not (set(names) - figures.keys()), "docs/explanation/benchmarks.md is made by --markdown"
+    assert all(re.match(r"-?\d", figure) for figure in figures.values())
 
 
 def figures_told(text: str) -> dict[str, str]:
     """{key: its cell} of the tables that `--markdown` prints: families in rows, variants above."""
-    told: dict[str, str] = {}
+    figures: dict[str, str] = {}
     columns: list[str] = []
     for line in text.splitlines():
         cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
@@ -36,8 +36,8 @@ def figures_told(text: str) -> dict[str, str]:
             family = cells[0].strip("`")
             for column, cell in zip(columns[1:-1], cells[1:-1], strict=True):
                 key = family if column == "value" else f"{family}.{column}"
-                told |= {key: cell}
-    return told
+                figures |= {key: cell}
+    return figures
 
 
 def test_every_figure_of_a_report_is_in_its_tables() -> None:
@@ -46,11 +46,11 @@ def test_every_figure_of_a_report_is_in_its_tables() -> None:
     values[KEYS[-1].name] = None  # type: ignore[assignment]
     about = dict.fromkeys(("date", "processor", "vectors", "cores", "memory_gb", "gcc", "python"))
     report = {"machine": about, "values": values, "missing": {KEYS[-1].name: "no such tool"}}
-    told = figures_told(markdown(report))
-    assert told.keys() == values.keys()
-    assert told[KEYS[-1].name] == "missing: no such tool"
+    figures = figures_told(markdown(report))
+    assert figures.keys() == values.keys()
+    assert figures[KEYS[-1].name] == "missing: no such tool"
     for key in KEYS[:-1]:
-        figure, _, goals = told[key.name].partition(" ")
+        figure, _, goals = figures[key.name].partition(" ")
         assert float(figure) == pytest.approx(values[key.name], rel=6e-3)
         asked = ["-" if goal is None else f"{goal:g}" for goal in (key.must, key.aim)]
         assert goals == ("" if asked == ["-", "-"] else f"({'/'.join(asked)})")

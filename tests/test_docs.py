@@ -118,14 +118,14 @@ def renewed(shown: list[str], printed: list[str]) -> list[str]:
     """
     at, lines = 0, []
     for line in shown:
-        found = _place(_words, line, printed, at)
-        if found is None:
-            found = _place(_bare, line, printed, at)
-        if found is None:
+        at_line = _place(_words, line, printed, at)
+        if at_line is None:
+            at_line = _place(_bare, line, printed, at)
+        if at_line is None:
             lines.append(line)
             continue
-        lines.append(line if same(line, printed[found]) else printed[found])
-        at = found + 1
+        lines.append(line if same(line, printed[at_line]) else printed[at_line])
+        at = at_line + 1
     return lines
 
 
@@ -160,10 +160,12 @@ class Reader:
         suffix = f".{block.kind}"
         named = re.match(r"(?:#|/\*|\(\*|<!--) ([\w-]+\.\w+)", block.lines[0])
         saved = re.search(r"Save it as `([\w.-]+)`", block.after)
-        found = named or saved
-        name = found[1] if found else "snippet.c"
+        name_line = named or saved
+        name = name_line[1] if name_line else "snippet.c"
         suffixes = (".urdf", ".xml") if suffix == ".xml" else suffix
-        assert name.endswith(suffixes) and (found or suffix == ".c"), f"{where}: how is it called?"
+        assert name.endswith(suffixes) and (name_line or suffix == ".c"), (
+            f"{where}: how is it called?"
+        )
         Path(name).write_text("\n".join(block.lines) + "\n", encoding="utf-8")
         if suffix == ".c" and not any("main(" in line for line in block.lines):
             folders = sorted({f"-I{path.parent}" for path in Path().glob("*/*.h")})
@@ -257,10 +259,10 @@ def test_a_reader_gets_what_the_page_shows(page, tmp_path, monkeypatch, regenera
     for block in blocks(text):
         reader.do(block)
     if page in PICTURES:
-        drawn, kept = Path(PICTURES[page]), (ROOT / page).with_suffix(".svg")
+        drawn, shown = Path(PICTURES[page]), (ROOT / page).with_suffix(".svg")
         if regenerate:
-            kept.write_bytes(drawn.read_bytes())
-        assert _labels(kept) == _labels(drawn), f"{page}: make regenerate draws its picture anew"
+            shown.write_bytes(drawn.read_bytes())
+        assert _labels(shown) == _labels(drawn), f"{page}: make regenerate draws its picture anew"
     if reader.replaced:
         lines = [reader.replaced.get(line, line) for line in text.splitlines()]
         (ROOT / page).write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -331,15 +333,15 @@ def test_the_table_of_effects_on_loops_is_true():
         re.findall(r"^\| (in|not [^|]*|in [^|]*) \| ([a-z_, ]+) \|$",
                    text_of("docs/how-to/parallel-robots.md"), re.MULTILINE)
     )  # fmt: skip
-    told = {key: names.split(", ") for key, names in rows.items()}
+    listed = {key: names.split(", ") for key, names in rows.items()}
     joints = [e for e in CATALOGUE if e.acts in (Acts.JOINT, Acts.MOTOR)]
     joints += [e for e in CATALOGUE if e.acts is Acts.POSITION and not e.hindrance]
     has_c = [e for e in joints if e.acts is not Acts.POSITION and e.forms[0].names <= {*MOTION}]
-    assert set(told["in `[effects]`, and added"]) == {e.id for e in has_c}
+    assert set(listed["in `[effects]`, and added"]) == {e.id for e in has_c}
     without = {e.id for e in joints} - {e.id for e in has_c}
-    assert set(told["not in `[effects]`, not added"]) == without
+    assert set(listed["not in `[effects]`, not added"]) == without
     unsimulated = {name for name, kind in HIDDEN.items() if not kind.loops}
-    assert set(told["not simulated"]) == unsimulated
+    assert set(listed["not simulated"]) == unsimulated
 
 
 @pytest.mark.parametrize(
@@ -368,13 +370,13 @@ def test_every_choice_of_the_processing_is_described():
 def test_commands_stand_on_their_page_by_family():
     """In the order of `modeler --help`."""
     table = text_of("docs/reference/commands.md").split("| command | does |")[1].split("\n\n")[0]
-    told: dict[str, list[str]] = {}
+    listed: dict[str, list[str]] = {}
     for title, names in re.findall(r"^\| (?:\*\*(\w+)\*\*|([^|]+)) \|", table, re.MULTILINE):
         if title:
-            told[title] = []
+            listed[title] = []
         elif "modeler" in names:
-            told[list(told)[-1]] += re.findall(r"modeler ([\w-]+)", names)
-    assert told == {title: [command.name for command in each] for title, each in FAMILIES.items()}
+            listed[list(listed)[-1]] += re.findall(r"modeler ([\w-]+)", names)
+    assert listed == {title: [command.name for command in each] for title, each in FAMILIES.items()}
 
 
 def test_every_file_and_function_of_the_c_is_described():

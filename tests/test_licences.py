@@ -28,9 +28,9 @@ def families(text: str) -> set[str]:
 
 def stated(package: str) -> set[str]:
     """What the metadata of an installed package says."""
-    found = metadata.metadata(package)
-    classes = [line for line in found.get_all("Classifier") or () if line.startswith("License")]
-    for text in (found.get("License-Expression"), " ".join(classes), found.get("License")):
+    about = metadata.metadata(package)
+    classes = [line for line in about.get_all("Classifier") or () if line.startswith("License")]
+    for text in (about.get("License-Expression"), " ".join(classes), about.get("License")):
         if text and families(text):
             return families(text)
     return set()
@@ -50,11 +50,11 @@ def wanted() -> dict[str, set[str]]:
         for extra, lines in project["optional-dependencies"].items()
         if extra not in WORKING
     }
-    found: dict[str, set[str]] = {}
+    extras: dict[str, set[str]] = {}
     for extra, lines in groups.items():
         for line in lines:
-            found.setdefault(canonicalize_name(Requirement(line).name), set()).add(extra)
-    return found
+            extras.setdefault(canonicalize_name(Requirement(line).name), set()).add(extra)
+    return extras
 
 
 def brought() -> set[str]:

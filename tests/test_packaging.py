@@ -30,17 +30,17 @@ def settings() -> dict:
 
 @pytest.fixture(scope="module")
 def pins() -> dict[str, str]:
-    found = {}
+    versions = {}
     for line in (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines():
         if line and not line.startswith("#"):
             match = _PIN.fullmatch(line)
             assert match, f"constraints.txt: got {line!r}, expected name==version, maybe a marker"
             name, version, marker = match.groups()
-            assert name not in found, f"constraints.txt: {name} stands there twice"
+            assert name not in versions, f"constraints.txt: {name} stands there twice"
             if marker:
                 Marker(marker)
-            found[name] = version
-    return found
+            versions[name] = version
+    return versions
 
 
 def requirements(settings: dict) -> list[Requirement]:
@@ -175,16 +175,16 @@ _FORBIDDEN = {
 
 
 def test_nothing_names_a_registry_or_a_machine() -> None:
-    found = []
+    places = []
     for name in kept_files():
         text = (ROOT / name).read_bytes().decode("utf-8", errors="ignore")
         for number, line in enumerate(text.splitlines(), start=1):
-            found += [
+            places += [
                 f"{name}:{number}: {what}: {line.strip()[:80]}"
                 for what, pattern in _FORBIDDEN.items()
                 if re.search(pattern, line)
             ]
-    assert not found, "\n".join(["", *found])
+    assert not places, "\n".join(["", *places])
 
 
 @pytest.mark.parametrize(
@@ -213,10 +213,10 @@ def test_the_recipe_for_conda_says_what_the_project_says(settings: dict) -> None
     recipe = rattler.Stage0Recipe.from_file(str(ROOT / "conda" / "recipe.yaml"))
     (made,) = recipe.render(rattler.VariantConfig())
     assert "modeler-robotics" in repr(made) and f"'{modeler.__version__}'" in repr(made)
-    told, project = recipe.to_dict(), settings["project"]
+    recipe_dict, project = recipe.to_dict(), settings["project"]
     names = [Requirement(line) for line in project["dependencies"]]
     bounds = {CONDA.get(r.name, r.name): str(r.specifier) for r in names}
-    needs = told["requirements"]
+    needs = recipe_dict["requirements"]
     assert _bounds(needs["run"]) == {"python": project["requires-python"], **bounds}
     building = [Requirement(line) for line in settings["build-system"]["requires"]]
     made_with = {r.name: str(r.specifier) for r in building}
@@ -228,7 +228,7 @@ def test_the_recipe_for_conda_says_what_the_project_says(settings: dict) -> None
     assert _bounds(needs["run_constraints"]) == {
         name: bound for name, bound in extras.items() if name not in elsewhere
     }
-    about, build = told["about"], told["build"]
+    about, build = recipe_dict["about"], recipe_dict["build"]
     assert about["license"] == project["license"] and about["summary"] == project["description"]
     assert about["license_file"] == project["license-files"]
     (script,) = build["python"]["entry_points"]
@@ -298,8 +298,8 @@ def make(tmp_path: Path):
 
 
 def test_make_alone_says_what_there_is(make) -> None:
-    told = make().stdout
-    assert all(f"make {target}" in told for target in ("demo", "test", "lint", "regenerate"))
+    help_text = make().stdout
+    assert all(f"make {target}" in help_text for target in ("demo", "test", "lint", "regenerate"))
 
 
 def test_make_without_a_fitting_python_says_so_in_one_line(make, tmp_path: Path) -> None:

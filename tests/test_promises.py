@@ -33,12 +33,12 @@ def offered() -> dict[str, dict[str, list[str]]]:
     }
 
 
-def _parameters(found: Any) -> list[str]:
+def _parameters(thing: Any) -> list[str]:
     """Of a function its arguments, of a class its public names."""
-    if inspect.isclass(found):
-        names = {*dir(found), *getattr(found, "__dataclass_fields__", ())}
+    if inspect.isclass(thing):
+        names = {*dir(thing), *getattr(thing, "__dataclass_fields__", ())}
         return [name for name in names if not name.startswith("_")]
-    return list(inspect.signature(found).parameters) if callable(found) else []
+    return list(inspect.signature(thing).parameters) if callable(thing) else []
 
 
 def _written(names: dict[str, dict[str, list[str]]]) -> str:
@@ -54,10 +54,10 @@ def _written(names: dict[str, dict[str, list[str]]]) -> str:
 
 def test_no_name_that_was_promised_is_gone(regenerate: bool) -> None:
     """A name that goes is taken out of `promised.json` by hand, a version after it was replaced."""
-    kept, now = json.loads(KEPT.read_text(encoding="utf-8")), offered()
+    promised, now = json.loads(KEPT.read_text(encoding="utf-8")), offered()
     gone = [
         f"{kind}: {name} {each}"
-        for kind, names in kept.items()
+        for kind, names in promised.items()
         for name, inner in names.items()
         for each in ("", *inner)
         if name not in now[kind] or each not in {"", *now[kind][name]}
@@ -66,19 +66,19 @@ def test_no_name_that_was_promised_is_gone(regenerate: bool) -> None:
     if regenerate:
         merged = {
             kind: {
-                name: sorted({*kept.get(kind, {}).get(name, ()), *inner})
+                name: sorted({*promised.get(kind, {}).get(name, ()), *inner})
                 for name, inner in sorted(names.items())
             }
             for kind, names in now.items()
         }
         KEPT.write_text(_written(merged), encoding="utf-8")
-        kept = merged
+        promised = merged
     new = [
         f"{kind}: {name} {each}"
         for kind, names in now.items()
         for name, inner in names.items()
         for each in inner
-        if each not in kept.get(kind, {}).get(name, ())
+        if each not in promised.get(kind, {}).get(name, ())
     ]
     assert not new, "\n".join(["new names are a promise: run `make regenerate`", *new])
 
