@@ -19,7 +19,6 @@ from modeler.robot.robot import INERTIAL, JointKind as Kind, Robot
 from modeler.robot.tree_text import tree_to_toml
 from tests.oracles.pinocchio_dynamics import pin, pinocchio_model
 from tests.robot.poses import link_poses
-from tests.robot.texts import ARM
 
 TURNS, SLIDES, FIXED = Kind.REVOLUTE, Kind.PRISMATIC, Kind.FIXED
 
@@ -180,15 +179,6 @@ def test_nearly_parallel_axes_keep_their_accuracy(tilt):
             assert max(abs(row.cells.get(c, 0.0)) for c in "bdr") < most
 
 
-def test_without_fixed_rows_they_lose_it(monkeypatch):
-    """What the rule is for, at axes that are parallel but for 1e-4."""
-    rng = np.random.default_rng(34)
-    drawn = trees(74, 8, tilt=3e-4, serial=True)
-    within = max(errors(tree, rng)[1] for tree in drawn)
-    monkeypatch.setattr(mdh_rows, "FAR", math.inf)
-    assert max(errors(tree, rng)[1] for tree in drawn) > 1e3 * within
-
-
 def test_numbers_are_exact_where_they_are():
     assert exact_length(0.1 + 0.2) == 0.3 and str(exact_length(-1e-17)) == "0.0"
     assert exact_length(1 / 3) == 1 / 3
@@ -328,15 +318,3 @@ def test_odd_names_stay_in_one_line():
     tree = tree_of(turning('a "b" \\ \t#', "base"))
     robot = read(tree)
     assert robot.frames['a "b" \\ \t#_link'].joint == 'a "b" \\ \t#'
-
-
-# `[frames]` of a robot file.
-
-
-def test_frames_are_read():
-    robot = robot_from_text(ARM, "arm.toml")
-    hand, values = robot.frames["hand"], robot.symbol_values()
-    assert (hand.row, hand.joint) == ("4", "wrist")
-    assert [x.number(values) for x in hand.position] == [0.1125, 0.0, 0.0]
-    assert [x.number(values) for x in hand.angles] == [0.0, 0.0, math.pi / 2]
-    assert robot.frames["base"].row == "0"

@@ -243,6 +243,7 @@ def test_torques_are_mujocos(path):
             assert abs(worth - chi[name]) < 1e-12 * max(abs(x) for x in chi.values()), name
 
 
+@pytest.mark.rotating("C of converted robots")
 @each_of([FILES[3]], FILES[3])
 def test_torques_of_the_c_are_mujocos(path):
     both = Both(path)

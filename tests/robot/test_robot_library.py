@@ -27,7 +27,7 @@ def near(actual, expected, tolerance=1e-12):
 @pytest.mark.parametrize("name", ROBOTS)
 def test_every_built_in_robot_is_complete(name):
     robot = read_robot(name)
-    assert robot.title != robot.name
+    assert robot.title != robot.name == name
     assert len(robot.notes) > 40  # its source
     assert robot.moving
     assert (name in LOOPED) == bool(robot.loops)

@@ -336,6 +336,7 @@ def test_gears_of_actuator_and_joint_are_their_own(inner: str, expected: float) 
     twice = text.replace("</robot>", f'<transmission name="u">{inner}</transmission></robot>')
     (armature,) = [j.armature for j in read(twice).joints if j.name == "j1"]
     assert armature == pytest.approx(2 * expected)  # a second motor
+    assert not any(j.armature for j in read(text.replace(ROTOR, "")).joints) or ROTOR not in text
 
 
 def test_transmissions_of_several_joints_are_told() -> None:
