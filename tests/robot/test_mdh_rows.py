@@ -15,9 +15,9 @@ from modeler.robot import mdh_rows
 from modeler.robot.body_tree import BodyTree, Inertial, Pose, TreeJoint, moving_links
 from modeler.robot.mdh_rows import exact_length, exact_turn, mdh_table, roll_pitch_yaw
 from modeler.robot.read import robot_from_text
-from modeler.robot.robot import INERTIAL, JointKind as Kind, Robot
+from modeler.robot.robot import JointKind as Kind, Robot
 from modeler.robot.tree_text import tree_to_toml
-from tests.oracles.pinocchio_dynamics import pin, pinocchio_model
+from tests.oracles.pinocchio_dynamics import pin, places_of
 from tests.robot.poses import link_poses
 
 TURNS, SLIDES, FIXED = Kind.REVOLUTE, Kind.PRISMATIC, Kind.FIXED
@@ -114,12 +114,8 @@ class PinocchioModel:
 
 def torques_of_table(robot: Robot):
     """Of the robot file alone, its values and rows, by Pinocchio: (q, qd, qdd) -> tau."""
-    model, ids = pinocchio_model(robot)
-    for joint, index in zip(robot.moving, ids, strict=True):
-        ten = np.array([robot.parameters.get(f"{p}{joint.name}", 0.0) for p in INERTIAL])
-        dynamic = ten[[9, 6, 7, 8, 0, 1, 3, 2, 4, 5]]
-        model.inertias[index] = pin.Inertia.FromDynamicParameters(dynamic)
-    data, rows = model.createData(), [model.idx_vs[index] for index in ids]
+    model, rows = places_of(robot, robot.parameters)
+    data = model.createData()
 
     def torque(*state) -> np.ndarray:
         full = np.zeros((3, model.nv))

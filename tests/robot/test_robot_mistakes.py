@@ -6,7 +6,9 @@ import pytest
 
 from modeler.core.builtin import builtin_names, builtin_text
 from modeler.core.errors import RobotError
+from modeler.robot.par_convert import par_to_toml
 from modeler.robot.read import read_robot, robot_from_text
+from tests.robot.par_files import BOOM, par_text
 from tests.robot.texts import (
     ARM,
     COUPLED,
@@ -56,19 +58,15 @@ IN_ARM = [
     ("undeclared", '0, "D3"', '0, "D33"', 'row "3", column d .. got "D33" .. mean "D3"?'),
     ("far symbol", '0, "D3"', '0, "zeta"', "zeta is not declared .. declare it in [symbols]"),
     ("not arithmetic", '0, "D3"', '0, "D3^2"', 'column d .. got "D3^2" .. powers as x**2'),
-    ("no number", '0, "D3"', "0, [1]", "column d .. got [1] .. expected a number"),
     ("infinite", '0, "D3"', "0, inf", "column d .. got inf .. finite"),
     ("huge", '0, "D3"', '0, "1e400"', "column d .. 1e400 .. too large"),
     ("division by 0", '0, "D3"', '0, "1/(D3-D3)"', "column d .. no finite real value .. divisors"),
     ("root of -1", '0, "D3"', '0, "sqrt(-D3)"', "column d .. no finite real value .. roots"),
-    ("no real power", '0, "D3"', '0, "(-D3)**0.5"', "column d .. no finite real value"),
-    ("no q in theta", '0, 0, "q1", 0]', "0, 0, 0, 0]", 'row "1", column theta .. got "0" .. q1'),
     ("no q in r", '"q3 + R4"', '"R4"', 'row "3", column r .. got "R4" .. expected q3'),
     ("q in d", '0, 0, "q1", 0]', '0, "q1", "q1", 0]', 'row "1", column d .. column theta .. move'),
     ("q of another row", '"q1", 0]', '"q1 + q2", 0]', 'row "1" .. another row .. follows'),
     ("q of fixed", '0.1, "pi", 0', '0.1, "qE", 0', 'row "E", column theta .. sigma 2 .. remove qE'),
-    ("sin q", '0, "q1", 0]', '0, "sin(q1)", 0]',
-     "column theta .. sin(q1) .. not linear .. q1 + pi/2"),
+    ("sin q", '0, "q1", 0]', '0, "sin(q1)", 0]', "theta .. sin(q1) .. not linear .. q1 + pi/2"),
     ("q squared", '0, "q1", 0]', '0, "q1**2", 0]', "column theta .. q1**2 .. not linear"),
     ("1 over q", '0, "q1", 0]', '0, "1/q1", 0]', "column theta .. 1/q1 .. not linear"),
     ("2 q", '0, "q1", 0]', '0, "2*q1", 0]', "column theta .. coefficient 2 .. expected 1 or -1"),
@@ -80,8 +78,7 @@ IN_ARM = [
     ("symbol double", "D3 = 0.45", "D3 = 0.45\ndouble = 3", '"double" .. C language'),
     ("symbol name", "D3 = 0.45", 'D3 = 0.45\n"a b" = 3', '[symbols] .. "a b" .. expected a letter'),
     ("symbol value", "D3 = 0.45", "D3 = [1]", "[symbols], D3 .. got [1] .. expected a number"),
-    ("symbol unknown", '"D3 / 2"', '"D4 / 2"',
-     "[symbols], R4 .. D4 is not declared .. among g, D3, R4"),
+    ("symbol unknown", '"D3 / 2"', '"D4 / 2"', "[symbols], R4 .. D4 is not .. among g, D3, R4"),
     ("symbols circle", "D3 = 0.45", 'D3 = "R4"', "[symbols] .. D3, R4 .. circle .. a number"),
     ("symbol 1/0", "D3 = 0.45", 'D3 = "1/0"', "[symbols], D3 .. no finite real value"),
     ("2 entries", '[0, 0, "-g"]', '[0, "-g"]', "gravity: got 2 entries, expected 3 .. add 1"),
@@ -90,20 +87,16 @@ IN_ARM = [
     ("motors no table", "notes =", "motors = 3\nnotes =", "[motors]: got 3; expected a table"),
     ("effect", "viscous =", "viscus =", '[effects] .. "viscus" .. did you mean "viscous"'),
     ("effects list", "[effects]", "[[effects]]", "[effects]: got [{ .. expected a table"),
-    ("alias twice", 'viscous = "all"', 'viscous = "all"\nback_emf = "all"',
-     "is viscous .. keep one"),
+    ("alias twice", "[effects]", '[effects]\nback_emf = "all"', "is viscous .. keep one"),
     ("effect joint", '["1", "2"]', '["1", "5"]', 'rotor_inertia .. joint "5" .. 1, 2, 3, 4'),
     ("joint twice", '["1", "2"]', '["1", "1"]', 'rotor_inertia .. "1" stands there twice'),
     ("joints word", '["1", "2"]', '"1"', 'rotor_inertia .. got "1" .. "all" or ["1", "2"]'),
-    ("no coupling", '[coupling]\n2 = "q1 + 2*q2"', "",
-     "coupled_friction .. add a table [coupling]"),
-    ("uncoupled motor", 'coupled_friction = "all"', 'coupled_friction = ["3"]',
-     'coupled_friction .. joint "3" has no line in [coupling] .. has 2'),
+    ("no coupling", '[coupling]\n2 = "q1 + 2*q2"', "", "friction .. add a table [coupling]"),
+    ("uncoupled", '_friction = "all"', '_friction = ["3"]', '"3" has no line in [coupling]'),
     ("coupling joint", '2 = "q1 +', '5 = "q1 +', '[coupling], "5" .. no moving joint .. 1, 2, 3'),
     ("coupling product", '"q1 + 2*q2"', '"q1*q2"', '[coupling], "2" .. not linear .. q5 + q6'),
     ("coupling constant", '"q1 + 2*q2"', '"q2 + 1"', '[coupling], "2" .. constant 1 .. only'),
     ("coupling own", '"q1 + 2*q2"', '"q1"', '[coupling], "2" .. without q2 .. own joint'),
-    ("coupling name", '"q1 + 2*q2"', '"q2 + q9"', '[coupling], "2" .. q9 is not declared'),
     ("priority", '"ZZ*"', '"zz1"', 'priority .. "zz1" matches no parameter .. mean "ZZ1"'),
     ("priority number", '"ZZ*"', "3", "priority: got 3 .. expected text"),
     ("priority text", '["ZZ*", "Ia?"]', '"ZZ*"', 'priority .. got "ZZ*" .. expected a list'),
@@ -113,23 +106,18 @@ IN_ARM = [
     ("uncertain text", V, f"{V}uncertainty.Fv1 = 'a'\n", f'{U}, Fv1 .. got "a" .. a number'),
     ("sigma 0", V, f"{V}uncertainty.Fv1 = 0\n", f"{U}, Fv1 .. got 0 .. above 0 .. held"),
     ("sigma name", V, f"{V}uncertainty.Fv9 = 1\n", f'{U} .. no parameter "Fv9" .. did you mean'),
-    ("uncertain open", V, f"{V}uncertainty.ZZ2 = 1\n", f"{U} .. ZZ2 has no value .. write"),
-    ("percent", "ZZ1 = 0.5", "M2 = 3\nuncertainty.inertial = 10",
-     f"{U} .. got 10 .. 0.10 for 10 %"),
+    ("percent", V, "M2 = 3\nuncertainty.inertial = 10\n", f"{U} .. got 10 .. 0.10 for 10 %"),
     ("no body", V, f"{V}uncertainty.inertial = 0.1\n", f"{U} .. no body .. state masses"),
     ("held text", V, f"{V}held = 'Fv1'\n", '[parameters], held .. got "Fv1" .. a list'),
     ("held number", V, f"{V}held = [3]\n", "[parameters], held .. got 3 .. text such as"),
-    ("held name", V, f"{V}held = ['ZZ8']\n", '[parameters], held .. "ZZ8" .. did you mean'),
     ("held without value", V, f"{V}held = ['ZZ2']\n", "held: ZZ2 has no value; write ZZ2 = "),
     ("held and uncertain", V, f"{V}held = ['Fv1']\nuncertainty.Fv1 = 1\n", "one of both"),
-    ("gain joint", "1 = 12.5", "8 = 12.5", '[drive_gains], "8" .. no moving joint .. one of 1'),
     ("gain 0", "1 = 12.5", "1 = 0", '[drive_gains], "1" .. got 0 .. not zero'),
     ("gain text", "1 = 12.5", '1 = "12"', '[drive_gains], "1" .. got "12" .. expected a number'),
     ("limits joint", '1 = ["-pi",', '9 = ["-pi",', '[limits], "9" .. no moving joint'),
     ("limits short", ", 3, 10]", ", 3]", '[limits], "1" .. got 3 entries, expected 4 .. add 1'),
     ("limits range", '["-pi", 2.5', '["pi", 2.5', '[limits], "1" .. lower 3.14 .. lower < upper'),
     ("limits speed", "2.5, 3, 10", "2.5, 0, 10", '[limits], "1" .. speed 0 .. both positive'),
-    ("physical joint", "[physical.1]", "[physical.7]", '[physical], "7" .. no moving joint'),
     ("physical value", "[physical.1]", "[physical]\n1 = 3\n[physical.9]", '"1": got 3 .. a table'),
     ("physical key", 'mass = "m1"', 'mas = "m1"', '[physical] .. key "mas" .. mean "mass"?'),
     ("physical missing", 'mass = "m1"\n', "", '[physical], "1" .. mass is missing .. inertia'),
@@ -147,16 +135,11 @@ IN_PLANAR = [
     ("no legs", 'legs = ["1", "2"]', "legs = []", "legs .. no legs"),
     ("other mark", '"1{i}", "2{i}"]', '"1{k}", "2{i}"]', "effects .. {k} .. only mark"),
     ("relation of nothing", "q7 = ", "q9 = ", '[relations] .. "q9" .. no joint variable .. q4'),
-    ("relation undeclared", "-q21 + pi/2", "-q99 + pi/2", "q99 is not declared"),
-    ("relation not linear", "-q21 + pi/2", "q21*q12", "[relations] .. not linear"),
     ("relation of itself", "-q21 + pi/2", "q7 + q12", "holds q7 itself"),
     ("constant relation", "-q21 + pi/2", "pi/2", "a constant .. sigma 2"),
-    ("actuated follows", '["7", "21", 0,', '["7", "21", 1,',
-     'row "7" .. column mu .. follows other joints .. write 0'),
-    ("circle", 'q7 = "-q21 + pi/2"', 'q7 = "-q21"\nq21 = "q7"',
-     "[relations] .. follow each other in a circle"),
-    ("twice", '0, 0, 0, "q7"]', '0, 0, 0, "q12"]',
-     "[relations] .. stands as a relation in the table too"),
+    ("actuated follows", '["7", "21", 0,', '["7", "21", 1,', "column mu .. follows .. write 0"),
+    ("circle", '"-q21 + pi/2"', '"-q21"\nq21 = "q7"', "follow each other in a circle"),
+    ("twice", '0, 0, 0, "q7"]', '0, 0, 0, "q12"]', "stands as a relation in the table too"),
     ("platform key", 'motion = "tr', 'moves = "tr', '[platform] .. unknown key "moves"'),
     ("no motion", 'motion = "translation"\n', "", "[platform] .. motion is missing"),
     ("motion", '"translation"', '"spatial"', '[platform] .. motion .. "spatial" .. planar'),
@@ -168,7 +151,6 @@ IN_PLANAR = [
     ("loop joint", '"position"', '"ball"', '[loops] .. joint .. "ball" .. spherical'),
     ("nothing to close", '"3{i}", "P"', '"3{i}", "2{i}"', "both fixed on link 21 .. nothing"),
     ("home of nothing", "q21 = ", "q91 = ", '[home] .. "q91" .. no joint variable'),
-    ("home no number", '"-pi/3"', '"x"', "[home] .. x is not declared"),
     ("links row", "7 = []", "8 = []", '[links] .. "8" .. no moving joint'),
     ("links parameter", '["M", "MX"]', '["M", "X"]', '[links] .. "P" .. "X" .. expected some of'),
     ("shared without mark", '"*2{i}"', '"*2"', 'shared .. "*2" .. {i}'),
@@ -197,14 +179,11 @@ IN_OWN_EFFECTS = [
     ("prefix with digit", "{Keb", "{K1", 'the parameter "K1" .. a letter first and last'),
     ("shapes no table", "{k = 2}", "[2]", "shapes: got [2]; expected a table"),
     ("shape a variable", "{k = 2}", "{k = 2, v = 1}", 'the name "v" .. neither a variable (q,'),
-    ("shape reserved", "{k = 2}", "{k = 2, t0 = 1}", 'the name "t0" .. nor joint, t0'),
     ("empty grid", "[0.1, 0.3]", "[]", "shapes, w: got an empty list .. [0.1, 0.3]"),
     ("value twice", "[0.1, 0.3]", "[0.3, 0.3]", "shapes, w: .. stands there twice"),
     ("value no number", "[0.1, 0.3]", '["x"]', 'shapes, w: got "x"; expected a number'),
-    ("value infinite", "[0.1, 0.3]", "[inf]", "shapes, w: got inf .. finite"),
     ("unused shape", "{k = 2}", "{k = 2, m = 1}", "shapes: no equation uses m .. take it out"),
     ("too many", "[0.1, 0.3]", str([*range(1, 40)]), "117 combinations of c, w"),
-    ("division by 0", "v*exp", "1/v + exp", "columns: Keb = .. no finite value at q = 0, v = 0"),
     ("complex", "v*exp", "v**0.5 + exp", "columns: Keb = .. no finite value at"),
     ("shape 0", "[0.1, 0.3]", "[0, 0.3]", "no finite value at .. w = 0; .. at rest too"),
     ("lag unknown", HOOK, f'{HOOK}\nlag = "abs(u)"', "lag: got .. u is unknown .. among q, v, a"),
@@ -218,7 +197,6 @@ IN_OWN_EFFECTS = [
     ("unit of another", "{Ws =", "{Wx =", 'unit: got "Wx" .. no parameter of this .. Wc, Ws'),
     ("nonnegative no word", "= true", "= 1", "nonnegative: got 1; expected true or false"),
     ("acts unknown", '"position"', '"motor"', 'acts: got "motor"; expected "joint"'),
-    ("acts a list", '"position"', '["joint"]', "acts: got ['joint'] .. expected \"joint\""),
     ("empty title", '"drag of a magnet"', '""', 'title: got ""; expected text'),
     ("z without travel", "{d = [0.01, 0.1]}", "{}", "shapes: z turns over a travel .. {d ="),
     ("z with travel 0", "[0.01, 0.1]", "[0, 0.1]", "shapes: z turns over .. no positive values"),
@@ -234,15 +212,12 @@ IN_FRAMES_AND_TOOL = [
     ("no link", '"base", 0', '"", 0', 'column link: got ""; expected text such as "hand"'),
     ("joint no text", '"wrist"', "7", 'column joint: got 7; expected a name, or ""'),
     ("undeclared", '"R4/2"', '"R4/K"', 'row 1 ("hand"), column x: .. K is not declared'),
-    ("of a joint", '"R4/2"', '"q1"', "column x: .. q1"),
     ("a length", '"90 deg"', '"0.2 m"', 'column yaw: got "0.2 m"'),
     ("short", '"base", 0, "", 0, 0]', '"base", 0, ""]', "row 2: got 3 entries, expected 5"),
     ("key", 'rows = [["hand"', 'lines = [["hand"', 'unknown key "lines"'),
     ("tool key", 'x = "2*D3"', "xx = 1", '[tool]: unknown key "xx"'),
-    ("tool undeclared", '"2*D3"', '"M"', "[tool], x"),
     ("tool truth", 'x = "2*D3"', "yaw = true", "[tool], yaw"),
     ("tool row", 'link = "hand"', 'row = "7"', '[tool], row: got "7"; expected the name of a row'),
-    ("tool row no text", 'link = "hand"', "row = [1]", "row: got [1]; expected the name of a row"),
     ("tool link", 'link = "hand"', 'link = "han"', '[tool] .. did you mean "hand"'),
     ("tool link no text", 'link = "hand"', "link = 1", "link: got 1"),
     ("tool on both", 'x = "2*D3"', 'row = "2"', "[tool] .. keep one of them"),
@@ -252,9 +227,7 @@ IN_FRAMES_AND_TOOL = [
 IN_MOTORS = [
     ("singular", "q2 - 0.4*q1", "2*q1", "[motors] .. singular, some motion of 1, 2, 3 turns no"),
     ("nearly", "q2 - 0.4", "1e-5*q2 - 0.4", "nearly singular, a joint moves 1e+05 times as far"),
-    ("product", "q2 - 0.4*q1", "q2*q1", "not linear"),
     ("no joint", "0.4*q1", "0.4*q7", "q7 is not declared"),
-    ("a motor", "q2 - 0.4*q1", "qm1 + q2", "qm1 is not declared"),
     ("constant", "q2 - 0.4*q1", "q2 + 0.1", "with the constant 0.1"),
     ("no variable", "q2 - 0.4*q1", "0.1", "without a joint variable"),
     ("large", "q2 - 0.4*q1", "q2 - 1e5*q1", "expected at most 10000"),
@@ -268,9 +241,7 @@ IN_MOTORS = [
 
 IN_PASSIVE_FRICTION = [
     ("motor", "[effects]", f'{RUB}["11"]', 'joint "11" has a motor .. write viscous and coulomb'),
-    ("twice", "[effects]", f'{RUB}["21"]\ncoulomb = ["21"]',
-     'passive_friction .. joint "21" has coulomb already .. out of one of them'),
-    ("no joint", "[effects]", f'{RUB}["31"]', 'no moving joint "31"'),
+    ("twice", "[effects]", f'{RUB}["21"]\ncoulomb = ["21"]', '"21" has coulomb already .. of one'),
 ]  # fmt: skip
 
 IN_LAW = [
@@ -281,7 +252,6 @@ IN_LAW = [
     ("not called", "law(q)", "q", "law: no equation calls law; use it, as in law"),
     ("no list", "cells = [2]", "cells = 2", "law, cells: got 2; expected a list of num"),
     ("a word", "[-1]", '["a"]', 'law, low: got "a"; expected'),
-    ("no number", "[-1]", "[nan]", "law, low: got nan; expected"),
     ("a key too many", "1, 1]}", "1, 1], odd = true}", "law: .. odd"),
     ("a key too few", ", values = [0, 0, 0, 1, 1]", "", "law: .. values .. missing"),
     ("no axis", "[-1]", "[]", "law: got 0, 1 and 1 entries of low, hi"),
@@ -358,26 +328,26 @@ def test_unreadable_files_are_told(tmp_path):
         read_robot("x" * 300 + ".toml")
 
 
+PAR = par_text(BOOM, links=3, joints=4)
 SHARDS = [
     *("", '"', "[", "]", "{}", "0", "-", ".", "=", "\n", "(", "**", "é", "true", "pi", "q1", "q2"),
-    *("1e999", "9" * 5000, "0x" + "f" * 5000),
+    *("1e999", "9" * 5000, "0x" + "f" * 5000, ",", "e", ";", "\\", "^"),
 ]
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(50))
 def test_damaged_files_raise_nothing_but_robot_errors(seed):
+    """Ours, one with effects of its own, one of SYMORO."""
     rng = random.Random(seed)
-    text = rng.choice([ARM, *map(builtin_text, builtin_names())])
-    for _ in range(rng.randint(1, 4)):
-        at, other = rng.randrange(len(text)), rng.randrange(len(text))
-        length = rng.choice([0, 1, 1, 3, 20])
-        copied = text[other : other + length]
-        piece = rng.choice([*SHARDS, copied])
-        text = text[:at] + piece + text[at + length :]
-    try:
-        robot = robot_from_text(text, "damaged.toml")
-    except RobotError as error:
-        assert str(error).startswith("damaged.toml: ")
-        assert "\n" not in str(error)
-    else:
-        assert robot.moving
+    of_ours = rng.choice([ARM, *map(builtin_text, builtin_names())])
+    for name, text in (("x.toml", of_ours), ("x.toml", OWN_EFFECTS), ("x.par", PAR)):
+        for _ in range(rng.randint(1, 4)):
+            at, other = rng.randrange(len(text)), rng.randrange(len(text))
+            length = rng.choice([0, 1, 1, 3, 20])
+            piece = rng.choice([*SHARDS, text[other : other + length]])
+            text = text[:at] + piece + text[at + length :]
+        try:
+            text = par_to_toml(text.encode(), name).text if name == "x.par" else text
+            assert robot_from_text(text, name).moving
+        except RobotError as error:
+            assert str(error).startswith(name) and "\n" not in str(error)

@@ -1,7 +1,5 @@
 """Effects that a robot file defines itself: what is read, every mistake, editing the file."""
 
-import random
-
 import pytest
 
 from modeler.api import load, own_effect
@@ -12,8 +10,6 @@ from modeler.effects.effect import Acts
 from modeler.robot.edit import with_effect, with_effects
 from modeler.robot.read import robot_from_text
 from tests.robot.texts import OWN_EFFECTS
-
-FIRST = "[own_effects.eddy_brake]"
 
 
 def test_the_good_file_is_read():
@@ -99,15 +95,3 @@ def test_from_python_without_a_file():
         own_effect(robot, "fan2")
     with pytest.raises(RobotError, match='got the name "a b"'):
         own_effect(robot, "a b", columns={"Kg": "v"})
-
-
-@pytest.mark.parametrize("seed", range(12))
-def test_damaged_definitions_raise_nothing_but_robot_errors(seed):
-    rng = random.Random(seed)
-    start, end = OWN_EFFECTS.index(FIRST), OWN_EFFECTS.index("[effects]")
-    place, length = rng.randrange(start, end), rng.randrange(8)
-    shard = rng.choice(["", '"', "[", "{}", "0", "-", "=", "**", "v", "q", "w", "1e999", "9" * 400])
-    try:
-        robot_from_text(OWN_EFFECTS[:place] + shard + OWN_EFFECTS[place + length :], "arm.toml")
-    except RobotError as error:
-        assert "\n" not in str(error)

@@ -1,6 +1,5 @@
 """Units of lengths, swapped units, and slips of a table that are told."""
 
-import json
 import re
 from fractions import Fraction
 
@@ -103,12 +102,9 @@ def test_a_robot_without_title_prints_its_name_once(capsys, tmp_path):
     rows = '["1", "q1", 0, 0], ["2", "q2", "pi/2", 0.06], ["3", "q3", 0, 0.4]'
     path = tmp_path / "arm.toml"
     path.write_text(arm(rows).text, encoding="utf-8")
-    assert main(["derive", str(path), "--json", str(tmp_path / "d.json")]) == 0
+    assert main(["derive", str(path)]) == 0
     out = capsys.readouterr().out
     assert out.splitlines()[0] == "arm"
     # what would fill more than a page is counted
     (line,) = [line for line in out.splitlines() if "PG/PJ/PS" in line]
     assert int(line.split()[0]) > 40 and "--terms" in line and "PJ1 " not in out
-    assert json.loads((tmp_path / "d.json").read_text())["rank"] == 15
-    assert main(["derive", str(path), "--terms"]) == 0
-    assert "PJ1 " in capsys.readouterr().out

@@ -42,12 +42,8 @@ def test_acceleration_that_is_stated_is_the_limit(limit: str, expected: float) -
     assert any("jerk" in note and '"j1"' in note for note in made.notes) == ("jerk" in limit)
 
 
-def test_excite_keeps_the_acceleration_of_the_file(tmp_path) -> None:
+def test_excite_says_of_which_joints_no_limits_are_stated(tmp_path) -> None:
     path = tmp_path / "arm.urdf"
-    path.write_text(ARM % ("revolute", f'<limit effort="9" {RANGE} acceleration="1.5"/>'))
-    motion = md.excite(md.load(path), duration=5.0, harmonics=2, starts=1)
-    assert motion.used.acceleration[0] <= 1.5
-    assert not any("are assumed" in line for line in motion.lines())
     path.write_text(ARM % ("continuous", ""))
     motion = md.excite(md.load(path), duration=5.0, harmonics=2, starts=1)
     assert any("no limits are stated for 1: those above are" in line for line in motion.lines())
