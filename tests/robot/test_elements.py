@@ -15,52 +15,15 @@ from modeler.robot.robot import JointKind
 from modeler.robot.urdf import urdf_tree
 from tests.robot.public_robots import public_urdfs
 
-# URDF: what urdfdom's schema has to version 1.2, and what other programs add. Of each path the
-# attributes; those behind "mechanics:" must not be called idle.
-URDF = """
-robot: name version ; robot/link: name type
-robot/link/inertial/origin: mechanics: xyz rpy quat_xyzw
-robot/link/inertial/mass: mechanics: value
-robot/link/inertial/inertia: mechanics: ixx ixy ixz iyy iyz izz ; robot/link/visual:
-robot/link/collision: ; robot/material: ; robot/joint: name mechanics: type
-robot/joint/origin: mechanics: xyz rpy quat_xyzw ; robot/joint/parent: mechanics: link
-robot/joint/child: mechanics: link ; robot/joint/axis: mechanics: xyz ; robot/joint/calibration:
-robot/joint/dynamics: mechanics: damping friction
-robot/joint/limit: mechanics: lower upper effort velocity acceleration deceleration jerk
-robot/joint/safety_controller: k_position k_velocity mechanics: soft_lower_limit soft_upper_limit
-robot/joint/mimic: mechanics: joint multiplier offset ; robot/transmission: name mechanics: type
-robot/transmission/leftActuator: mechanics: ; robot/transmission/rightActuator: mechanics:
-robot/transmission/flexJoint: mechanics: ; robot/transmission/rollJoint: mechanics:
-robot/transmission/gap_joint: mechanics: ; robot/transmission/passive_joint:
-robot/transmission/use_simulated_gripper_joint:
-robot/transmission/mechanicalReduction: mechanics: ; robot/transmission/actuator: mechanics: name
-robot/transmission/actuator/mechanicalReduction: mechanics:
-robot/transmission/actuator/motorInertia: mechanics: ; robot/transmission/joint: mechanics: name
-robot/transmission/joint/mechanicalReduction: mechanics:
-"""
-GAZEBO = """cfmDamping collision disableFixedJointLumping fdir1 fudgeFactor genTexCoord
-implicitSpringDamper kd kp laserRetro material maxContacts maxVel minDepth mu1 mu2
-preserveFixedJoint provideFeedback selfCollide sensor static stopCfm stopErp visual
-mechanics: dampingFactor gravity turnGravityOff springReference springStiffness
-initial_joint_position joint link plugin inertial axis pose"""
-OTHERS = """robot/drake:joint robot/joint/drake:mimic robot/drake:linear_bushing_rpy
-robot/drake:ball_constraint robot/transmission/actuator/drake:rotor_inertia
-robot/transmission/actuator/drake:gear_ratio robot/drake:linear_spring_damper robot/loop
-robot/coupling robot/loop_joint robot/constraint robot/joint_constraint
-robot/ros2_control/joint/param robot/ros2_control/transmission
-robot/ros2_control/joint/command_interface robot/link/contact/inertia_scaling robot/mujoco"""
 MECHANICS = ("read", "told", "refused")
 
 
 def test_the_schema_of_urdf_is_known() -> None:
-    table, known = element_table("urdf"), []
-    for line in re.split(r" ; |\n", URDF.strip()):
-        path, _, names = line.partition(": ")
-        known.append((path.rstrip(":"), names))
-    known += [("robot/gazebo/" + name, " mechanics:" * (name in GAZEBO.split("mechanics:")[1]))
-              for name in GAZEBO.replace("mechanics:", "").split()]  # fmt: skip
-    known += [(path.replace("drake:joint", "joint"), " mechanics:") for path in OTHERS.split()]
-    for path, names in known:
+    """Of each path of `files/urdf_schema.txt` the attributes, behind "mechanics:" what weighs."""
+    table = element_table("urdf")
+    schema = Path(__file__).with_name("files").joinpath("urdf_schema.txt").read_text("utf-8")
+    for line in schema.splitlines()[2:]:
+        path, _, names = line.partition(" ")
         plain, matters, heavy = names.partition("mechanics:")
         assert table.verdict(path), path
         if matters:
