@@ -17,6 +17,7 @@ from modeler.codegen.emit import emit
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import regressor_values
+from modeler.robot.body_tree import poses_at
 from modeler.robot.mjcf import mjcf_tree
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import INERTIAL, JointKind
@@ -187,48 +188,35 @@ def alike(ours, theirs, tolerance):
 each_file = each_of(FILES, KINDS)
 
 
-def check_places(both, found):
-    """That bodies are where MuJoCo has them, at ten postures; found: q -> body -> 4x4 pose."""
+@each_file
+@pytest.mark.parametrize("exact", [False, True], ids=["table", "as printed"])
+def test_every_body_is_where_mujoco_has_it(path, exact):
+    """By the rows and `[frames]`, roundings made good; along the joints, with the file's decimals.
+
+    At ten postures.
+    """
+    both = Both(path, exact)
+    names = [joint.name for joint in (both.moving if exact else both.robot.moving)]
     states = both.states(10)
     for k in range(10):
         both.torques([part[k : k + 1] for part in states])
-        poses = found(both.G @ states[0][k] + both.offset)
-        assert len(poses) > both.model.nbody / 2
-        for i, pose in poses.items():
+        q = dict(zip(names, both.G @ states[0][k] + both.offset, strict=True))
+        if exact:
+            ways = poses_at(both.tree, q).items()
+            places = {
+                both.bodies.index(body): (pose.position, pose.rotation)
+                for body, pose in ways
+                if body not in both.tree.hidden
+            }
+        else:
+            rows = frames(both.robot, q)
+            poses = {i: rows[row] @ place for i, row, place in both.links()}
+            places = {i: (pose[:3, 3], pose[:3, :3]) for i, pose in poses.items()}
+        assert len(places) > both.model.nbody / 2
+        for i, (position, rotation) in places.items():
             size = max(1.0, np.abs(both.data.xpos[i]).max())
-            assert np.abs(pose[:3, 3] - both.data.xpos[i]).max() < 1e-12 * size, both.bodies[i]
-            assert np.abs(pose[:3, :3].ravel() - both.data.xmat[i]).max() < 1e-12, both.bodies[i]
-
-
-@each_file
-def test_every_body_is_where_mujoco_has_it(path):
-    """From the rows of the table and `[frames]`, where roundings are made good."""
-    both = Both(path)
-    names = [joint.name for joint in both.robot.moving]
-
-    def found(q):
-        rows = frames(both.robot, dict(zip(names, q, strict=True)))
-        return {i: rows[row] @ place for i, row, place in both.links()}
-
-    check_places(both, found)
-
-
-@each_file
-def test_every_body_is_there_as_printed(path):
-    """Along the joints of the tree, with the decimals that the file prints."""
-    both = Both(path, exact=True)
-    names = [joint.name for joint in both.moving]
-
-    def found(q):
-        at, poses = dict(zip(names, q, strict=True)), {both.tree.root: np.eye(4)}
-        for joint in both.tree.joints:
-            step = joint.at(at.get(joint.name, 0.0))
-            pose = np.eye(4)
-            pose[:3, :3], pose[:3, 3] = step.rotation, step.position
-            poses[joint.child] = poses[joint.parent] @ pose
-        return {both.bodies.index(n): p for n, p in poses.items() if n not in both.tree.hidden}
-
-    check_places(both, found)
+            assert np.abs(position - both.data.xpos[i]).max() < 1e-12 * size, both.bodies[i]
+            assert np.abs(rotation.ravel() - both.data.xmat[i]).max() < 1e-12, both.bodies[i]
 
 
 @each_file
