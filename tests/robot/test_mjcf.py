@@ -462,14 +462,26 @@ MUTANTS = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("mutant", MUTANTS)
-def test_no_mutant_is_read_as_the_file_itself(mutant: tuple[str, str], tmp_path: Path) -> None:
-    def said(text: str) -> tuple[str, tuple[str, ...]] | None:
-        try:
-            made = tree_to_toml(cut(read(tmp_path, text)), "arm.xml")
-        except RobotError as error:
-            assert "schema" not in str(error).lower(), error
-            return None
-        return made.text, made.notes
+def said(folder: Path, text: str) -> tuple[str, tuple[str, ...]] | None:
+    """The robot file and what is told of it; None where it is refused."""
+    try:
+        made = tree_to_toml(cut(read(folder, text)), "arm.xml")
+    except RobotError as error:
+        assert "schema" not in str(error).lower(), error
+        return None
+    return made.text, made.notes
 
-    assert said(ARM) not in (None, said(edited(ARM, mutant)))
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("mutants")
+
+
+@pytest.fixture(scope="module")
+def said_of_arm(folder: Path) -> tuple[str, tuple[str, ...]] | None:
+    return said(folder, ARM)
+
+
+@pytest.mark.parametrize("mutant", MUTANTS)
+def test_no_mutant_is_read_as_the_file_itself(mutant: tuple, folder: Path, said_of_arm) -> None:
+    assert said_of_arm not in (None, said(folder, edited(ARM, mutant)))
