@@ -1,5 +1,7 @@
 """Poses of links by the definitions of `[frames]`: nothing of the reader's is in them."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from modeler.robot.robot import Robot
@@ -13,16 +15,17 @@ def origin_pose(position, angles) -> np.ndarray:
     return np.linalg.multi_dot([*steps, turn(2, yaw), turn(1, pitch), turn(0, roll)])
 
 
-def place_on_row(robot: Robot, link: str) -> np.ndarray:
-    """Of the frame of a link on the row that carries it."""
-    frame, values = robot.frames[link], robot.symbol_values()
+def place_on_row(robot: Robot, link: str, values: Mapping[str, float]) -> np.ndarray:
+    """Of the frame of a link on the row that carries it; values of symbols."""
+    frame = robot.frames[link]
     cells = ([x.number(values) for x in part] for part in (frame.position, frame.angles))
     return origin_pose(*cells)
 
 
 def link_poses(robot: Robot, q) -> dict[str, np.ndarray]:
     """Of the frame of every link in frame 0."""
-    rows = frames(robot, q)
+    rows, values = frames(robot, q), robot.symbol_values()
     return {
-        link: rows[frame.row] @ place_on_row(robot, link) for link, frame in robot.frames.items()
+        link: rows[frame.row] @ place_on_row(robot, link, values)
+        for link, frame in robot.frames.items()
     }

@@ -153,9 +153,10 @@ class Both:
 
     def links(self):
         """MuJoCo's number of every body on a row, with its row and its place there."""
+        values = self.robot.symbol_values()
         for link, frame in self.robot.frames.items():
             if link in self.bodies:
-                yield self.bodies.index(link), frame.row, place_on_row(self.robot, link)
+                yield self.bodies.index(link), frame.row, place_on_row(self.robot, link, values)
             else:
                 assert link in self.tree.hidden
 

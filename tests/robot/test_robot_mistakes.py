@@ -127,6 +127,39 @@ IN_ARM = [
     ("physical text", 'mass = "m1"', 'mass = "m1 *"', 'mass .. got "m1 *" .. cannot be read'),
 ]  # fmt: skip
 
+D, MOST = '0, "D3"', "expected at most "
+UNITS_AND_SIZES_IN_ARM = [
+    ("angle for length", D, '0, "90 deg"', "column d .. an angle; expected a length, m"),
+    ("length for angle", '"pi/2", 0, "pi', '"60 mm", 0, "pi', "alpha .. a length .. an angle, rad"),
+    ("angle of a symbol", "D3 = 0.45", 'D3 = "30 deg"', "column d .. an angle"),
+    ("length in limits", '["-pi", 2.5', '["-pi", "9 mm"', "[limits] .. entry 2 .. a length"),
+    ("length in home", "[limits]", '[home]\nq1 = "9 mm"\n[limits]', "[home] .. expected an angle"),
+    ("greek variable", '0, 0, "q1", 0]', '0, 0, "θ1", 0]', "expected q1, the variable of this row"),
+    ("t for q", '0, 0, "q1", 0]', '0, 0, "t1", 0]', "expected q1, the variable of this row"),
+    ("d for q", '"q3 + R4"', '"d3"', "expected q3, the variable of this row"),
+    ("i for j", '["j", "a"', '["i", "a"', 'entry 1 is "i" .. row names stand in column "j"'),
+    ("link for j", '["j", "a"', '["link", "a"', 'entry 1 is "link" .. row names stand in column'),
+    ("deep", D, '0, "%s"' % ("sin(" * 31 + "D3" + ")" * 31), MOST + "30"),
+    ("far too deep", D, '0, "%s"' % ("sin(" * 2000 + "D3" + ")" * 2000), MOST + "4000"),
+    ("signs", D, '0, "%s"' % ("-" * 100 + "D3"), MOST + "30"),
+    ("sum", D, f'0, "{"+".join(["D3"] * 400)}"', "of 399 operations; " + MOST + "300"),
+    ("tower", D, '0, "2**2**2**2**2"', "an exponent of 6.55e+04; " + MOST + "100"),
+    ("exponent", D, '0, "D3**(50 + 51)"', "an exponent of 101; " + MOST + "100"),
+    ("negative exponent", D, '0, "D3**-101"', "an exponent of 101; " + MOST + "100"),
+    ("infinite exponent", D, '0, "D3**(10.0**400)"', "an exponent of inf; " + MOST + "100"),
+    ("product", D, '0, "10**99*10**99"', "which is 1e+198; " + MOST),
+    ("length", D, '0, "1e5"', "which is 1e+05; " + MOST + "10000"),
+    ("length of a symbol", "D3 = 0.45", "D3 = 1e11", 'got "D3", which is 1e+11; expected at most'),
+    ("symbol", "D3 = 0.45", "D3 = 1e200", "[symbols], D3: got .. at most 1e+12"),
+    ("symbol's exponent", "D3 = 0.45", 'D3 = "0.5**N"\nN = 1000000000', "D3 .. a larger exponent"),
+    ("name of 64", "D3 = 0.45", f"D3 = 0.45\n{'D' * 64} = 1", "of 64 letters; expected at most 63"),
+    ("robot of 64", '"arm"', f'"{"a" * 64}"', "name: got .. of 64 letters"),
+    ("row of 64", '["1", "0"', f'["{"2" * 64}", "0"', "column j: got .. of 64 letters"),
+    ("gravity", '"-g"', '"-1e9*g"', "gravity, entry 3: got .. at most 10000"),
+    ("parameter", "ZZ1 = 0.5", "M2 = 1e300", "[parameters], M2: got 1e+300; .. 1e+12"),
+    ("coupling", '"q1 + 2*q2"', '"1e5*q1 + q2"', '[coupling], "2": .. at most 10000'),
+]  # fmt: skip
+
 IN_PLANAR = [
     ("mark without legs", 'legs = ["1", "2"]\n', "", "{i} stands for the legs .. names none"),
     ("legs no list", 'legs = ["1", "2"]', 'legs = "1"', "legs: got .. expected a list"),
@@ -136,6 +169,7 @@ IN_PLANAR = [
     ("other mark", '"1{i}", "2{i}"]', '"1{k}", "2{i}"]', "effects .. {k} .. only mark"),
     ("relation of nothing", "q7 = ", "q9 = ", '[relations] .. "q9" .. no joint variable .. q4'),
     ("relation of itself", "-q21 + pi/2", "q7 + q12", "holds q7 itself"),
+    ("large relation", "-q21 + pi/2", "1e5*q12", '"q7": .. at most 10000'),
     ("constant relation", "-q21 + pi/2", "pi/2", "a constant .. sigma 2"),
     ("actuated follows", '["7", "21", 0,', '["7", "21", 1,', "column mu .. follows .. write 0"),
     ("circle", '"-q21 + pi/2"', '"-q21"\nq21 = "q7"', "follow each other in a circle"),
@@ -184,6 +218,8 @@ IN_OWN_EFFECTS = [
     ("value no number", "[0.1, 0.3]", '["x"]', 'shapes, w: got "x"; expected a number'),
     ("unused shape", "{k = 2}", "{k = 2, m = 1}", "shapes: no equation uses m .. take it out"),
     ("too many", "[0.1, 0.3]", str([*range(1, 40)]), "117 combinations of c, w"),
+    ("large", "v*exp", "1e300*v + exp", "Keb = .. one of at most 1e+12"),
+    ("load", "z*cos(q)", "z*load", "[reference]: is missing; hook depends on the torques"),
     ("complex", "v*exp", "v**0.5 + exp", "columns: Keb = .. no finite value at"),
     ("shape 0", "[0.1, 0.3]", "[0, 0.3]", "no finite value at .. w = 0; .. at rest too"),
     ("lag unknown", HOOK, f'{HOOK}\nlag = "abs(u)"', "lag: got .. u is unknown .. among q, v, a"),
@@ -264,10 +300,10 @@ IN_LAW = [
 ]  # fmt: skip
 
 TABLES = {
-    "arm": (ARM, IN_ARM), "frames and tool": (ARM, IN_FRAMES_AND_TOOL),
-    "planar": (PLANAR, IN_PLANAR), "own effects": (OWN_EFFECTS, IN_OWN_EFFECTS),
-    "law": (LAW, IN_LAW), "motors": (COUPLED, IN_MOTORS),
-    "passive friction": (FIVE_BAR, IN_PASSIVE_FRICTION),
+    "arm": (ARM, IN_ARM), "units and sizes": (ARM, UNITS_AND_SIZES_IN_ARM),
+    "frames and tool": (ARM, IN_FRAMES_AND_TOOL), "planar": (PLANAR, IN_PLANAR),
+    "own effects": (OWN_EFFECTS, IN_OWN_EFFECTS), "law": (LAW, IN_LAW),
+    "motors": (COUPLED, IN_MOTORS), "passive friction": (FIVE_BAR, IN_PASSIVE_FRICTION),
 }  # fmt: skip
 
 

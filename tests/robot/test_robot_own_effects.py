@@ -1,15 +1,20 @@
 """Effects that a robot file defines itself: what is read, every mistake, editing the file."""
 
+import time
+
+import numpy as np
 import pytest
 
 from modeler.api import load, own_effect
 from modeler.codegen.workflow import derive
 from modeler.core.errors import DerivationError, RobotError
+from modeler.core.law import MOST
 from modeler.effects.catalogue import CATALOGUE, effect_named
 from modeler.effects.effect import Acts
 from modeler.robot.edit import with_effect, with_effects
 from modeler.robot.read import robot_from_text
-from tests.robot.texts import OWN_EFFECTS
+from tests.learned import drawn, text_with
+from tests.robot.texts import LAW, OWN_EFFECTS
 
 
 def test_the_good_file_is_read():
@@ -42,10 +47,8 @@ def test_two_parameters_of_one_name_are_refused():
         robot_from_text(text, "two.toml")
 
 
-def test_a_load_needs_its_reference():
+def test_a_load_has_its_reference():
     text = OWN_EFFECTS.replace("z*cos(q)", "z*load")
-    with pytest.raises(RobotError, match=r"\[reference\]: is missing; hook depends on the torques"):
-        robot_from_text(text, "arm.toml")
     assert robot_from_text(text + "[reference]\nM1 = 2.0\n", "arm.toml").reference == {"M1": 2.0}
 
 
@@ -95,3 +98,27 @@ def test_from_python_without_a_file():
         own_effect(robot, "fan2")
     with pytest.raises(RobotError, match='got the name "a b"'):
         own_effect(robot, "a b", columns={"Kg": "v"})
+
+
+# The key `law`.
+
+TABLE = "{low = [-1], high = [1], cells = [2], values = [0, 0, 0, 1, 1]}"
+
+
+def test_a_message_never_shows_a_whole_table() -> None:
+    cells = [float(x) for x in np.linspace(0, 1, 3000)]
+    for wrong in (f"{{low = {cells}}}", f"{cells}", TABLE.replace("[2]", str(cells))):
+        with pytest.raises(RobotError) as told:
+            robot_from_text(LAW.replace(TABLE, wrong), "arm")
+        assert len(str(told.value)) < 500
+
+
+def test_the_largest_table_is_read() -> None:
+    law = drawn(np.random.default_rng(1), 2, (97, 97))
+    assert len(law.values) == MOST
+    text = text_with("two-link", {"1": ("law(q, v)", law)})
+    begin = time.process_time()
+    robot = robot_from_text(text, "arm")
+    assert time.process_time() - begin < 10
+    (effect,) = robot.own_effects
+    assert effect.columns[0].equation.law == law

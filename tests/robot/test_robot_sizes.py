@@ -6,81 +6,23 @@ from modeler.core.errors import RobotError
 from modeler.robot.read import robot_from_text
 
 
-def arm(d: str = "0.3", symbols: str = "", further: str = "", alpha: str = "0") -> str:
+def arm(d: str) -> str:
     return (
-        'name = "arm"\ngravity = [0, 0, "-g"]\n'
-        f"[symbols]\ng = 9.81\nL = 0.4\n{symbols}\n[mdh]\n"
-        'columns = ["j", "alpha", "d", "theta"]\n'
-        f'rows = [["1", 0, 0, "q1"], ["2", "{alpha}", "{d}", "q2"]]\n{further}\n'
+        'name = "arm"\ngravity = [0, 0, -9.81]\n[symbols]\nL = 0.4\n[mdh]\n'
+        f'columns = ["j", "d", "theta"]\nrows = [["1", 0, "q1"], ["2", "{d}", "q2"]]\n'
     )
-
-
-def nested(function: str, depth: int) -> str:
-    return f"{function}(" * depth + "L" + ")" * depth
-
-
-CELL = r'arm.toml: \[mdh\], row "2", column d: got '
-MOST = r"expected at most "
-
-
-@pytest.mark.parametrize(
-    ("d", "told"),
-    [
-        (nested("sin", 31), MOST + "30"),
-        (nested("sin", 2000), MOST + "4000"),
-        (nested("", 500), MOST + "30"),
-        ("-" * 100 + "L", MOST + "30"),
-        ("+".join(["L"] * 400), "of 399 operations; " + MOST + "300"),
-        ("2**2**2**2**2", "an exponent of 6.55e\\+04; " + MOST + "100"),
-        ("L**(50 + 51)", "an exponent of 101; " + MOST + "100"),
-        ("L**-101", "an exponent of 101; " + MOST + "100"),
-        ("L**(10.0**400)", "an exponent of inf; " + MOST + "100"),
-        ("10**99*10**99", "which is 1e\\+198; " + MOST),
-        ("1e5", "which is 1e\\+05; " + MOST + "10000"),
-        ("0**-1", "no finite real value"),
-    ],
-)
-def test_a_cell_that_is_too_much_is_told(d, told):
-    with pytest.raises(RobotError, match=CELL + ".*" + told) as caught:
-        robot_from_text(arm(d), "arm.toml")
-    assert "\n" not in str(caught.value)
-    assert len(str(caught.value)) < 300
 
 
 @pytest.mark.parametrize(
     "d",
     [
-        nested("sin", 30), "+".join(["L/300"] * 100), "*".join(["L"] * 300),
+        "sin(" * 30 + "L" + ")" * 30, "+".join(["L/300"] * 100), "*".join(["L"] * 300),
         "1e-300*1e300*L", "L**100", "1e4", "-1e4", "0.5**(2 + pi/pi)", "1e-200",
     ],
 )  # fmt: skip
 def test_what_is_large_and_allowed_is_read(d):
     value = robot_from_text(arm(d), "arm.toml").joints[1].d
-    assert abs(value.number({"L": 0.4, "g": 9.81})) <= 1e4
-
-
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        (arm("D", 'D = "0.5**N"\nN = 1000000000'), r"\[symbols\], D: got .*a larger exponent"),
-        (arm(symbols="D = 1e200"), r"\[symbols\], D: got .*at most 1e\+12"),
-        (arm("D", "D = 1e11"), r'column d: got "D", which is 1e\+11; expected at most 10000'),
-        (arm(symbols=f"{'D' * 64} = 1"), "of 64 letters; expected at most 63"),
-        (arm().replace('"arm"', f'"{"a" * 64}"'), "name: got .*of 64 letters"),
-        (arm().replace('"2"', f'"{"2" * 64}"'), "column j: got .*of 64 letters"),
-        (arm().replace('"-g"', '"-1e9*g"'), "gravity, entry 3: got .*at most 10000"),
-        (arm(further="[parameters]\nM2 = 1e300"), r"\[parameters\], M2: got 1e\+300; .*1e\+12"),
-        (arm(further="[coupling]\n2 = '1e5*q1 + q2'"), r'\[coupling\], "2": .*at most 10000'),
-        (arm(further="[relations]\nq2 = '1e5*q1'"), r'\[relations\], "q2": .*at most 10000'),
-        (
-            arm(further='[own_effects.k]\ncolumns = {Kz = "1e300*v"}'),
-            r"Kz = .*one of at most 1e\+12",
-        ),
-    ],
-)
-def test_names_and_numbers_are_bounded(text, told):
-    with pytest.raises(RobotError, match=told):
-        robot_from_text(text, "arm.toml")
+    assert abs(value.number({"L": 0.4})) <= 1e4
 
 
 def chain(rows: int) -> str:

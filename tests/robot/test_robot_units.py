@@ -6,7 +6,6 @@ from fractions import Fraction
 import pytest
 
 from modeler.cli import main
-from modeler.core.errors import RobotError
 from modeler.core.expression import parse
 from modeler.robot.read import robot_from_text
 
@@ -43,22 +42,6 @@ def test_units_stand_wherever_degrees_do():
     assert robot.readings == ()
 
 
-SWAPPED = [
-    ('["1", "q1", 0, "90 deg"]', "", ["column d", "an angle; expected a length, m"]),
-    ('["1", "q1", "60 mm", 0]', "", ["column alpha", "a length; expected an angle, rad"]),
-    ('["1", "q1", 0, "2*A"]', '[symbols]\nA = "30 deg"', ["column d", "an angle"]),
-    ('["1", "q1", 0, 0]', '[limits]\n1 = [-1, "9 mm", 1, 1]', ["[limits]", "entry 2", "a length"]),
-    ('["1", "q1", 0, 0]', '[home]\nq1 = "9 mm"', ["[home]", "a length; expected an angle"]),
-]
-
-
-@pytest.mark.parametrize(("rows", "further", "told"), SWAPPED)
-def test_units_of_the_other_kind_are_refused(rows, further, told):
-    with pytest.raises(RobotError, match=".*".join(map(re.escape, told))) as caught:
-        arm(rows, further=further)
-    assert "\n" not in str(caught.value)
-
-
 @pytest.mark.parametrize("cell", ["R*sin(30 deg)", "R*(30 deg)", "cos((A)) * 3 m"])
 def test_angles_within_lengths_are_fine(cell):
     robot = arm(f'["1", "q1", 0, "{cell}"]', further='[symbols]\nR = 0.2\nA = "30 deg"')
@@ -71,20 +54,6 @@ def test_lengths_in_mm_are_told():
     assert 'row "2", column d, is 400 m' in told and '"400 mm"' in told
     assert arm('["1", "q1", 0, 19]').readings == ()
     assert arm('["1", "q1", 0, "60 m"]').readings == ()
-
-
-@pytest.mark.parametrize("name", ["θ1", "t1"])
-def test_other_names_of_the_joint_variable_are_answered_with_it(name):
-    with pytest.raises(RobotError, match="expected q1, the variable of this row"):
-        arm(f'["1", "{name}", 0, 0]')
-    with pytest.raises(RobotError, match="expected q1, the variable of this row"):
-        arm('["1", 1, 0, "d1"]', '"j", "sigma", "theta", "r"')
-
-
-@pytest.mark.parametrize("name", ["i", "link"])
-def test_row_names_under_another_letter_are_answered_with_j(name):
-    with pytest.raises(RobotError, match=f'entry 1 is "{name}".*row names stand in column "j"'):
-        arm('["1", "q1"]', f'"{name}", "theta"')
 
 
 def test_a_variable_in_two_rows_is_told_unless_it_is_meant():

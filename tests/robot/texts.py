@@ -52,4 +52,4 @@ def check_mistake(text: str, old: str, new: str, told: str) -> None:
     with pytest.raises(RobotError, match=pattern) as caught:
         robot_from_text(text.replace(old, new, 1), "arm.toml")
     message = str(caught.value)
-    assert message.startswith("arm.toml: ") and "\n" not in message and len(message) < 700
+    assert message.startswith("arm.toml: ") and "\n" not in message and len(message) < 500
