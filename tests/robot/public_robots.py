@@ -31,11 +31,11 @@ with branches, bodies on fixed joints: the others rotate."""
 
 def each_public_urdf() -> pytest.MarkDecorator:
     """The test for every one of them, as `path`."""
-    found = public_urdfs()
+    paths = public_urdfs()
     why = "NOT CHECKED: public URDFs, for example-robot-data is not installed"
     none = [pytest.param(None, id="none", marks=pytest.mark.skip(why))]
     cases = [
         pytest.param(p, id=p.stem, marks=() if p.stem in KINDS else pytest.mark.rotating)
-        for p in found
+        for p in paths
     ]
     return pytest.mark.parametrize("path", cases or none)

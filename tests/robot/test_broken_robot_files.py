@@ -42,7 +42,7 @@ BROKEN = [
 ]  # fmt: skip
 
 
-def refused(text: bytes | str, path: Path) -> str:
+def message_of(text: bytes | str, path: Path) -> str:
     """What is told of a file, which is one line and not longer than one reads."""
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(RobotError) as error:
@@ -57,7 +57,7 @@ def refused(text: bytes | str, path: Path) -> str:
     ("old", "new", "expected"), [pytest.param(*row[1:], id=row[0]) for row in BROKEN]
 )
 def test_mistakes_are_told_with_their_place(old: str, new: str, expected: str, tmp_path: Path):
-    told = refused(edited(ARM, (old, new)), tmp_path / "arm.urdf")
+    told = message_of(edited(ARM, (old, new)), tmp_path / "arm.urdf")
     assert re.search(expected, told), told
     assert re.search(r": line \d+: ", told), told
 
@@ -73,7 +73,7 @@ def test_mistakes_are_told_with_their_place(old: str, new: str, expected: str, t
 )
 def test_other_formats_are_named(text: str, told: str, tmp_path: Path):
     path = tmp_path / ("arm.urdf.xacro" if "xacro" in text else "arm.urdf")
-    assert re.search(told, refused(text, path))
+    assert re.search(told, message_of(text, path))
 
 
 def test_what_can_be_read_is_read(tmp_path: Path):

@@ -223,31 +223,31 @@ def robot_of(book):
 def link_frames(book, q):
     """Where the inertial parameters of each link stand: behind Rz(theta) Tz(d) of its joint."""
     convention, _, rows = BOOKS[book]
-    pose, found = shift(2, -0.672) if book == "corke" else np.eye(4), []
+    pose, poses = shift(2, -0.672) if book == "corke" else np.eye(4), []
     for row, x in zip(rows, q, strict=True):
         first, a, last = map(number, row)
         if convention != "classical":
             pose = pose @ turn(0, first) @ shift(0, a) @ turn(2, x) @ shift(2, last)
-            found.append(pose)
+            poses.append(pose)
         else:
             pose = pose @ turn(2, x) @ shift(2, first)
-            found.append(pose)
+            poses.append(pose)
             pose = pose @ shift(0, a) @ turn(0, round(last / RIGHT) * RIGHT)
-    return found
+    return poses
 
 
 def test_puma_of_four_books_has_the_same_torques():
     rng = np.random.default_rng(1986)
     bodies = [random_body(rng) for _ in range(6)]  # in the shoulder's frame, all at Craig's 0
     q, qd, qdd = rng.normal(size=(3, 10, 6))
-    found = {}
+    by_book = {}
     for book, (_, zero, _) in BOOKS.items():
         frames_and_bodies = zip(link_frames(book, zero), bodies, strict=True)
         chi = np.concatenate([ten_at(np.linalg.inv(one), body) for one, body in frames_and_bodies])
-        found[book] = torques(derive_model(robot_of(book)), chi, q + zero, qd, qdd)
-    for book, tau in found.items():
+        by_book[book] = torques(derive_model(robot_of(book)), chi, q + zero, qd, qdd)
+    for book, tau in by_book.items():
         np.testing.assert_allclose(
-            tau, found["craig"], atol=1e-11 * np.abs(tau).max(), err_msg=book
+            tau, by_book["craig"], atol=1e-11 * np.abs(tau).max(), err_msg=book
         )
     # A sign or offset forgotten would be seen.
     shifted = link_frames("corke", [0, math.pi, 0, 0, 0, 0])

@@ -58,15 +58,15 @@ HEAVY = {
 
 def mjcf_schema(text: str) -> dict[str, set[str]]:
     """Path -> attributes, of what MuJoCo prints of its schema."""
-    found: dict[str, set[str]] = {}
+    schema: dict[str, set[str]] = {}
     way: list[str] = []
     for line in filter(str.strip, text.splitlines()):
         if head := re.match(r"( *)(\S+) \(.\) *(.*)", line):
             depth, tag = len(head[1]) // 3, SAME.get(head[2], head[2])
             way = [*way[:depth], tag]
-            found.setdefault("/".join(way), set())
-        found["/".join(way)] |= set((head[3] if head else line).split())
-    return found
+            schema.setdefault("/".join(way), set())
+        schema["/".join(way)] |= set((head[3] if head else line).split())
+    return schema
 
 
 def test_the_schema_of_mjcf_is_known() -> None:
@@ -154,7 +154,7 @@ def mutants(text: str, rng: np.random.Generator) -> list[str]:
     assert name and leader and child
     names = {"joint": name[1], "first": leader[1], "child": child[1],
              "root": urdf_tree(text.encode(), "x.urdf").root}  # fmt: skip
-    found = [text.replace("</robot>", tie.format(**names) + "</robot>") for tie in TIES]
+    changed = [text.replace("</robot>", tie.format(**names) + "</robot>") for tie in TIES]
     for more in INSIDE:
         tag = re.match(r"<([\w:]+)", more)
         assert tag
@@ -162,16 +162,16 @@ def mutants(text: str, rng: np.random.Generator) -> list[str]:
         more = more.format(**names)
         for joint in (bare.replace("</joint>", f"{more}</joint>"),
                       one.replace("</joint>", f"{more * 2}</joint>")):  # fmt: skip
-            found.append(text.replace(one, joint, 1))
+            changed.append(text.replace(one, joint, 1))
     named = rf'<link\s+name\s*=\s*"{re.escape(child[1])}"[^>]*>.*?</link>'
     link = re.search(named, text, re.DOTALL)
     for pattern, change in CHANGES.items():
         if link and (spot := re.compile(pattern).search(text, link.start(), link.end())):
-            found.append(text[: spot.start(1)] + change(spot[1]) + text[spot.end(1) :])
-    return found
+            changed.append(text[: spot.start(1)] + change(spot[1]) + text[spot.end(1) :])
+    return changed
 
 
-def said(path: Path) -> tuple[str, tuple[str, ...]] | None:
+def file_and_notes(path: Path) -> tuple[str, tuple[str, ...]] | None:
     """The robot file and notes of a file; None if it is refused, in one line."""
     try:
         made = converted(path)
@@ -184,7 +184,7 @@ def said(path: Path) -> tuple[str, tuple[str, ...]] | None:
 def check_mutants(texts: list[str], path: Path, before: tuple[str, tuple[str, ...]]) -> None:
     for text in texts:
         path.write_text(text, encoding="utf-8")
-        after = said(path)
+        after = file_and_notes(path)
         assert after != before, (path.name, text)
 
 
@@ -207,7 +207,7 @@ def test_no_mutant_of_a_public_urdf_is_read_as_the_file_itself(
         path = tmp_path / original.name
         text = original.read_bytes().decode()
         path.write_text(text, encoding="utf-8")
-        if (before := said(path)) is None:
+        if (before := file_and_notes(path)) is None:
             continue
         made = mutants(text, rng)
         chosen = rng.permutation(len(made))[:each]
@@ -231,7 +231,7 @@ def test_what_pinocchio_reads_of_a_mutant_is_what_is_read(tmp_path: Path) -> Non
         text = original.read_bytes().decode()
         if checked > 15:
             return
-        if "mimic" in text or said(original) is None or "floating" in text:
+        if "mimic" in text or file_and_notes(original) is None or "floating" in text:
             continue
         path = tmp_path / original.name
         for mutant in [m for m in mutants(text, rng) if "</gazebo>" not in m[-300:]]:

@@ -92,9 +92,9 @@ class PinocchioModel:
         self.data = self.model.createData()
 
     def in_order(self, q) -> np.ndarray:
-        found = np.zeros(self.model.nv)
-        found[self.rows] = q
-        return found
+        ordered = np.zeros(self.model.nv)
+        ordered[self.rows] = q
+        return ordered
 
     def torque(self, q, qd, qdd):
         state = (self.in_order(q - self.zero), self.in_order(qd), self.in_order(qdd))
@@ -137,8 +137,8 @@ def errors(tree: BodyTree, rng) -> tuple[float, float]:
 
 
 def trees(seed: int, count: int, **drawn):
-    found = (random_tree(np.random.default_rng([seed, k]), **drawn) for k in range(count))
-    return [tree for tree in found if any(j.kind is not FIXED for j in tree.joints)]
+    every = (random_tree(np.random.default_rng([seed, k]), **drawn) for k in range(count))
+    return [tree for tree in every if any(j.kind is not FIXED for j in tree.joints)]
 
 
 def test_random_trees_have_their_poses_and_torques():
@@ -180,8 +180,8 @@ def test_numbers_are_exact_where_they_are():
     rng = np.random.default_rng(5)
     for angles in [*rng.uniform(-3, 3, (20, 3)), (0.3, math.pi / 2, 0.4), (1.0, -math.pi / 2, 2)]:
         R = pin.rpy.rpyToMatrix(*map(float, angles))
-        found = pin.rpy.rpyToMatrix(*roll_pitch_yaw(R))
-        np.testing.assert_allclose(found, R, rtol=0, atol=1e-14)
+        again = pin.rpy.rpyToMatrix(*roll_pitch_yaw(R))
+        np.testing.assert_allclose(again, R, rtol=0, atol=1e-14)
 
 
 # The text of a tree.

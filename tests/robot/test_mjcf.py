@@ -36,7 +36,7 @@ def joints(tree: BodyTree) -> dict[str, TreeJoint]:
     return {joint.name: joint for joint in tree.joints}
 
 
-def told(tree: BodyTree) -> str:
+def notes_of(tree: BodyTree) -> str:
     return "\n".join(tree.notes)
 
 
@@ -59,7 +59,7 @@ def test_what_stands_in_the_file_is_in_the_tree(tmp_path: Path) -> None:
     assert lift.lower is None and lift.upper is None
     assert lift.axis.tolist() == [0, 0, 1] and roll.point.tolist() == [0, 0.05, 0]
     assert tip.kind is JointKind.FIXED and tip.parent == "fore"
-    assert "motor" in told(tree)
+    assert "motor" in notes_of(tree)
 
 
 def test_roundings_of_angles_are_made_good_and_told(tmp_path: Path) -> None:
@@ -70,11 +70,11 @@ def test_roundings_of_angles_are_made_good_and_told(tmp_path: Path) -> None:
     assert lift.pose.position.tolist() == [0.3, 0, 0]
     assert np.allclose(roll.axis, [math.sqrt(0.75), 0.5, 0], rtol=0, atol=2e-16)
     for printed in ("1.5708 is pi/2", "0.866025 0.5 0 is of", "1 lengths,", "--exact-decimals"):
-        assert printed in told(tree)
+        assert printed in notes_of(tree)
     tree = read(tmp_path, exact_decimals=True)
     _, lift, roll, _, _ = tree.joints
     assert lift.pose.rotation[2, 2] == pytest.approx(math.cos(1.5708), rel=1e-9)
-    assert lift.pose.position[2] == 1e-9 and "rounded" not in told(tree)
+    assert lift.pose.position[2] == 1e-9 and "rounded" not in notes_of(tree)
 
 
 C, S = 0.5, math.sqrt(0.75)
@@ -129,9 +129,9 @@ def test_meshes_that_are_not_there_matter_where_they_weigh(tmp_path: Path) -> No
     text = re.sub(r"<inertial.*/>", "", ARM)
     tree = read(tmp_path, text)
     assert tree.bodies["upper"] is None and tree.bodies["fore"] is not None
-    assert 'no values of "upper (cover.stl)"' in told(tree)
+    assert 'no values of "upper (cover.stl)"' in notes_of(tree)
     weightless = edited(text, ('mesh="cover"', 'mesh="cover" mass="0"'))
-    assert "cover" not in told(read(tmp_path, weightless))
+    assert "cover" not in notes_of(read(tmp_path, weightless))
     robot = robot_from_text(tree_to_toml(tree, "arm.xml").text, "arm.toml")
     assert "M1" not in robot.parameters and "M4" in robot.parameters
 
@@ -176,9 +176,9 @@ def test_chains_of_equalities_and_joints_that_stand_still(tmp_path: Path) -> Non
     tree = read(tmp_path, text)
     bend, lift = joints(tree)["bend"], joints(tree)["lift"]
     assert (bend.leader, bend.ratio) == ("pan", -2) and bend.offset == pytest.approx(0.2)
-    assert lift.kind is JointKind.FIXED and "lift stands still" in told(tree)
+    assert lift.kind is JointKind.FIXED and "lift stands still" in notes_of(tree)
     assert np.allclose(lift.pose.position, [0.6, 0, 0])  # along its axis, by what it is held at
-    assert "1 inactive equalities" in told(tree)
+    assert "1 inactive equalities" in notes_of(tree)
 
 
 LOOP = edited(
@@ -241,7 +241,7 @@ def test_what_floats_stands_still_or_is_left_out(tmp_path: Path) -> None:
         "base floats; here it stands still", "cube floats; it is left out", "hand is dragged",
         "left out with what ties it", "move as one", 'gravcomp of "foot"',
     ):  # fmt: skip
-        assert words in told(tree)
+        assert words in notes_of(tree)
 
 
 def test_ball_joints_wait_until_they_are_cut_off(tmp_path: Path) -> None:
@@ -260,10 +260,10 @@ def test_what_is_left_out_is_told(tmp_path: Path) -> None:
         ("</actuator>", '</actuator><tendon><fixed damping="1"><joint joint="pan" coef="1"/>'
          "</fixed></tendon>"),
     )  # fmt: skip
-    notes = told(read(tmp_path, text))
+    notes = notes_of(read(tmp_path, text))
     for words in ("forces of the fluid", "of polynomial springs", "of tendons are left out"):
         assert words in notes
-    assert "gear scales commands alone" in told(
+    assert "gear scales commands alone" in notes_of(
         read(tmp_path, edited(ARM, (' armature="2e-4"', ""), (' damping="1e-4"', "")))
     )
 
@@ -415,7 +415,7 @@ def test_a_total_mass_of_meshes_that_are_not_there_is_refused(tmp_path: Path) ->
         RobotError, match=r'settotalmass shares 10 kg .* "tool \(m.stl\)"; put them'
     ):
         read(tmp_path, text)
-    assert "no values of" in told(read(tmp_path, text.replace('settotalmass="10"', "")))
+    assert "no values of" in notes_of(read(tmp_path, text.replace('settotalmass="10"', "")))
 
 
 @pytest.mark.parametrize(
@@ -462,7 +462,7 @@ MUTANTS = (
 )  # fmt: skip
 
 
-def said(folder: Path, text: str) -> tuple[str, tuple[str, ...]] | None:
+def file_and_notes(folder: Path, text: str) -> tuple[str, tuple[str, ...]] | None:
     """The robot file and what is told of it; None where it is refused."""
     try:
         made = tree_to_toml(cut(read(folder, text)), "arm.xml")
@@ -478,10 +478,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def said_of_arm(folder: Path) -> tuple[str, tuple[str, ...]] | None:
-    return said(folder, ARM)
+def arm_and_notes(folder: Path) -> tuple[str, tuple[str, ...]] | None:
+    return file_and_notes(folder, ARM)
 
 
 @pytest.mark.parametrize("mutant", MUTANTS)
-def test_no_mutant_is_read_as_the_file_itself(mutant: tuple, folder: Path, said_of_arm) -> None:
-    assert said_of_arm not in (None, said(folder, edited(ARM, mutant)))
+def test_no_mutant_is_read_as_the_file_itself(mutant: tuple, folder: Path, arm_and_notes) -> None:
+    assert arm_and_notes not in (None, file_and_notes(folder, edited(ARM, mutant)))

@@ -141,15 +141,15 @@ class Both:
 
     def torques(self, states):
         """(samples, free joints) of MuJoCo."""
-        d, found = self.data, []
+        d, samples = self.data, []
         for q, qd, qdd in zip(*states, strict=True):
             d.qpos[:] = self.model.qpos0
             d.qvel[:], d.qacc[:] = 0.0, 0.0
             d.qpos[self.places] = self.G @ q + self.offset
             d.qvel[self.dofs], d.qacc[self.dofs] = self.G @ qd, self.G @ qdd
             mujoco.mj_inverse(self.model, d)
-            found.append(self.G.T @ d.qfrc_inverse[self.dofs])
-        return np.array(found)
+            samples.append(self.G.T @ d.qfrc_inverse[self.dofs])
+        return np.array(samples)
 
     def links(self):
         """MuJoCo's number of every body on a row, with its row and its place there."""
@@ -163,7 +163,7 @@ class Both:
     def standard(self):
         """Standard parameters of MuJoCo's bodies, and the rotors of the file."""
         rows = [joint.name for joint in self.robot.moving]
-        found = {f"{prefix}{row}": 0.0 for row in rows for prefix in INERTIAL}
+        chi = {f"{prefix}{row}": 0.0 for row in rows for prefix in INERTIAL}
         for i, row, pose in self.links():
             if row == "0":
                 continue
@@ -175,9 +175,9 @@ class Both:
             tensor += mass * (c @ c * np.eye(3) - np.outer(c, c))
             ten = [*tensor[np.triu_indices(3)], *(mass * c), mass]
             for prefix, worth in zip(INERTIAL, ten, strict=True):
-                found[f"{prefix}{row}"] += worth
+                chi[f"{prefix}{row}"] += worth
         rotors = self.model.dof_armature[self.dofs]
-        return found | {f"Ia{row}": worth for row, worth in zip(rows, rotors, strict=True)}
+        return chi | {f"Ia{row}": worth for row, worth in zip(rows, rotors, strict=True)}
 
 
 def alike(ours, theirs, tolerance):

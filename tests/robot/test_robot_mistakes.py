@@ -20,6 +20,7 @@ from tests.robot.texts import (
     check_mistake,
 )
 
+D = '0, "D3"'
 V, U = "Fv1 = 2\n", "[parameters.uncertainty]"
 EDDY = 'columns = {Keb = "v*exp(-((q - c)/w)**2)"}'
 HOOK, TRAVEL = 'columns = {Kh = "z*cos(q)"}', "shapes = {d = [0.01, 0.1]}"
@@ -62,6 +63,8 @@ IN_ARM = [
     ("huge", '0, "D3"', '0, "1e400"', "column d .. 1e400 .. too large"),
     ("division by 0", '0, "D3"', '0, "1/(D3-D3)"', "column d .. no finite real value .. divisors"),
     ("root of -1", '0, "D3"', '0, "sqrt(-D3)"', "column d .. no finite real value .. roots"),
+    ("no real power", D, '0, "(-D3)**0.5"', "column d .. no finite real value"),
+    ("power of 0", D, '0, "0**-1"', "column d .. no finite real value"),
     ("no q in r", '"q3 + R4"', '"R4"', 'row "3", column r .. got "R4" .. expected q3'),
     ("q in d", '0, 0, "q1", 0]', '0, "q1", "q1", 0]', 'row "1", column d .. column theta .. move'),
     ("q of another row", '"q1", 0]', '"q1 + q2", 0]', 'row "1" .. another row .. follows'),
@@ -127,7 +130,7 @@ IN_ARM = [
     ("physical text", 'mass = "m1"', 'mass = "m1 *"', 'mass .. got "m1 *" .. cannot be read'),
 ]  # fmt: skip
 
-D, MOST = '0, "D3"', "expected at most "
+MOST = "expected at most "
 UNITS_AND_SIZES_IN_ARM = [
     ("angle for length", D, '0, "90 deg"', "column d .. an angle; expected a length, m"),
     ("length for angle", '"pi/2", 0, "pi', '"60 mm", 0, "pi', "alpha .. a length .. an angle, rad"),
@@ -347,6 +350,8 @@ def test_a_table_that_is_no_robot_is_refused(rows, told):
 
 
 def test_unknown_names_suggest_built_in_robots():
+    with pytest.raises(KeyError):
+        builtin_text("pumma560")
     with pytest.raises(RobotError, match=r'"pumma560" is neither.*did you mean "puma560".*wrist'):
         read_robot("pumma560")
     with pytest.raises(RobotError, match=r"wirst\.toml: there is no such file.*\"wrist\""):

@@ -12,7 +12,7 @@ from modeler.robot.robot import LOOP_KINDS
 from tests.robot_texts import CRANK
 
 
-def refused(kind: str) -> str:
+def message_of(kind: str) -> str:
     with pytest.raises(RobotError) as error:
         robot_from_text(CRANK.replace('"position"', f'"{kind}"'), "crank.toml")
     message, place = str(error.value), 'crank.toml: [loops], row 1, "pin", column joint: got '
@@ -29,18 +29,18 @@ def test_other_names_of_what_is_supported():
         known, *others = INSTEAD[instead]
         assert instead == f"write {known}" and known in LOOP_KINDS
         for name in (known.title(), *others, *(f"{other}_joint".title() for other in others)):
-            assert refused(name).endswith(f"; {instead}")
+            assert message_of(name).endswith(f"; {instead}")
 
 
 def test_what_is_not_supported_says_what_to_write():
     for instead in INSTEAD.keys() - SUPPORTED:
         for name in INSTEAD[instead]:
-            assert refused(name).endswith(f"; {instead}")
+            assert message_of(name).endswith(f"; {instead}")
 
 
 def test_the_rest_lists_what_there_is():
-    assert "(did you mean" in refused("sphericl")
-    assert refused("magic").endswith(f"expected one of {', '.join(LOOP_KINDS)}")
+    assert "(did you mean" in message_of("sphericl")
+    assert message_of("magic").endswith(f"expected one of {', '.join(LOOP_KINDS)}")
 
 
 def test_advice_that_is_a_relation_can_be_read():

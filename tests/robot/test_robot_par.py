@@ -21,8 +21,8 @@ from tests.robot.par_files import BOOM, INERTIA, par_of, par_text
 
 def convert(text: str, where: str = "arm.par"):
     data = text if isinstance(text, bytes) else text.encode()
-    found = par_to_toml(data, where)
-    return robot_from_text(found.text, where), found
+    converted = par_to_toml(data, where)
+    return robot_from_text(converted.text, where), converted
 
 
 TWINS = ("rx90", "puma560", "scara", "sr400-tree", "tx40")
@@ -38,12 +38,11 @@ TWINS = ("rx90", "puma560", "scara", "sr400-tree", "tx40")
 )
 def test_the_frames_of_a_twin_are_the_same(name, letters):
     robot = read_robot(name)
-    twin, found = convert(par_of(robot, letters=letters))
+    twin, converted = convert(par_of(robot, letters=letters))
     if letters:  # the stand-ins are not the values
         values = {n: f"{n} = {v.number()!r}" for n, v in robot.symbols.items()}
-        text = re.sub(
-            r"^(\w+) = .*# .*no value in the file$", lambda m: values[m[1]], found.text, flags=re.M
-        )
+        none = re.compile(r"^(\w+) = .*# .*no value in the file$", re.M)
+        text = none.sub(lambda stated: values[stated[1]], converted.text)
         twin = robot_from_text(text, "twin")
     rng = np.random.default_rng(4)
     for _ in range(5):
@@ -59,11 +58,11 @@ def test_the_frames_of_a_twin_are_the_same(name, letters):
 def test_numbers_keep_the_structure_of_a_loop():
     """Equal lengths of the parallelogram stay one letter: SR400 from numbers alone."""
     robot = read_robot("sr400")
-    twin, found = convert(par_of(robot, letters=False))
+    twin, converted = convert(par_of(robot, letters=False))
     for column in ("gamma", "b", "alpha", "d", "theta"):
         texts = ([getattr(joint, column).text for joint in r.joints] for r in (twin, robot))
         assert next(texts) == next(texts)
-    assert any(note.startswith("lengths of one loop that are equal") for note in found.notes)
+    assert any(note.startswith("lengths of one loop that are equal") for note in converted.notes)
     assert len(twin.symbols) == 6  # g, D2, D3, D4, R4, D8: RL4 is on no loop, and no length of it
 
 
@@ -85,10 +84,10 @@ def test_rounded_angles(digits, angle):
 def test_every_multiple_is_found_in_its_rounding_and_hardly_ever_elsewhere(decimals):
     for k in range(-24, 25):
         if k:
-            found = exact_angle(f"{k * math.pi / 12:.{decimals}f}")
-            assert found is not None
-            assert eval(found, {"pi": math.pi}) == pytest.approx(k * math.pi / 12, abs=1e-12)
-            assert Fraction(k, 12) == Fraction(eval(found, {"pi": 1})).limit_denominator(12)
+            text = exact_angle(f"{k * math.pi / 12:.{decimals}f}")
+            assert text is not None
+            assert eval(text, {"pi": math.pi}) == pytest.approx(k * math.pi / 12, abs=1e-12)
+            assert Fraction(k, 12) == Fraction(eval(text, {"pi": 1})).limit_denominator(12)
     rng = np.random.default_rng(1)
     wrong = sum(
         exact_angle(f"{angle:.{decimals}f}") is not None for angle in rng.uniform(0.1, 6, 2000)
@@ -103,8 +102,8 @@ def test_letters_and_numbers():
         "gamma": "0,0,0,0.3", "Alpha": "0,Pi/2,-1.5708,0", "Theta": "th1,th2 - 1.571,0,0",
         "Mu": "1,0,1,0",
     }  # fmt: skip
-    robot, found = convert(par_text(lists, "my arm"))
-    rows = tomllib.loads(found.text)["mdh"]["rows"]
+    robot, converted = convert(par_text(lists, "my arm"))
+    rows = tomllib.loads(converted.text)["mdh"]["rows"]
     assert rows == [
         ["1", "0", 1, 0, 0, 0, 0, "q1", "RL1"],
         ["2", "1", 0, 0, 0, "pi/2", "D2", "q2 - pi/2", 0],
@@ -116,12 +115,12 @@ def test_letters_and_numbers():
     assert values["R4"] == 0.1 and values["gam4"] == 0.3
     assert values["L"] != values["RL1"]
     assert robot.name == "my-arm" and robot.title == "my arm"
-    told = "\n".join(found.notes)
+    told = "\n".join(converted.notes)
     assert "no values in the file: RL1, L" in told
     assert "-1.5708 is -pi/2" in told and "1.571 is pi/2" in told
     assert "th1, th2, r3" in told
-    assert "# no value in the file" in found.text
-    assert all(note in robot.notes for note in found.notes)
+    assert "# no value in the file" in converted.text
+    assert all(note in robot.notes for note in converted.notes)
 
 
 def test_lists_may_be_short_of_what_is_the_default():
@@ -134,19 +133,19 @@ def test_lists_may_be_short_of_what_is_the_default():
 def test_joint_variables():
     """Conventional letters, other letters, none, constants, and a joint that follows."""
     lists = {"Ant": "0,1,2,3,4", "Theta": "0,phi,0.4,q4 + Pi, phi - q4", "Mu": "1,1,1,1,0"}
-    robot, found = convert(par_text(lists))
+    robot, converted = convert(par_text(lists))
     assert [joint.theta.text for joint in robot.joints][:4] == ["q1", "q2", "q3 + off3", "q4 + pi"]
     assert robot.relations["5"].text == "q2 - q4"
-    assert any("q1, q3" in note for note in found.notes)
+    assert any("q1, q3" in note for note in converted.notes)
 
 
 def test_names_that_mean_something_else_are_changed():
     lists = {"Ant": "0,1,2,3,4,5", "d": "0,lambda,M2,double,qd1,β", "Theta": "t1,t2,t3,t4,t5,t6"}
-    robot, found = convert(par_text(lists))
+    robot, converted = convert(par_text(lists))
     assert [joint.d.text for joint in robot.joints] == [
         "0", "lambda_", "M2_", "double_", "qd1_", "s1",
     ]  # fmt: skip
-    told = "\n".join(found.notes)
+    told = "\n".join(converted.notes)
     for was in ("lambda", "M2", "double", "qd1", "β"):
         assert f"{was} is called" in told
 
@@ -160,7 +159,7 @@ def test_bodies_with_and_without_parameters():
         "ZZ": "J,1e-2,0", "MX": "MX1,0,0", "MY": "0,0,0", "MZ": "0,0,0", "M": "M1,3,0",
         "IA": "IA1,0,IA3", "FV": "FV1,FV2,FV3", "FS": "0,1.5,0",
     }  # fmt: skip
-    robot, found = convert(par_text(lists))
+    robot, converted = convert(par_text(lists))
     assert robot.inertial("1") == ("XX", "ZZ", "MX", "M")
     assert set(robot.inertial("2")) == set(INERTIA)  # numbers: 0 is a value
     assert robot.inertial("3") == ()
@@ -169,7 +168,7 @@ def test_bodies_with_and_without_parameters():
     uses = {use.effect: use.joints for use in robot.effects}
     assert uses.pop("offset") == ("1", "2")  # of the joints with a motor and friction
     assert uses == {"rotor_inertia": ("1",), "viscous": ("1", "2", "3"), "coulomb": ("2",)}
-    told = "\n".join(found.notes)
+    told = "\n".join(converted.notes)
     assert "ZZ1 (there J)" in told and "IA3: left out" in told
     assert "added to the joints with friction: offset (1, 2)" in told
 
@@ -198,9 +197,9 @@ def test_what_is_not_carried_over_is_told(lists, line, told):
 
 def test_fixed_frames_carry_nothing():
     lists = {"Ant": "0,1", "Sigma": "0,2", "Theta": "t1,0", "d": "0,0.3", "M": "3,2", "XX": "1,0"}
-    robot, found = convert(par_text(lists))
+    robot, converted = convert(par_text(lists))
     assert [joint.name for joint in robot.moving] == ["1"] and not robot.parameters.keys() & {"M2"}
-    assert any("parameters of frame 2 are left out" in note for note in found.notes)
+    assert any("parameters of frame 2 are left out" in note for note in converted.notes)
 
 
 @pytest.mark.parametrize("theta", ["q0,q1,q2", "q1,q3,q2", "q2,q3,q4 + Pi"])
@@ -229,11 +228,11 @@ def test_variables_are_those_of_the_rows(theta):
 )
 def test_gravity(lists, gravity):
     """Letters stay, with stand-ins by which gravity points where the note says."""
-    robot, found = convert(par_text({"Ant": "0", "Theta": "t1"} | lists))
+    robot, converted = convert(par_text({"Ant": "0", "Theta": "t1"} | lists))
     values = {name: value.number() for name, value in robot.symbols.items()}
     assert [entry.number(values) for entry in robot.gravity] == pytest.approx(gravity)
     letters = set("gGka") & set("".join(lists.values()))
-    (note,) = [n for n in found.notes if "gravity is taken" in n] or [""]
+    (note,) = [n for n in converted.notes if "gravity is taken" in n] or [""]
     assert bool(note) == bool(letters)
     if letters:
         (k,) = np.flatnonzero(gravity)
@@ -262,11 +261,11 @@ def test_every_key_of_a_par_file_is_read_told_or_refused():
             try:
                 state = par_text({**lists, **({key: text} if text else {})})
                 state += "" if text else f"{key} = 1\n"
-                _, found = convert(state)
+                _, converted = convert(state)
             except RobotError:
                 refused.append(key)
                 continue
-            assert found.text != plain.text or found.notes != plain.notes, (key, text)
+            assert converted.text != plain.text or converted.notes != plain.notes, (key, text)
     assert set(refused) <= {"Mu"}  # which is 0 or 1
 
 
@@ -291,7 +290,7 @@ rows = [["eye", "rod", "eye", "revolute"]]
 
 
 def test_cut_joints_are_loops():
-    robot, found = convert(par_text(BOOM, "boom", links=3, joints=4))
+    robot, converted = convert(par_text(BOOM, "boom", links=3, joints=4))
     assert [(loop.frame, loop.meets, loop.kind) for loop in robot.loops] == [("4", "5", "rigid")]
     assert robot.inertial("4") == () and len(robot.inertial("3")) == 10
     assert [joint.name for joint in robot.coordinates] == ["3"]
@@ -304,19 +303,19 @@ def test_cut_joints_are_loops():
     ends = frames(robot, home)
     assert np.allclose(ends["4"], ends["5"])
     lines = "\n".join(f"q{row} = {value!r}" for row, value in home.items())
-    base = derive(robot_from_text(f"{found.text}\n[home]\n{lines}\n", "boom")).base
+    base = derive(robot_from_text(f"{converted.text}\n[home]\n{lines}\n", "boom")).base
     # The same with the cut joint as a pin between two fixed frames.
     by_hand = HAND_BOOM.format(**values) + "\n".join(lines.splitlines()[:3])
     expected = as_json("boom", derive(robot_from_text(by_hand, "by hand")).base)
     assert as_json("boom", base)["base"] == expected["base"]
     assert base.proof.certificate.rank == base.rank
-    assert any("[home]" in note for note in found.notes)
+    assert any("[home]" in note for note in converted.notes)
 
 
 def test_atan2_of_two_letters_is_exact():
     lists = BOOM | {"d": "0,a,0,0,sqrt(e**2 + f**2)", "gamma": "0,0,0,0,Pi - atan2(e, f)"}
     lists["B"] = "0,f,0,0,0"
-    robot, found = convert(par_text(lists, "boom", links=3, joints=4))
+    robot, converted = convert(par_text(lists, "boom", links=3, joints=4))
     fifth = robot.joints[4]
     assert (fifth.d.text, fifth.gamma.text) == ("L1", "pi - A1")
     values = {}
@@ -324,7 +323,7 @@ def test_atan2_of_two_letters_is_exact():
         values[name] = value.number(values)
     assert math.hypot(values["e"], values["f"]) == pytest.approx(values["L1"])
     assert math.atan2(values["e"], values["f"]) == pytest.approx(values["A1"])
-    assert any("L1*sin(A1)" in note for note in found.notes)
+    assert any("L1*sin(A1)" in note for note in converted.notes)
 
 
 @pytest.mark.parametrize(

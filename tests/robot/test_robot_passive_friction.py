@@ -25,10 +25,10 @@ def test_it_is_read_as_what_it_is_made_of(cell: str, joints: tuple[str, ...]) ->
 
 
 def test_it_stands_beside_the_friction_of_the_motors() -> None:
-    found = joints_of(with_lines('passive_friction = "all"', 'viscous = "all"'))
-    assert found == {"viscous": ("11", "21", "12", "22"), "coulomb": ("21", "22")}
+    both = joints_of(with_lines('passive_friction = "all"', 'viscous = "all"'))
+    assert both == {"viscous": ("11", "21", "12", "22"), "coulomb": ("21", "22")}
     written = joints_of(with_lines('viscous = ["11", "12", "21", "22"]', 'coulomb = ["21", "22"]'))
-    assert found == written
+    assert both == written
 
 
 def test_all_of_them_leaves_the_platform_out() -> None:

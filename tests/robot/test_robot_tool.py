@@ -20,9 +20,9 @@ def tool(lines, more=""):
 
 
 def test_tool_stands_on_the_last_moving_row_or_where_it_says():
-    found = tool('x = "2*D3"\nyaw = "90 deg"')
-    assert (found.row, found.on) == ("4", None)
-    assert found.position[0].number({"D3": 0.3}) == 0.6 and found.angles[2].text == "90 deg"
+    frame = tool('x = "2*D3"\nyaw = "90 deg"')
+    assert (frame.row, frame.on) == ("4", None)
+    assert frame.position[0].number({"D3": 0.3}) == 0.6 and frame.angles[2].text == "90 deg"
     assert tool("row = 1").row == "1" and tool('row = "E"').row == "E"
     assert tool('row = "5"', BRANCH).row == "5"
     held = tool('link = "hand"\nz = 0.2', BRANCH)

@@ -83,7 +83,9 @@ def test_the_range_of_a_safety_controller_is_the_range() -> None:
     robot, made = convert(RANGE, more=soft % 2)
     assert (robot.limits["1"].lower, robot.limits["1"].upper) == (-0.5, 1.0)
     assert any("safety_controller" in note and '"j1"' in note for note in made.notes)
-    robot, _ = convert(RANGE, more='<safety_controller k_velocity="9"/>')
-    assert (robot.limits["1"].lower, robot.limits["1"].upper) == (-1.0, 1.0)
+    for none in ('<safety_controller k_velocity="9"/>', soft.replace("-0.5", "3") % 4):
+        robot, made = convert(RANGE, more=none)
+        assert (robot.limits["1"].lower, robot.limits["1"].upper) == (-1.0, 1.0)
+        assert any("leaves no range" in note for note in made.notes) == ("soft" in none)
     with pytest.raises(RobotError, match="soft_lower_limit"):
         convert(RANGE, more=soft.replace("-0.5", "low") % 2)

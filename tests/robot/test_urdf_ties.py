@@ -44,7 +44,7 @@ def toml(text: str) -> str:
     return made[made.index("gravity =") :]
 
 
-def told(text: str) -> str:
+def notes_of(text: str) -> str:
     return "\n".join(tree_to_toml(read(text), "arm.urdf").notes)
 
 
@@ -53,13 +53,13 @@ def told(text: str) -> str:
 
 def quaternion(roll: float, pitch: float, yaw: float) -> str:
     """x y z w of Rz(yaw) Ry(pitch) Rx(roll), by half angles."""
-    found = np.array([1.0, 0.0, 0.0, 0.0])
+    wxyz = np.array([1.0, 0.0, 0.0, 0.0])
     for axis, angle in zip((2, 1, 0), (yaw, pitch, roll), strict=True):
-        w, x, y, z = found
+        w, x, y, z = wxyz
         c, s = np.cos(angle / 2), np.eye(3)[axis] * np.sin(angle / 2)
         v = np.array([x, y, z])
-        found = np.array([w * c - v @ s, *(w * s + c * v + np.cross(v, s))])
-    return " ".join(repr(float(x)) for x in (*found[1:], found[0]))
+        wxyz = np.array([w * c - v @ s, *(w * s + c * v + np.cross(v, s))])
+    return " ".join(repr(float(x)) for x in (*wxyz[1:], wxyz[0]))
 
 
 CHAIN = joint("j3", "b", "c", '<origin xyz="0 0 0.2"/>')
@@ -191,7 +191,7 @@ def test_loops_of_all_tools_are_one_loop(tmp_path) -> None:
             assert parts(toml(urdf(*FOUR, loop % kind))) == expected, name
     pins = {name: toml(urdf(*FOUR, loop % "revolute")) for name, loop in CLOSED.items()}
     assert len(set(pins.values())) == 1 and '"revolute"' in pins["plus"]
-    notes = told(urdf(*FOUR, CLOSED["plus"] % "revolute"))
+    notes = notes_of(urdf(*FOUR, CLOSED["plus"] % "revolute"))
     assert 'the file states no motor: "ja" are taken as actuated' in notes
 
 
@@ -254,7 +254,7 @@ def test_a_joint_of_the_base_with_the_world_closes_nothing() -> None:
     still = CLOSED["gazebo"].replace("<parent>b", "<parent>world")
     text = urdf(*FOUR, still.replace("<child>c", "<child>base") % "fixed")
     assert "[loops]" not in toml(text)
-    assert 'loops within one body are left out: "pin"' in told(text)
+    assert 'loops within one body are left out: "pin"' in notes_of(text)
 
 
 # Gears and springs.
@@ -281,7 +281,7 @@ def test_gears_of_actuator_and_joint_are_their_own(inner: str, expected: float) 
     text = urdf(*TREE, gear)
     (armature,) = [j.armature for j in read(text).joints if j.name == "j1"]
     assert armature == pytest.approx(expected)
-    assert "armature is gear ratio squared" in told(text)
+    assert "armature is gear ratio squared" in notes_of(text)
     twice = text.replace("</robot>", f'<transmission name="u">{inner}</transmission></robot>')
     (armature,) = [j.armature for j in read(twice).joints if j.name == "j1"]
     assert armature == pytest.approx(2 * expected)  # a second motor
@@ -293,9 +293,11 @@ def test_transmissions_of_several_joints_are_told() -> None:
         f'<actuator name="m{k}">{ROTOR}</actuator><joint name="j{k}"/>' for k in (1, 2)
     )
     text = urdf(*TREE, f'<transmission name="wrist">{motors}</transmission>')
-    assert 'several joints are left out, rotors too; [motors] states such: "wrist"' in told(text)
+    assert 'several joints are left out, rotors too; [motors] states such: "wrist"' in notes_of(
+        text
+    )
     lost = f'<transmission name="t"><joint name="j9"/>{MOTOR % ""}</transmission>'
-    assert 'rotors on joints that are not there are left out: "t"' in told(urdf(*TREE, lost))
+    assert 'rotors on joints that are not there are left out: "t"' in notes_of(urdf(*TREE, lost))
 
 
 DYNAMICS = '<dynamics damping="0.5" spring_stiffness="20" spring_reference="0.3"/>'

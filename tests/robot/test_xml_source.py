@@ -24,12 +24,12 @@ P_SPANS = {"v": b"&quot;1&gt;2&quot; >", "w": b""}
 
 def test_spans_are_those_of_the_bytes():
     root = parse_xml(ODD, "odd.urdf")
-    found = {}
+    elements = {}
     for one in root.walk():
         spans = {name: ODD[start:end] for name, (start, end) in one.spans.items()}
         text = one.text_span and ODD[slice(*one.text_span)]
-        found[one.tag] = (dict(one.attributes), spans, one.text, text, one.line)
-    assert found == {
+        elements[one.tag] = (dict(one.attributes), spans, one.text, text, one.line)
+    assert elements == {
         "robot": ({"xmlns:xacro": "x", "name": 'a"b'}, ROBOT_SPANS, "t", None, 3),
         "xacro:p": ({"v": '"1>2" >', "w": ""}, P_SPANS, "", None, 5),
         "b": ({}, {}, "3.5", b"3.5", 5),

@@ -105,8 +105,8 @@ rows = [["L", "P", "0e", "{kind}"]]
 
     def gap(**moved: float) -> tuple[float, float]:
         values = np.array([{**u, **moved}[name] for name in skeleton.free])
-        found = gaps_of(skeleton, values)[0]
-        return found.distance, found.angle
+        loop = gaps_of(skeleton, values)[0]
+        return loop.distance, loop.angle
 
     allowed = {"universal": [], "cylindrical": ["Pz", "P"], "prismatic": ["Pz"],
                "planar": ["Px", "Py", "P"], "rigid": []}[kind]  # fmt: skip
