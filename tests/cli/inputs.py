@@ -7,7 +7,7 @@ import pytest
 from modeler.cli import main
 
 
-def _made(folder: Path, *lines: str) -> Path:
+def folder_after(folder: Path, *lines: str) -> Path:
     """The folder after these commands; `{}` in them is its path."""
     for line in lines:
         assert main(line.format(folder).split()) == 0, line
@@ -18,7 +18,7 @@ def _made(folder: Path, *lines: str) -> Path:
 def two_link(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Logs a, b and held of a two-link arm, and m.json, fitted to a and b."""
     simulate = "simulate two-link --duration 8 --rate 200"
-    return _made(
+    return folder_after(
         tmp_path_factory.mktemp("two_link"),
         f"{simulate} --seed 1 --out {{}}/a.parquet",
         f"{simulate} --seed 2 --out {{}}/b.parquet",
@@ -31,7 +31,7 @@ def two_link(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def axis(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Logs a.csv and b.csv of one axis with a spring that its file lacks; m.json, fitted to a."""
     simulate = "simulate emps --hide spring:stiffness=40,rest=0.1 --rate 250 --duration 8"
-    return _made(
+    return folder_after(
         tmp_path_factory.mktemp("axis"),
         f"{simulate} --seed 1 --out {{}}/a.csv",
         f"{simulate} --seed 2 --out {{}}/b.csv",

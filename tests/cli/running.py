@@ -1,4 +1,8 @@
-"""A command in this process: its status and what it says."""
+"""A command: its status and what it says."""
+
+import subprocess
+import sys
+from typing import Any
 
 import pytest
 
@@ -31,3 +35,9 @@ def refusal(capsys: pytest.CaptureFixture[str], *words: object) -> str:
     status, out, err = run(capsys, *words)
     assert (status, out) == (1, "") and err.startswith("modeler: ") and err.count("\n") == 1, err
     return err
+
+
+def program(*words: str, **options: Any) -> subprocess.CompletedProcess[str]:
+    """A command in a process of its own."""
+    command = [sys.executable, "-m", "modeler", *words]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, **options)

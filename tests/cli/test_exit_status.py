@@ -14,38 +14,19 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
+from tests.cli.running import program
+from tests.repository import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTED = {0, 1, 2, 130}
-
-
-def run(*words: str, **options) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "modeler", *words]
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, **options)
 
 
 def test_help_and_docs_name_the_same(capsys) -> None:
     with pytest.raises(SystemExit):
         main(["--help"])
-    told = capsys.readouterr().out.partition("exit status:")[2]
-    assert {int(n) for n in re.findall(r"^  (\d+)  ", told, re.MULTILINE)} == DOCUMENTED
+    printed = capsys.readouterr().out.partition("exit status:")[2]
+    assert {int(n) for n in re.findall(r"^  (\d+)  ", printed, re.MULTILINE)} == DOCUMENTED
     text = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
     assert {int(n) for n in re.findall(r"^\| (\d+) \|", text, re.MULTILINE)} == DOCUMENTED
-
-
-@pytest.mark.parametrize(
-    ("words", "status"),
-    [("robots", 0), ("robots no-such-robot", 1), ("derive wrist --no-such-option", 2)],
-)
-def test_done_at_fault_wrong_usage(words: str, status: int) -> None:
-    done = run(*words.split())
-    assert done.returncode == status
-    assert bool(done.stdout) == (status == 0)
-    if status == 1:
-        assert done.stderr.startswith("modeler: ") and done.stderr.count("\n") == 1
-    if status == 2:
-        assert done.stderr.startswith("modeler") and done.stderr.count("\n") == 1
-        assert "--help`" in done.stderr
 
 
 @pytest.mark.rotating("long tests of cli")
@@ -59,7 +40,7 @@ def test_memory_runs_out_in_a_log(tmp_path: Path) -> None:
     def limited() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (2**31, 2**31))
 
-    done = run("log", "x.npy", cwd=tmp_path, preexec_fn=limited)
+    done = program("log", "x.npy", cwd=tmp_path, preexec_fn=limited)
     assert done.returncode == 1 and re.fullmatch(r"modeler: x.npy: .*ulimit -v.*\n", done.stderr)
 
 
@@ -106,14 +87,3 @@ def test_interrupted(tmp_path: Path) -> None:
         *_, last = running.stderr.read().splitlines()
     assert running.wait(timeout=60) == 130 and last == "modeler: interrupted"
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_line_that_differs_is_status_1(monkeypatch, capsys) -> None:
-    """`modeler reproduce` judges what it has printed."""
-    import modeler.cli.reproduce as command
-
-    monkeypatch.setattr(command, "_lines", lambda paper: [])
-    monkeypatch.setattr(command, "_methods", lambda paper: [])
-    monkeypatch.setattr(command, "_failed", lambda tables: ["table 3: q1"])
-    assert main(["reproduce", "guegan-2003"]) == 1
-    assert "1 line is different: table 3: q1" in capsys.readouterr().err

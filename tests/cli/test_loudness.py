@@ -1,6 +1,6 @@
-"""`--quiet` and `--verbose`: what is told beside the results, which stay the same."""
+"""`--quiet`, `--verbose`, `--progress lines`: what is told beside the results, which stay."""
 
-import argparse
+import json
 import os
 import pty
 import re
@@ -11,22 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.cli import main, parser
-from modeler.cli.console import Loudness, clock, using_loudness, working
+from modeler.cli import console, main
+from modeler.cli.console import Loudness, clock, progress, using_loudness, working
 from tests.cli.running import run
-
-
-def names() -> list[str]:
-    (sub,) = (a for a in parser()._actions if isinstance(a, argparse._SubParsersAction))
-    return list(sub.choices)
-
-
-@pytest.mark.parametrize("name", names())
-def test_every_command_has_both(capsys, name: str) -> None:
-    with pytest.raises(SystemExit):
-        main([name, "--help"])
-    text = capsys.readouterr().out
-    assert "-q, --quiet" in text and "-v, --verbose" in text
 
 
 @pytest.mark.parametrize("words", ["-v {}", "{} --verbose"])
@@ -46,8 +33,6 @@ def test_verbose_tells_where_an_error_came_from(capsys) -> None:
     assert "Traceback (most recent call last)" in err and "modeler.core.errors.RobotError" in err
     assert err.splitlines()[-1].startswith('modeler: "no-such-robot" is neither')
     assert "modeler: derive: stopped after" in err
-    _, _, usual = run(capsys, "derive", "no-such-robot")
-    assert usual.count("\n") == 1
 
 
 def test_verbose_shows_warnings_of_libraries_and_quiet_does_not(monkeypatch, recwarn) -> None:
@@ -72,16 +57,9 @@ def test_quiet_leaves_results_and_errors(capsys, tmp_path: Path, words: str) -> 
     line = f"diagnose {tmp_path / 'm.json'} --holdout b.csv a.csv"
     _, _, usual = run(capsys, *line.split())
     _, _, err = run(capsys, *words.format(line).split())
+    assert usual.startswith("modeler: read as MODEL LOG = ")
     assert usual.count("\n") == 2 and err.count("\n") == 1 and usual.endswith(err)
     assert run(capsys, *words.format("robots").split()) == run(capsys, "robots")
-
-
-@pytest.mark.parametrize("words", ["-q -v robots", "-q robots -v", "robots --quiet --verbose"])
-def test_both_are_wrong_usage(capsys, words: str) -> None:
-    with pytest.raises(SystemExit) as stop:
-        main(words.split())
-    assert stop.value.code == 2
-    assert "got --quiet and --verbose; expected one of them" in capsys.readouterr().err
 
 
 class Terminal:
@@ -128,12 +106,48 @@ def test_loading_shows_its_seconds_on_a_terminal(monkeypatch) -> None:
     assert re.search(r"\rloading 0\.\d s\r +\r$", terminal.written())
 
 
-def test_what_once_lasted_in_silence_is_a_step(capsys, two_link: Path, tmp_path: Path) -> None:
-    """Loading, estimating by simulation, drawing: seconds in which nothing moved."""
-    for step, line in (
-        ("estimating", f"fit two-link {two_link}/a.parquet --out {tmp_path}/m.json"),
-        ("drawing", f"home five-bar --report {tmp_path}/modes.html"),
-    ):
-        _, _, err = run(capsys, "-v", *line.split())
-        for each in ("loading", step):
-            assert f"modeler: {each}: done after" in err
+LINE = re.compile(r"progress (-|\d\.\d\d) (\S.*)")
+
+
+def lines_of(err: str) -> list[tuple[str, str]]:
+    """Share and title of each line, all of which are of progress."""
+    lines = [LINE.fullmatch(line) for line in err.splitlines()]
+    assert all(lines), err
+    return [(line[1], line[2]) for line in lines if line]
+
+
+def test_shares_and_titles_in_order(capsys, monkeypatch) -> None:
+    with using_loudness(Loudness.USUAL), progress("not asked for") as tell:
+        tell(0.5)
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(console, "_PAUSE", 0.0)
+    with using_loudness(Loudness.USUAL, for_programs=True):
+        with clock("loading"):
+            pass
+        with progress("first\nstep") as tell:
+            for share in (0.0, 0.25, 0.251, 0.5, 1.2):
+                tell(share)
+        with working("second"), progress("inside") as tell:  # one voice, not two
+            tell(0.5)
+    assert lines_of(capsys.readouterr().err) == [
+        ("-", "loading"), ("0.00", "first step"), ("0.25", "first step"), ("0.50", "first step"),
+        ("1.00", "first step"), ("-", "second"),
+    ]  # fmt: skip
+
+
+def test_a_thousand_shares_in_a_moment_are_few_lines(capsys) -> None:
+    with using_loudness(Loudness.USUAL, for_programs=True), progress("counting") as tell:
+        for i in range(100_000):
+            tell(i / 100_000)
+    assert 1 <= len(lines_of(capsys.readouterr().err)) < 50
+
+
+@pytest.mark.parametrize("words", ["--progress lines", "-q --progress=lines"])
+def test_a_command_tells_its_steps_and_the_same_result(capsys, tmp_path: Path, words: str) -> None:
+    """Quiet or not: it is asked for. An error stays the last line."""
+    command = ["simulate", "two-link", "--duration", "1", "--json", "-", *words.split(), "--out"]
+    status, out, err = run(capsys, *command, tmp_path / "a.csv")
+    assert status == 0 and json.loads(out)["robot"] == "two-link"
+    assert "simulating two-link" in {title for _, title in lines_of(err)}
+    status, _, err = run(capsys, *command, tmp_path)
+    assert status == 1 and err.splitlines()[-1].startswith("modeler: ")

@@ -126,6 +126,9 @@ MISSPELT = {
     "--versoin": "unknown option --versoin (did you mean --version?)",
     "derive wrist --xyzzy": "unknown option --xyzzy; write it as",
     "derive wrist panda": "got panda as well; expected no more arguments",
+    "completion tcsh": "got tcsh; expected one of bash, zsh, fish",
+    "robots --progress line": "(did you mean lines?)",
+    "-q robots -v": "got --quiet and --verbose; expected one of them",
 }
 
 

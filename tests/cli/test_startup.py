@@ -2,11 +2,8 @@
 
 import argparse
 import json
-import signal
 import subprocess
 import sys
-import time
-from pathlib import Path
 from typing import get_args
 
 import pytest
@@ -138,21 +135,3 @@ def test_an_interrupt_while_loading_is_one_line(package: str) -> None:
     done = subprocess.run(command, capture_output=True, text=True, timeout=60)
     assert (done.returncode, done.stdout) == (130, "")
     assert done.stderr == "modeler: interrupted\n"
-
-
-def test_an_interrupt_at_any_moment_is_one_line(tmp_path: Path) -> None:
-    """As a terminal sends it."""
-    command = [sys.executable, "-m", "modeler", "generate", "scara", "--out"]
-    begun = time.perf_counter()
-    subprocess.run([*command, str(tmp_path / "whole")], check=True, capture_output=True)
-    whole = time.perf_counter() - begun
-    running = subprocess.Popen(
-        [*command, str(tmp_path / "cut")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-    time.sleep(0.3 * whole)
-    running.send_signal(signal.SIGINT)
-    _, err = running.communicate(timeout=60)
-    if running.returncode == 0:
-        pytest.skip("NOT CHECKED: it was faster than the interrupt")
-    assert (running.returncode, err) == (130, "modeler: interrupted\n")
-    assert not list(tmp_path.glob("cut/.modeler-*"))

@@ -10,7 +10,7 @@ import pytest
 from modeler.cli import main, parser
 from modeler.cli.commands import parsed
 from modeler.cli.options import arguments_of, options_of
-from tests.cli.running import answer, refusal
+from tests.cli.running import answer
 
 # What each argument of a command takes here; no file has to be there.
 WORDS = {
@@ -48,13 +48,6 @@ ALONE = [
 def read(words: list[str]) -> dict[str, object]:
     found = vars(parsed(words)[0])
     return {name: value for name, value in found.items() if name not in ("read_as", "load")}
-
-
-def test_all_options_with_several_values_are_found() -> None:
-    assert {
-        ("diagnose", "--holdout"), ("add", "--holdout"), ("fit", "--holdout"),
-        ("excite", "--from"), ("physical", "--sets"), ("physical", "--cad"),
-    } <= set(SEVERAL)  # fmt: skip
 
 
 @pytest.mark.parametrize(("name", "option"), SEVERAL)
@@ -95,16 +88,6 @@ def test_what_was_given_back_is_told() -> None:
     assert parsed(shlex.split("diagnose --holdout b c -- m.json a e"))[0].logs == ["a", "e"]
 
 
-def test_a_doubtful_line_runs_and_is_told(capsys, tmp_path) -> None:
-    (tmp_path / "m.json").write_text("{}")
-    words = ["diagnose", str(tmp_path / "m.json"), "--holdout", "b.csv", "a.csv"]
-    for quiet in (False, True):
-        assert main([*words, "--quiet"] if quiet else words) == 1  # no model, but so far it came
-        told = capsys.readouterr().err.splitlines()
-        assert "m.json" in told[-1] and len(told) == (1 if quiet else 2)
-        assert told[0].startswith("modeler: read as MODEL LOG = ") != quiet
-
-
 @pytest.mark.parametrize(
     ("words", "missing"),
     [("diagnose m.json --holdout b", "LOG"), ("add m.json --out x --holdout b", "EFFECT, LOG"),
@@ -132,10 +115,6 @@ def test_the_usage_tells_an_order_that_works(name: str) -> None:
         if option.startswith("--") and action.help != argparse.SUPPRESS:
             named = any(name in flat for name in action.option_strings)  # by one of its names
             assert named or option in ("--help", "--quiet", "--verbose"), option
-
-
-def test_numbers_below_zero_are_values(capsys) -> None:
-    assert "-1" in refusal(capsys, *["simulate", "two-link", "--duration", "-1", "--out", "x.csv"])
 
 
 def test_a_name_may_be_cut_short(capsys, tmp_path) -> None:
