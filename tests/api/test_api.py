@@ -3,7 +3,6 @@
 import hashlib
 import json
 from collections.abc import Callable
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +14,6 @@ from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import checksum
 from modeler.estimation.payload import Payload
-from tests.notebook.session import session
-
-ROTATES = pytest.mark.rotating
 
 
 @pytest.fixture(scope="module")
@@ -49,33 +45,18 @@ def model(chain: tuple[Any, Any, Any]) -> Any:
     return api.fit(*chain)
 
 
-@pytest.mark.slow
-def test_the_simulation_of_the_command_is_that_of_the_function(tmp_path: Path, logs) -> None:
-    options = ["--duration", "8", "--seed", "1", "--hide", "spring@1"]
-    assert main(["simulate", "two-link", "--out", str(tmp_path / "c.parquet"), *options]) == 0
-    compiled = session()["compiled"]
-    assert (tmp_path / "c.parquet").read_bytes() == Path(logs[0]).read_bytes()
-    run = session()["simulated"]
-    (log,) = api.read_logs(compiled, [run])
-    np.testing.assert_array_equal(log.q, run.q)
-    np.testing.assert_array_equal(log.tau, run.tau)
-
-
 @pytest.mark.rotating("long tests of api")
-@pytest.mark.parametrize(
-    "options",
-    ["--method robust", "--model energy", pytest.param("--method consistent", marks=ROTATES)],
-)
+@pytest.mark.parametrize("options", ["--method robust", "--model energy", "--method consistent"])
 def test_every_way_to_fit_is_that_of_the_command(tmp_path, chain, logs, options: str) -> None:
     words = options.split()
     method = words[1] if words[:1] == ["--method"] else "weighted"
     model = api.fit(*chain, method, energy="energy" in words)
     place = tmp_path / "c.json"
     assert main(["fit", "two-link", logs[0], "--out", str(place), *words]) == 0
-    told = api.open_model(place)
-    assert told.fit.method == model.fit.method
-    np.testing.assert_allclose(model.beta, told.beta, rtol=1e-9)
-    assert model.fit.verdict == told.fit.verdict
+    fitted = api.open_model(place)
+    assert fitted.fit.method == model.fit.method
+    np.testing.assert_allclose(model.beta, fitted.beta, rtol=1e-9)
+    assert model.fit.verdict == fitted.fit.verdict
 
 
 def test_a_look_at_a_log(folder: Path, chain, logs) -> None:
@@ -172,94 +153,38 @@ def test_physical_values_are_those_of_the_command(tmp_path: Path, model) -> None
     assert values.table().column("sigma") == pytest.approx([row["sigma"] for row in told])
 
 
-def test_the_page_of_a_model_is_written(folder: Path, model) -> None:
-    check_page(api.write_report(model, folder / "model.html"))
+def fit(**options: Any) -> Callable[[Any, Any], object]:
+    return lambda chain, logs: api.fit(*chain, **options)
 
 
-@ROTATES
-@pytest.mark.parametrize(
-    "name", ["robot", "better", "comparison", "diagnosis", "contest", "estimators"]
-)
-def test_every_page_is_written(folder: Path, name: str) -> None:
-    check_page(api.write_report(session()[name], folder / f"{name}.html"))
+def excite(**options: Any) -> Callable[[Any, Any], object]:
+    return lambda chain, logs: api.excite(api.load("two-link"), **options)
 
 
-def check_page(place: Path) -> None:
-    text = place.read_text(encoding="utf-8")
-    assert text.startswith("<!DOCTYPE html>") and len(text) < 1_500_000
-
-
-def _fit(**given: Any) -> Callable[[Any, Any], object]:
-    return lambda chain, logs: api.fit(*chain, **given)
-
-
-@cache
-def five_bar() -> Any:
-    return api.load("five-bar")
-
-
+LOADS = [Payload(("run1.parquet",), None, 1.0)]
 REFUSED: dict[str, tuple[Callable[[Any, Any], object], str]] = {
-    "method": (_fit(method="best"), "got method best.*expected one of weighted"),
-    "gains": (_fit(method="tls"), "call fit_gains"),
-    "energy": (_fit(method="ridge", energy=True), "method ridge for the energy model"),
-    "window": (_fit(window=0.1), "got a window"),
-    "loads": (
-        _fit(method="iv", payloads=[Payload(("run1.parquet",), None, 1.0)]),
-        "payloads with method iv",
-    ),
-    "loads and energy": (
-        _fit(energy=True, payloads=[Payload(("run1.parquet",), None, 1.0)]),
-        "payloads with the energy model",
-    ),
-    "setting": (
-        lambda chain, logs: api.simulate(api.load("emps"), colour="red"),
-        "got colour; expected some of .*duration",
-    ),
-    "suffix": (
-        lambda chain, logs: api.simulate(api.load("emps"), "run.txt", duration=1e6),
-        "got suffix .txt",
-    ),
-    "limits": (
-        lambda chain, logs: api.excite(api.load("two-link"), limits={"1": (1.0, 2.0)}),
-        "limits of 1: got .*expected lower, upper, speed, acceleration",
-    ),
-    "joint": (
-        lambda chain, logs: api.excite(api.load("two-link"), boxes={"9": (0,) * 6}),
-        "boxes: no moving joint 9",
-    ),
-    "wish": (
-        lambda chain, logs: api.excite(api.load("two-link"), speed=3),
-        "excite: got speed; expected some of duration",
-    ),
-    "apart": (
-        lambda chain, logs: api.tell_apart(api.fit(*chain), "spring@1", "ghost@1"),
-        "tell_apart: ghost@1: no such effect",
-    ),
-    "estimators": (
-        lambda chain, logs: api.side_by_side(api.load("two-link"), logs, methods=["best"]),
-        "methods: got best",
-    ),
-    "rows twice": (
-        lambda chain, logs: api.side_by_side(api.load("two-link"), logs[:1], logs[:1]),
-        "shares rows",
-    ),
+    "method": (fit(method="best"), "got method best.*expected one of weighted"),
+    "gains": (fit(method="tls"), "call fit_gains"),
+    "energy": (fit(method="ridge", energy=True), "method ridge for the energy model"),
+    "window": (fit(window=0.1), "got a window"),
+    "loads": (fit(method="iv", payloads=LOADS), "payloads with method iv"),
+    "loads and energy": (fit(energy=True, payloads=LOADS), "payloads with the energy model"),
+    "limits": (excite(limits={"1": (1.0, 2.0)}), "limits of 1: got .*expected lower, upper, speed"),
+    "joint": (excite(boxes={"9": (0,) * 6}), "boxes: no moving joint 9"),
+    "wish": (excite(speed=3), "excite: got speed; expected some of duration"),
+    "setting": (lambda chain, logs: api.simulate(api.load("emps"), colour="red"),
+                "got colour; expected some of .*duration"),
+    "suffix": (lambda chain, logs: api.simulate(api.load("emps"), "run.txt", duration=1e6),
+               "got suffix .txt"),
+    "apart": (lambda chain, logs: api.tell_apart(api.fit(*chain), "spring@1", "ghost@1"),
+              "tell_apart: ghost@1: no such effect"),
+    "estimators": (lambda chain, logs: api.side_by_side(api.load("two-link"), logs, methods=["x"]),
+                   "methods: got x"),
+    "rows twice": (lambda chain, logs: api.side_by_side(api.load("two-link"), logs, logs[:1]),
+                   "shares rows"),
     "one model": (lambda chain, logs: api.contest({}, logs), "got 0 models"),
-    "home": (
-        lambda chain, logs: api.home(five_bar(), near={"nine": 1.0}),
-        "near names joint nine",
-    ),
-    "mode": (
-        lambda chain, logs: api.at_home(five_bar(), api.home(five_bar()), "Z"),
-        "there is no such mode; expected one of A",
-    ),
-    "no loops": (lambda chain, logs: api.home(api.load("emps")), "no loop to close"),
-    "undo": (lambda chain, logs: api.undo(api.fit(*chain), logs[:1]), "no effect was added"),
-    "page": (lambda chain, logs: api.write_report("x", "x.html"), "as thing; expected a robot"),  # type: ignore[arg-type]
-    "model file": (lambda chain, logs: api.open_model("none.json"), "none.json"),
-    "values": (
-        lambda chain, logs: api.physical(api.load("two-link")).values("m1"),
-        "no value of m1",
-    ),
+    "home": (lambda chain, logs: api.home(api.load("five-bar"), near={"nine": 1.0}),
+             "near names joint nine"),
 }  # fmt: skip
 
 

@@ -63,9 +63,11 @@ def test_every_function_has_an_example() -> None:
     assert lacking <= {"of", "its_logs", "fittedvalues"} and len(methods) > 12
 
 
+ROTATE = ("modeler.api.motion", "modeler.api.checks", "modeler.api.identifying",
+          "modeler.api.fleets", "modeler.api.workflow")  # fmt: skip
 MARKS = {
     **dict.fromkeys(("modeler.api.improve", "modeler.api.model"), pytest.mark.slow),  # diagnose
-    **dict.fromkeys(("modeler.api.motion", "modeler.api.checks"), pytest.mark.rotating),
+    **dict.fromkeys(ROTATE, pytest.mark.rotating),
 }
 
 

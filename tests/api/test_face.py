@@ -1,9 +1,5 @@
 """What a user of Python sees: a fit that is not usable, units, messages, tables, pictures."""
 
-import ast
-import dataclasses
-import inspect
-import re
 import warnings
 from pathlib import Path
 
@@ -13,11 +9,7 @@ import pytest
 import modeler
 from modeler.api.arguments import in_python
 from modeler.core.errors import DataError, FitWarning
-from modeler.excitation import Wish
 from modeler.observation import Processing
-from modeler.simulation import SimulationSettings
-
-PACKAGE = Path(modeler.__file__).parent
 
 
 @pytest.fixture(scope="module")
@@ -64,14 +56,6 @@ def test_every_relative_error_is_a_fraction(run, model) -> None:
     assert np.allclose(errors[["a", "b"]].to_numpy().T, list(by_joint.values()))
 
 
-def test_a_table_is_what_a_frame_is_made_of(model) -> None:
-    pd = pytest.importorskip("pandas")
-    for name in ("parameters", "errors", "logs"):
-        table = model.table(name)
-        assert pd.DataFrame(table).equals(pd.DataFrame(table.to_frame()))
-        assert [row[table.columns[0][0]] for row in table] == table.column(table.columns[0][0])
-
-
 def test_a_diagnosis_is_a_sequence_of_its_effects() -> None:
     found = object.__new__(modeler.Diagnosis)
     object.__setattr__(found, "effects", ("first", "second"))
@@ -85,41 +69,6 @@ def test_messages_name_arguments_of_python(run, tmp_path) -> None:
     with pytest.raises(DataError) as error:
         modeler.identify("two-link", run, processing=Processing(parallel_cutoff=1e-3))
     assert "--" not in str(error.value)
-
-
-def raised() -> set[str]:
-    """Options that errors outside of the command line and the studio name."""
-    found = set()
-    for path in PACKAGE.rglob("*.py"):
-        if {"cli", "studio"} & set(path.relative_to(PACKAGE).parts):
-            continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Raise):
-                texts = [(n.lineno, n.col_offset, n.value) for n in ast.walk(node)
-                         if isinstance(n, ast.Constant) and isinstance(n.value, str)]  # fmt: skip
-                message = " ".join(text for *_, text in sorted(texts))
-                found |= set(re.findall(r"`[^`]*`|(?<![\w-])--[a-z][a-z-]*", message))
-    return {option for option in found if option.startswith("--")}
-
-
-WORDS = {"help", "list", "sets", "cad", "blocks", "nonzero", "dask", "energy", "structured_text"}
-"""That a message may hold as a plain word: "leave blocks out"."""
-
-
-def test_options_in_errors_are_arguments_of_python() -> None:
-    known = {"load", "mass", "moved", "model.compile()", "gains", "window", "bound"}
-    for name in dir(modeler.api):
-        thing = getattr(modeler.api, name)
-        own = [thing] if inspect.isfunction(thing) else []
-        if inspect.isclass(thing):
-            own = [each for each in vars(thing).values() if inspect.isfunction(each)]
-        for each in own:
-            known |= set(inspect.signature(each).parameters)
-    for kind in (Processing, Wish, SimulationSettings):
-        known |= {field.name for field in dataclasses.fields(kind)}
-    words = {in_python(option) for option in raised()}
-    assert len(words) > 20 and not any("--" in word for word in words)
-    assert words <= known | WORDS, words - known - WORDS
 
 
 def test_commands_keep_their_options() -> None:

@@ -10,12 +10,13 @@ import pytest
 
 import modeler
 import modeler.api as api
+from tests.rotation import rotating
 
 ROOT = Path(modeler.__file__).parent
 ROOMS = {path.parent.name for path in ROOT.glob("*/__init__.py")}
 
 
-PROGRAM = """
+LOADED = """
 import sys
 heavy = {'numpy', 'sympy', 'pandas', 'sklearn', 'pyarrow', 'lazy_loader', 'pathlib'}
 def loaded():
@@ -25,23 +26,25 @@ import modeler as md
 print(loaded() - before)
 from modeler import numerics  # it asks the package for the name first
 print('modeler.api' in loaded())
-run = md.simulate(md.load('two-link'), duration=3.0, seed=5)
-given = {'time': run.time, 'q': run.q, 'tau': run.tau}
-model = md.identify('two-link', [given, sys.argv[1]])
-print(md.__version__, model.predict(given)['tau'].shape, loaded() & {'pandas', 'sklearn'})
+"""
+FITTED = """
+run = md.simulate(md.load('two-link'), duration=3.0, rate=250.0, seed=5)
+model = md.identify('two-link', [{'time': run.time, 'q': run.q, 'tau': run.tau}, sys.argv[1]])
+print(model.predict({'time': run.time, 'q': run.q})['tau'].shape, loaded() & {'pandas', 'sklearn'})
 """
 
 
-def test_nothing_is_loaded_before_it_is_used(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("program", "printed"), [(LOADED, ""), *rotating((LOADED + FITTED, "(750, 2) set()\n"))]
+)
+def test_nothing_is_loaded_before_it_is_used(program: str, printed: str, tmp_path: Path) -> None:
     """Arrow loads pandas by itself where it makes tables; a dict and a file need none."""
     place = tmp_path / "run.parquet"
-    modeler.simulate(modeler.load("two-link"), place, duration=3.0, seed=6)
-    ran = subprocess.run(
-        [sys.executable, "-c", PROGRAM, str(place)],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    told = f"{{'modeler'}}\nFalse\n{modeler.__version__} (3000, 2) set()\n"
-    assert ran.stdout == told, ran.stderr
+    if printed:
+        modeler.simulate(modeler.load("two-link"), place, duration=3.0, rate=250.0, seed=6)
+    command = [sys.executable, "-c", program, str(place)]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert ran.stdout == f"{{'modeler'}}\nFalse\n{printed}", ran.stderr
     assert {*modeler._ROOMS} == ROOMS
 
 

@@ -1,4 +1,4 @@
-"""What Python users hold goes to other processes and machines, and is copied: joblib, Dask."""
+"""What Python users hold goes to other processes and machines, and is copied: joblib."""
 
 import copy
 import pickle
@@ -9,12 +9,25 @@ import pytest
 
 import modeler.api as api
 from tests.notebook.session import session
+from tests.rotation import rotating
 
 KINDS = (
-    "robot", "derivation", "emitted", "compiled", "simulated", "log", "observation", "model", "fit",
-    "better", "comparison", "diagnosis", "fleet", "free run", "contest", "estimators", "modes",
-    "motion", "physical",
-)  # fmt: skip
+    *("robot", "derivation", "emitted", "compiled", "simulated", "log", "observation", "model"),
+    *rotating("better", "diagnosis", "fleet", "free run", "contest", "estimators", "modes"),
+    *rotating("comparison", "motion", "physical"),
+)
+
+
+def by_pickle(thing: Any) -> Any:
+    return pickle.loads(pickle.dumps(thing))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_it_is_pickled_and_copied(kind: str) -> None:
+    thing = session()[kind]
+    for again in (by_pickle(thing), copy.deepcopy(thing)):
+        assert again is not thing and repr(again) == repr(thing)
+        assert again.summary() == thing.summary()
 
 
 def torque(compiled: api.CompiledModel, beta: np.ndarray) -> np.ndarray:
@@ -22,60 +35,30 @@ def torque(compiled: api.CompiledModel, beta: np.ndarray) -> np.ndarray:
     return compiled.inverse_dynamics(*motion, beta)
 
 
-@pytest.mark.parametrize("copied", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy])
-@pytest.mark.parametrize("kind", KINDS)
-def test_it_is_pickled_and_copied(kind: str, copied: Any) -> None:
-    thing = session()[kind]
-    again = copied(thing)
-    assert again is not thing and repr(again) == repr(thing)
-    assert again.summary() == thing.summary()
+def computed(compiled: api.CompiledModel, seen: api.Observation, model: Any, log: Any) -> list[Any]:
+    """What another process makes of them; a regressor is evaluated by the compiled robot."""
+    error = api.compare(model, [log]).relative_error
+    return [torque(compiled, model.beta), seen.W, np.array(error)]
 
 
-@pytest.mark.parametrize("copied", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy])
+GIVEN = ("compiled", "observation", "model", "log")
+
+
+@pytest.mark.parametrize("copied", [by_pickle, copy.deepcopy])
 def test_what_was_copied_computes_the_same(copied: Any) -> None:
     made = session()
-    beta = made["model"].beta
-    np.testing.assert_array_equal(
-        torque(copied(made["compiled"]), beta), torque(made["compiled"], beta)
-    )
-    seen = copied(made["observation"])  # its regressor is evaluated by the copy's compiled robot
     fresh = api.observe(made["compiled"], [made["log"]])
-    np.testing.assert_array_equal(seen.W, fresh.W)
-    error = api.compare(copied(made["model"]), [copied(made["log"])]).relative_error
-    assert error == api.compare(made["model"], [made["log"]]).relative_error
+    expected = computed(made["compiled"], fresh, made["model"], made["log"])
+    for one, other in zip(computed(*(copied(made[n]) for n in GIVEN)), expected, strict=True):
+        np.testing.assert_array_equal(one, other)
     assert api.generate(copied(made["derivation"])).code == made["emitted"].code
-
-
-def elsewhere(compiled: api.CompiledModel, seen: api.Observation, model: Any, log: Any) -> Any:
-    """What another process makes of them."""
-    return torque(compiled, model.beta), float(seen.W.sum()), api.compare(model, [log]).samples
-
-
-def check(found: Any) -> None:
-    made = session()
-    values, total, samples = found
-    np.testing.assert_array_equal(values, torque(made["compiled"], made["model"].beta))
-    assert total == float(made["observation"].W.sum())
-    assert samples == api.compare(made["model"], [made["log"]]).samples
 
 
 @pytest.mark.slow  # some seconds
 def test_through_joblib() -> None:
     joblib = pytest.importorskip("joblib")
-    made = session()
-    given = [made[name] for name in ("compiled", "observation", "model", "log")]
-    jobs = joblib.Parallel(n_jobs=2)(joblib.delayed(elsewhere)(*given) for _ in range(2))
-    for found in jobs:
-        check(found)
-
-
-@pytest.mark.slow  # a cluster starts in some seconds
-def test_through_dask() -> None:
-    distributed = pytest.importorskip("distributed")
-    made = session()
-    given = [made[name] for name in ("compiled", "observation", "model", "log")]
-    with (
-        distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as own,
-        distributed.Client(own) as client,
-    ):
-        check(client.submit(elsewhere, *given, pure=False).result(timeout=120))
+    given = [session()[name] for name in GIVEN]
+    results = joblib.Parallel(n_jobs=2)(joblib.delayed(computed)(*given) for _ in range(2))
+    for result in results:
+        for one, other in zip(result, computed(*given), strict=True):
+            np.testing.assert_array_equal(one, other)

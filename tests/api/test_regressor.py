@@ -1,6 +1,5 @@
 """The robot as a regressor of scikit-learn: its tools, and its checks of estimators."""
 
-import pickle
 from typing import Any
 
 import numpy as np
@@ -28,7 +27,7 @@ from modeler.api.regressor import TorqueRegressor, log_rows
 @pytest.fixture(scope="module")
 def runs() -> list[Any]:
     robot = md.open_robot("two-link")
-    return [md.simulate(robot, duration=4.0, seed=seed) for seed in (51, 52, 53)]
+    return [md.simulate(robot, duration=4.0, rate=250.0, seed=seed) for seed in (51, 52, 53)]
 
 
 @pytest.fixture(scope="module")
@@ -38,14 +37,14 @@ def rows(runs: list[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def test_rows_are_those_of_the_logs(runs: list[Any], rows: Any) -> None:
     X, y, groups = rows
-    assert X.shape == (12000, 4) and y.shape == (12000, 2)
+    assert X.shape == (3000, 4) and y.shape == (3000, 2)
     for k, run in enumerate(runs):
         np.testing.assert_array_equal(X[groups == k, 1], run.time)
         np.testing.assert_array_equal(X[groups == k, 2:], run.q)
         np.testing.assert_array_equal(y[groups == k], run.tau)
     missing = {"time": runs[0].time, "q": runs[0].q.copy(), "tau": runs[0].tau}
     missing["q"][100:103, 1] = np.nan
-    assert len(log_rows("two-link", missing)[0]) == 3997
+    assert len(log_rows("two-link", missing)[0]) == 997
 
 
 def test_with_speeds_and_accelerations_where_every_log_has_them(runs: list[Any]) -> None:
@@ -86,10 +85,8 @@ def test_one_group_a_log(rows: Any) -> None:
         axis=0)  # fmt: skip
     assert scores[1] == pytest.approx(r2.mean())
     grid = {"method": ["weighted", "ordinary"]}
-    found = GridSearchCV(robot, grid, cv=GroupKFold(3)).fit(X, y, groups=groups)
-    assert found.best_estimator_.model_.fit.method in grid["method"]
-    again = pickle.loads(pickle.dumps(found.best_estimator_))
-    np.testing.assert_array_equal(again.predict(X), found.predict(X))
+    search = GridSearchCV(robot, grid, cv=GroupKFold(3)).fit(X, y, groups=groups)
+    assert search.best_estimator_.model_.fit.method in grid["method"]
 
 
 CHECKS = (
@@ -116,11 +113,11 @@ def test_what_cannot_be_is_refused_in_one_line(rows: Any) -> None:
     for given, said in (
         ((X[:, :3], y), "X has 3 columns; expected number of the log, time, .* of 2 joints"),
         ((X, y[:, 0]), "y has 1 columns; expected the torque of 2 joints"),
-        ((X[::-1], y), "X: got 4000 rows of log 0; expected at least 10, their time increasing"),
+        ((X[::-1], y), "X: got 1000 rows of log 0; expected at least 10, their time increasing"),
     ):
         with pytest.raises(DataError, match=said):
             robot.fit(*given)
     robot.fit(X, y)
-    X = np.concatenate([X[:2000], [[7.0, 0.0, 0.1, 0.1], [7.0, 0.1, 0.1, 0.1]]])
+    X = np.concatenate([X[:500], [[7.0, 0.0, 0.1, 0.1], [7.0, 0.1, 0.1, 0.1]]])
     with pytest.raises(DataError, match="got 2 rows of log 7; expected at least 10"):
         robot.predict(X)

@@ -5,6 +5,7 @@ import signal
 from collections.abc import Iterator
 from functools import reduce
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -22,11 +23,9 @@ from modeler.estimation.long_logs import Partial, by_threads, identify_long, str
 from modeler.observation.log import Log
 from modeler.observation.read import source_of
 from modeler.observation.survey import FactsSoFar, survey
-from modeler.runtime.model import CompiledModel
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs
 from tests.jobs.work import added, ends_always, refused, third
 
-WHY = 'NOT CHECKED: no Dask; pip install "modeler-robotics[dask]"'
 ROWS = 256  # of a chunk
 
 
@@ -48,19 +47,21 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def sources(folder: Path, model: CompiledModel) -> list:
-    places = sorted(folder.glob("*/*.parquet"))
-    return [source_of(path, model.spec) for path in places]
+def sources(folder: Path) -> list:
+    return [source_of(path, compiled().spec) for path in sorted(folder.glob("*/*.parquet"))]
 
 
-@pytest.mark.parametrize("rows", [300, pytest.param(100, marks=pytest.mark.rotating)])
-def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path, rows: int) -> None:
+def chunks_of(source: Any, rows: int = ROWS) -> Any:
+    """How that source is read."""
+    return survey(compiled(), [source], PROCESSING, FactsSoFar(), rows).chosen[0]
+
+
+def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path) -> None:
     """To the bit where they are merged in the same order, by workers of this process."""
-    model = compiled()
-    given = sources(place, model)
-    chosen = survey(model, given, PROCESSING, FactsSoFar(), rows).chosen[0]
-    one = reduce(Partial.merged_with, by_threads(model, given[0], chosen))
-    other = reduce(Partial.merged_with, by_workers(Workers(), emitted())(model, given[0], chosen))
+    model, [source, *_] = compiled(), sources(place)
+    chosen = chunks_of(source, 300)
+    one = reduce(Partial.merged_with, by_threads(model, source, chosen))
+    other = reduce(Partial.merged_with, by_workers(Workers(), emitted())(model, source, chosen))
     counts = one.facts.tally.sums
     assert counts["chunks"] > 2
     for name, count in counts.items():
@@ -74,10 +75,8 @@ def test_chunks_from_the_middle_of_a_file_are_those_of_the_whole(place: Path, ro
 
 
 def test_time_increases_from_job_to_job(place: Path) -> None:
-    model = compiled()
-    [source, *_] = sources(place, model)
-    chosen = survey(model, [source], PROCESSING, FactsSoFar(), ROWS).chosen[0]
-    first, later, *_ = by_threads(model, source, chosen)
+    [source, *_] = sources(place)
+    first, later, *_ = by_threads(compiled(), source, chunks_of(source))
     assert merged_in_time(first, later).facts.span == (first.facts.span[0], later.facts.span[1])
     with pytest.raises(DataError, match="s; expected increasing time; sort and split the file"):
         merged_in_time(later, first)
@@ -85,79 +84,91 @@ def test_time_increases_from_job_to_job(place: Path) -> None:
 
 def test_logs_that_cannot_be_read_from_the_middle_are_read_here(place: Path) -> None:
     """CSV: its rows have no places."""
-    model = compiled()
     file = place / "same.csv"
     pyarrow.csv.write_csv(pq.read_table(place / "r1" / "day1.parquet"), file)
-    source = source_of(file, model.spec)
-    assert source is not None
-    chosen = survey(model, [source], PROCESSING, FactsSoFar(), ROWS).chosen[0]
-    partials = by_workers(Workers(), emitted())(model, source, chosen)
+    source = source_of(file, compiled().spec)
+    partials = by_workers(Workers(), emitted())(compiled(), source, chunks_of(source))
     assert reduce(Partial.merged_with, partials).facts.tally.count("rows") == 4000
 
 
 @pytest.fixture(scope="module")
-def address() -> Iterator[str]:
+def distributed() -> Any:
+    return pytest.importorskip(
+        "distributed", reason='NOT CHECKED: no Dask; pip install "modeler-robotics[dask]"'
+    )
+
+
+@pytest.fixture(scope="module")
+def in_threads(distributed: Any) -> Iterator[str]:
+    """Two workers in this process."""
+    with distributed.LocalCluster(
+        n_workers=2, processes=False, dashboard_address=":0", silence_logs=50
+    ) as cluster_:
+        yield cluster_.scheduler_address
+
+
+@pytest.fixture(scope="module")
+def address(distributed: Any) -> Iterator[str]:
     """Two workers, each a process that a nanny starts again."""
-    distributed = pytest.importorskip("distributed", reason=WHY)
-    dask = pytest.importorskip("dask", reason=WHY)
-    dask.config.set({"distributed.scheduler.allowed-failures": 1})
+    __import__("dask").config.set({"distributed.scheduler.allowed-failures": 1})
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=50, memory_limit=0
-    ) as found:
-        yield found.scheduler_address
+    ) as cluster_:
+        yield cluster_.scheduler_address
 
 
-@pytest.fixture
-def workers(address: str) -> Iterator[cluster.Cluster]:
-    with open_workers(address) as found:
-        yield found
-
-
-def test_a_cluster_gives_what_this_process_gives(workers: cluster.Cluster) -> None:
+def test_a_cluster_gives_what_this_process_gives(in_threads: str) -> None:
     jobs, shares, here = range(9), list[float](), Workers()
-    waiting = workers.begun(third, 0.1, jobs, added)
-    assert np.array_equal(
-        workers.each(third, 0.1, jobs, shares.append), here.each(third, 0.1, jobs)
-    )
-    assert np.array_equal(waiting(), here.begun(third, 0.1, jobs, added)())
-    assert shares == [k / 9 for k in range(1, 10)]
-    with pytest.raises(DataError, match="log: job 2 cannot be done"):
-        workers.each(refused, "log", range(4))
-    with pytest.raises(DataError, match="log: job 2 cannot be done"):
-        workers.begun(refused, "log", range(4), max)()
+    with open_workers(in_threads) as workers:
+        waiting = workers.begun(third, 0.1, jobs, added)
+        results = workers.each(third, 0.1, jobs, shares.append)
+        assert np.array_equal(results, here.each(third, 0.1, jobs))
+        assert np.array_equal(waiting(), here.begun(third, 0.1, jobs, added)())
+        assert shares == [k / 9 for k in range(1, 10)]
+        with pytest.raises(DataError, match="log: job 2 cannot be done"):
+            workers.each(refused, "log", range(4))
+        with pytest.raises(DataError, match="log: job 2 cannot be done"):
+            workers.begun(refused, "log", range(4), max)()
 
 
 @pytest.mark.rotating("long tests of jobs")
-def test_a_fit_is_the_local_one(workers: cluster.Cluster, place: Path) -> None:
+def test_a_fit_is_the_local_one(address: str, place: Path) -> None:
     """To 1e-10 of the values, all logs at once, chunk after chunk; a worker is lost on the way."""
-    model = compiled()
-    given = sources(place, model)
+    model, given = compiled(), sources(place)
     here = identify_long(stream(model, given, PROCESSING, rows=ROWS))
-    plain, struck = by_workers(workers, emitted()), list[int]()
-
-    def reducer(*each):  # type: ignore[no-untyped-def]
-        begun = plain(*each)
-        if not struck:  # the first log is on its way: one of the two workers ends
-            struck.append(next(iter(workers._client.run(os.getpid).values())))
-            os.kill(struck[0], signal.SIGKILL)
-        return begun
-
-    there = identify_long(stream(model, given, PROCESSING, rows=ROWS, reducer=reducer))
+    with open_workers(address) as workers:
+        there, struck = fitted_without_one(workers, given)
     np.testing.assert_allclose(there.beta, here.beta, rtol=1e-10)
     np.testing.assert_allclose(there.covariance, here.covariance, rtol=1e-9, atol=1e-18)
     assert struck and there.rows == here.rows and there.reading == here.reading
     assert there.processing == here.processing and there.sentences == here.sentences
 
 
-def test_workers_must_see_the_same_file(workers: cluster.Cluster, place: Path, tmp_path) -> None:
-    model = compiled()
+def fitted_without_one(workers: cluster.Cluster, given: list) -> tuple[Any, list[int]]:
+    """The fit, and the process that ended while the first log was on its way."""
+    plain, struck = by_workers(workers, emitted()), list[int]()
+
+    def reducer(*each):  # type: ignore[no-untyped-def]
+        begun = plain(*each)
+        if not struck:
+            struck.append(next(iter(workers._client.run(os.getpid).values())))
+            os.kill(struck[0], signal.SIGKILL)
+        return begun
+
+    long = stream(compiled(), given, PROCESSING, rows=ROWS, reducer=reducer)
+    return identify_long(long), struck
+
+
+def test_workers_must_see_the_same_file(in_threads: str, tmp_path: Path) -> None:
     file = written(tmp_path / "a.parquet", logs(Scene(machines=1, periods=1), 2)[0][1])
-    source = source_of(file, model.spec)
-    assert source is not None
-    chosen = survey(model, [source], PROCESSING, FactsSoFar(), ROWS).chosen[0]
+    source = source_of(file, compiled().spec)
+    chosen = chunks_of(source)
     file.unlink()
-    with pytest.raises(DataError, match="a worker sees none, expected a file of 1200 rows; work"):
-        list(by_workers(workers, emitted())(model, source, chosen))
+    with (
+        open_workers(in_threads) as workers,
+        pytest.raises(DataError, match="a worker sees none, expected a file of 1200 rows; work"),
+    ):
+        list(by_workers(workers, emitted())(compiled(), source, chosen))
 
 
 @pytest.mark.rotating("long tests of jobs")
@@ -184,32 +195,34 @@ def test_commands_on_a_cluster(address: str, place: Path, tmp_path: Path, capsys
     assert told in capsys.readouterr().err
 
 
-@pytest.mark.rotating("long tests of jobs")
-def test_what_does_not_answer_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    distributed = pytest.importorskip("distributed", reason=WHY)
+def test_what_does_not_answer_is_one_line(monkeypatch, distributed: Any) -> None:
     monkeypatch.setattr(cluster, "_ANSWER", 0.3)
     for address in ("tcp://127.0.0.1:9", "nonsense://here"):
         with pytest.raises(DataError) as error, open_workers(address):
             pass
         assert str(error.value).startswith(f"--dask {address}: no scheduler answers there (")
-    with distributed.LocalCluster(
-        n_workers=0, processes=False, dashboard_address=":0", silence_logs=50
-    ) as empty:
-        address = empty.scheduler_address
-        told = "the scheduler has no workers; start some, as `dask worker ADDRESS`"
-        with pytest.raises(DataError, match=told), open_workers(address):
-            pass
+    message = "the scheduler has no workers; start some, as `dask worker ADDRESS`"
+    with (
+        distributed.LocalCluster(
+            n_workers=0, processes=False, dashboard_address=":0", silence_logs=50
+        ) as empty,
+        pytest.raises(DataError, match=message),
+        open_workers(empty.scheduler_address),
+    ):
+        pass
 
 
+@pytest.mark.rotating("long tests of jobs")
 def test_workers_of_another_version_are_told(address: str, monkeypatch) -> None:
     monkeypatch.setattr(cluster, "__version__", "0.0")
-    told = f"has modeler {__version__}; expected 0.0; install the same where the workers run"
-    with pytest.raises(DataError, match=told), open_workers(address):
+    message = f"has modeler {__version__}; expected 0.0; install the same where the workers run"
+    with pytest.raises(DataError, match=message), open_workers(address):
         pass
 
 
 @pytest.mark.slow
-def test_a_job_that_ends_all_its_workers_is_told(workers: cluster.Cluster) -> None:
+def test_a_job_that_ends_all_its_workers_is_told(address: str) -> None:
     """Last of all: it costs the cluster its workers, which nannies start again."""
-    with pytest.raises(DataError, match="Dask: a job ended 2 workers one after the other, as when"):
+    message = "Dask: a job ended 2 workers one after the other, as when"
+    with open_workers(address) as workers, pytest.raises(DataError, match=message):
         workers.each(ends_always, "", [0])
