@@ -8,12 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.api import home, load
-from modeler.core.builtin import builtin_text
 from modeler.robot.read import read_robot
 from tests.cli.running import answer, refusal, run
-from tests.robot.par_files import par_text
 from tests.robot_texts import CRANK
+from tests.rotation import rotating
 
 BARE = CRANK[: CRANK.index("[home]")].rstrip() + "\n"
 
@@ -55,15 +53,12 @@ def test_a_mode_is_written_and_used(crank, capsys, words) -> None:
     assert set(read_robot("bare.toml").home) == {"1", "2", "3"}
     out = answer(capsys, "derive", "bare.toml")
     assert "[home] found" not in out and "[home] completed" not in out
-    written, told = (
-        read_robot("bare.toml").home,
-        answer(capsys, "home", "bare.toml", "--json", "a.json"),
-    )
-    assert told.count("as [home] of the file") == 1
-    assert json.loads(Path("a.json").read_text())["modes"][0]["home"] == pytest.approx(
-        written, abs=1e-6
-    )
-    assert (written["3"] > 0) == (letter == "A")
+    out = answer(capsys, "home", "bare.toml", "--json", "a.json")
+    assert out.count("as [home] of the file") == 1
+    home = read_robot("bare.toml").home
+    first = json.loads(Path("a.json").read_text())["modes"][0]
+    assert first["home"] == pytest.approx(home, abs=1e-6)
+    assert (home["3"] > 0) == (letter == "A")
 
 
 def test_the_file_stays_a_file_of_its_system(crank, capsys) -> None:
@@ -76,15 +71,15 @@ def test_the_file_stays_a_file_of_its_system(crank, capsys) -> None:
     assert set(read_robot("bare.toml").home) == {"1", "2", "3"}
 
 
-@pytest.mark.parametrize("kind", ["html", "svg", "png", "pdf"])
+@pytest.mark.parametrize("kind", ["svg", *rotating("html", "png", "pdf")])
 def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, kind) -> None:
-    from matplotlib.image import imread
-
     name = f"modes.{kind}"
     assert f"written: {name}" in answer(capsys, "home", "crank.toml", "--picture", name)
     if kind == "pdf":
         assert Path(name).read_bytes().startswith(b"%PDF")
     elif kind == "png":
+        from matplotlib.image import imread
+
         pixels = imread(name)[:, :, :3]
         assert pixels.shape[1] == 1400  # 3.5 inches of 400 dots
         halves = pixels[:, :700], pixels[:, 700:]
@@ -96,48 +91,18 @@ def test_pictures_show_every_mode_and_need_no_other_file(crank, capsys, kind) ->
         assert not re.search(r"<link|<iframe|\bsrc=|@import|<script|url\((?!#)", text)
 
 
-@pytest.mark.slow
-def test_modes_stand_in_rows_of_four(crank, capsys, monkeypatch) -> None:
-    modes = home(load("stewart"))  # which takes seconds
-    monkeypatch.setattr("modeler.cli.home.home_modes", lambda *given: modes)
-    answer(capsys, "home", "stewart", "--picture", "modes.svg")
-    found = re.findall(r"<text [^>]*>([A-Z][^<]*)</text>", Path("modes.svg").read_text())
-    assert found == ["A (as in the file)", *"BCDEFGH"]
-    answer(capsys, "home", "stewart", "--picture", "modes.png")
-    from matplotlib.image import imread
-
-    pixels = np.any(imread("modes.png")[:, :, :3] < 0.95, axis=2)
-    assert pixels.shape[1] == 2800
-    panels = [half[:, 700 * k : 700 * (k + 1)] for half in np.vsplit(pixels, 2) for k in range(4)]
-    for k, panel in enumerate(panels):
-        assert 0.01 < np.mean(panel) < 0.5
-        assert not any(
-            np.any(edge) for edge in (panel[:, :8], panel[:, -8:], panel[:8], panel[-8:])
-        )
-        assert all(np.mean(panel != other) > 0.01 for other in panels[:k])
-
-
 @pytest.mark.rotating("long tests of cli")
 def test_commands_say_which_home_was_found(crank, capsys) -> None:
     """And the log, the model and the C are of that mode."""
-    told = "crank: [home] found: mode A at q1 = "
-    out = answer(capsys, "derive", "bare.toml")
-    assert out.startswith(told) and "2 assembly modes: `modeler home` shows them" in out
     for line in (
+        "derive bare.toml",
         "simulate bare.toml --duration 2 --rate 100 --out log.csv",
         "fit bare.toml log.csv --out model.json",
     ):
         status, out, _ = run(capsys, *line.split())
-        assert status == 0 and told in out
+        assert status == 0 and "crank: [home] found: mode A at q1 = " in out
+        assert "2 assembly modes: `modeler home` shows them" in out
     assert "[home]" in json.loads(Path("model.json").read_text())["robot_text"]
-
-
-def test_a_home_in_one_line_is_found_all_the_same(crank, capsys) -> None:
-    Path("line.toml").write_text("home = {q1 = 0.5}\n" + BARE)
-    assert "[home] completed" in answer(capsys, "derive", "line.toml")
-    before = Path("line.toml").read_bytes()
-    assert "[home] cannot be replaced" in run(capsys, "home", "line.toml", "--write")[2]
-    assert Path("line.toml").read_bytes() == before
 
 
 MISTAKES = [
@@ -153,9 +118,9 @@ MISTAKES = [
 ]
 
 
-@pytest.mark.parametrize(("words", "told"), MISTAKES, ids=[" ".join(m[0]) for m in MISTAKES])
-def test_mistakes_are_told_in_a_line(crank, capsys, words, told) -> None:
-    assert told in refusal(capsys, "home", *words)
+@pytest.mark.parametrize(("words", "message"), MISTAKES, ids=[" ".join(m[0]) for m in MISTAKES])
+def test_mistakes_are_told_in_a_line(crank, capsys, words, message) -> None:
+    assert message in refusal(capsys, "home", *words)
     assert sorted(path.name for path in crank.iterdir()) == ["bare.toml", "crank.toml"]
     assert Path("crank.toml").read_text() == CRANK
 
@@ -169,34 +134,8 @@ def test_a_file_that_may_not_be_written_is_told_before_the_work(crank, capsys, m
 
 
 def test_another_programs_file_is_never_written_over(crank, capsys, monkeypatch) -> None:
-    text = par_text({"Ant": "0,1", "d": "0,L", "Theta": "t1,t2"})
-    Path("arm.par").write_text(text)
-    Path("ARM2.PAR").write_text(text)
     monkeypatch.setattr("modeler.cli.home.home_modes", lambda *given: pytest.fail("searched"))
-    for name in ("arm.par", "ARM2.PAR", "none.par"):
+    for name in ("ARM2.PAR", "none.par"):
         err = refusal(capsys, "home", name, "--write")
-        told = f"convert it with `modeler convert {name} --out {Path(name).with_suffix('.toml')}`"
-        assert f"--write: {name} is another program's file" in err and told in err
-    assert Path("arm.par").read_text() == Path("ARM2.PAR").read_text() == text
-    assert not Path("none.par").exists()
-
-
-def test_what_a_conversion_decided_is_said(crank, capsys) -> None:
-    Path("arm.par").write_text(par_text({"Ant": "0", "Theta": "t1"}))
-    lines = run(capsys, "home", "arm.par")[2].splitlines()
-    assert lines[0].startswith("modeler: arm.par: ") and "no loop to close" in lines[-1]
-
-
-def test_lengths_that_never_meet_are_told(crank, capsys) -> None:
-    Path("far.toml").write_text(BARE.replace('"R", "q2", 0]', '"R", "q2", 0.2]'))
-    err = refusal(capsys, "home", "far.toml")
-    assert 'loop "pin" cannot close near that posture' in err and "nor from 300 others" in err
-
-
-def test_a_built_in_robot_saved_as_a_file_can_be_written(crank, capsys) -> None:
-    Path("mine.toml").write_text(builtin_text("orthoglide-2003"))
-    answer(capsys, "home", "mine.toml", "--write")
-    # Nothing had to change but what the file leaves at 0.
-    before, after = builtin_text("orthoglide-2003").splitlines(), Path("mine.toml").read_text()
-    assert [line for line in after.splitlines() if line in before] == before
-    assert '"q2{i}" = "-pi/2"' in after
+        hint = f"convert it with `modeler convert {name} --out {Path(name).with_suffix('.toml')}`"
+        assert f"--write: {name} is another program's file" in err and hint in err

@@ -8,9 +8,7 @@ import pytest
 
 from modeler.cli import main
 from modeler.estimation.model_file import load_model, save_model
-from modeler.formulas.printed import read_print
 from tests.cli.running import answer, complaint, refusal
-from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, random_letters, system_of
 
 SLIDE = """name = "pr"
@@ -61,13 +59,6 @@ def listed(values: dict[str, float], names) -> str:
     return ",".join(f"{name}={values[name]!r}" for name in names)
 
 
-def test_overview_names_the_easiest_set(capsys, tmp_path):
-    out, raw = physical(capsys, tmp_path, "two-link")
-    assert "at least 2 parameters must be known" in out
-    assert "formulas: modeler physical two-link --known m1,m2" in out
-    assert raw["easiest_set"] == ["m1", "m2"]
-
-
 def test_the_hint_is_what_can_be_typed(capsys, tmp_path, wrist):
     """A file by its path, and with a model a place for values; one parameter is no plural."""
     robot = tmp_path / "slide.toml"
@@ -100,30 +91,6 @@ def test_formulas_in_three_forms(capsys, tmp_path):
     assert r"\mathit{ct}_{2} ={}& \frac{-\mathit{PG}_{2}}{\mathit{cm}} \\" in out
 
 
-@pytest.mark.parametrize(
-    "eighth", ["cm", *(pytest.param(x, marks=pytest.mark.rotating) for x in ("cJ11", "bJ12"))]
-)
-def test_the_python_code_runs_and_is_right(capsys, eighth):
-    known = (*SEVEN, eighth)
-    out = answer(capsys, "physical", "wrist", "--known", ",".join(known), "--format", "python")
-    place: dict = {}
-    exec(compile(out, "physical.py", "exec"), place)
-    function = place["physical_parameters"]
-    system = system_of("wrist")
-    truth = random_letters(system, np.random.default_rng(1))
-    given = dict(zip(system.data, data_of(system, truth), strict=True)) | truth
-    names = function.__code__.co_varnames[: function.__code__.co_argcount]
-    found = function(**{name: given[name] for name in names})
-    assert set(found) == set(system.letters) - set(known)
-    assert found == pytest.approx({x: truth[x] for x in found}, rel=1e-8)
-
-
-def test_an_insufficient_set_is_told(capsys):
-    out = answer(capsys, "physical", "wrist", "--known", ",".join(SEVEN))
-    assert "6 of 18 unknown parameters follow" in out
-    assert "1 more must be known: one of cm, bt1, ct2, ct3, " in out
-
-
 def test_values_from_a_model(capsys, tmp_path, wrist):
     """By base parameters the same as by the coefficients of the paper."""
     file, truth = wrist
@@ -143,16 +110,6 @@ def test_values_from_a_model(capsys, tmp_path, wrist):
     assert set(both[0]) == set(both[1])
     for x, pair in both[0].items():
         assert pair == pytest.approx(both[1][x], rel=1e-6), x
-
-
-def test_what_is_known_and_contradicts_is_refused(capsys, wrist):
-    file, truth = wrist
-    names = (*EIGHT, "ct2")
-    out = answer(capsys, "physical", file, "--known", listed(truth, names))
-    assert "each known parameter against" in out
-    wrong = listed(truth | {"ct2": 1.05 * truth["ct2"]}, names)
-    err = complaint(capsys, "physical", file, "--known", wrong)
-    assert err.startswith("modeler: --known contradicts the fit: ") and "ct2 = " in err
 
 
 def test_parameters_that_a_fit_set_aside_are_not_told(capsys, tmp_path, wrist):
@@ -186,23 +143,6 @@ def test_sets_rated_at_the_values_of_the_robot_file(capsys):
     assert "the 44 with the fewest inertias" in out and "the least error first" in out
 
 
-@pytest.mark.rotating("long tests of cli")
-def test_a_fit_against_cad(capsys, tmp_path, wrist):
-    file, truth = wrist
-    cad = tmp_path / "cad.toml"
-    cad.write_text("".join(f"{x} = {v!r}\n" for x, v in truth.items()))
-    assert "all 17 agree with CAD" in answer(capsys, "physical", file, "--cad", cad)
-    wrong = truth | {"cm": 1.1 * truth["cm"]}
-    cad.write_text("".join(f"{x} = {v!r}\n" for x, v in wrong.items()))
-    out, raw = physical(capsys, tmp_path, file, "--cad", cad)
-    assert "suspicious" in out and "all agree if cm = " in out
-    best = raw["cad"]["explanations"][0]
-    assert best["letters"] == ["cm"] and best["fitted"][0] == pytest.approx(truth["cm"], rel=0.01)
-    # And the robot file as CAD, whose values those of the fit are not.
-    assert read_print(model_of("wrist").robot).example
-    assert "do not agree with CAD" in answer(capsys, "physical", file, "--cad")
-
-
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -233,12 +173,3 @@ def test_what_is_refused_in_one_line(capsys, tmp_path, monkeypatch, words, messa
 def test_a_model_needs_values(capsys, wrist):
     err = complaint(capsys, "physical", wrist[0], "--known", "am,bm=3")
     assert err.startswith("modeler: --known: no value of am; expected am=VALUE")
-
-
-@pytest.mark.rotating("long tests of cli")
-def test_several_roots_need_a_hint(capsys, wrist):
-    file, truth = wrist
-    known = (file, "--known", listed(truth, (*SEVEN, "bJ11")))
-    err = complaint(capsys, "physical", *known)
-    assert "positive roots" in err and "--near cm=" in err
-    assert "\ncm " in answer(capsys, "physical", *known, "--near", f"cm={truth['cm']}")

@@ -1,6 +1,5 @@
 """What answers at once loads nothing that takes long; an interrupt ends the program in one line."""
 
-import argparse
 import json
 import subprocess
 import sys
@@ -8,11 +7,12 @@ from typing import get_args
 
 import pytest
 
-from modeler.cli import parser
+from modeler.cli.command_table import COMMANDS
 from modeler.cli.derive import _COMMENT, _SHEETS
 from modeler.cli.options import Form
 from modeler.effects.catalogue import CATALOGUE
 from modeler.simulation import HIDDEN
+from tests.rotation import rotating
 
 LONG = {
     "sympy", "numpy", "scipy", "casadi", "pyarrow", "matplotlib", "plotly", "rich", "jinja2",
@@ -47,15 +47,10 @@ def loaded(*commands: tuple[str, ...]) -> list[tuple[int, bool, set[str]]]:
     return [(status, said, set(names)) for status, said, names in json.loads(done.stdout)]
 
 
-def commands() -> list[str]:
-    (sub,) = (a for a in parser()._actions if isinstance(a, argparse._SubParsersAction))
-    return list(sub.choices)
-
-
 SHORT = [
     *(((word,), 0) for word in ("--help", "--version", "robots", "effects")),
     *((words.split(), 0) for words in ("effects load_friction", "robots wrist")),
-    *(((name, "--help"), 0) for name in commands()),
+    *(((name, "--help"), 0) for name in COMMANDS),
     ((), 2), (("dance",), 2), (("fit",), 2), (("fit", "emps", "--method", "x"), 2),
     (("derive", "arm", "--no-such-option"), 2), (("demo", "--duration", "long"), 2),
     (("derive", "wrist", "--json", "."), 1),
@@ -92,7 +87,9 @@ LONGER = [
 ]
 
 
-@pytest.mark.parametrize("commands", LONGER, ids=lambda each: each[0][0].split()[0])
+@pytest.mark.parametrize(
+    "commands", [LONGER[0], *rotating(*LONGER[1:])], ids=lambda each: each[0][0].split()[0]
+)
 def test_a_command_loads_nothing_long_that_it_has_no_use_for(two_link, tmp_path, commands) -> None:
     lines = (words.format(two_link, out=tmp_path).split() for words, _ in commands)
     found = loaded(*map(tuple, lines))

@@ -1,16 +1,14 @@
 """Options with several values, before and after the arguments that they stand beside."""
 
 import argparse
-import json
 import re
 import shlex
 
 import pytest
 
 from modeler.cli import main, parser
-from modeler.cli.commands import parsed
+from modeler.cli.commands import commands_of, parsed
 from modeler.cli.options import arguments_of, options_of
-from tests.cli.running import answer
 
 # What each argument of a command takes here; no file has to be there.
 WORDS = {
@@ -18,11 +16,7 @@ WORDS = {
     "source": ["wrist"], "file": ["x.par"], "paper": ["guegan-2003"], "shell": ["bash"],
 }  # fmt: skip
 VALUES = {"sets": ["3"], "cad": ["cad.toml"]}
-
-
-def commands() -> dict[str, argparse.ArgumentParser]:
-    (sub,) = (a for a in parser()._actions if isinstance(a, argparse._SubParsersAction))
-    return dict(sub.choices)
+PARSERS = commands_of(parser())
 
 
 def required(own: argparse.ArgumentParser) -> list[str]:
@@ -36,12 +30,12 @@ def required(own: argparse.ArgumentParser) -> list[str]:
 
 SEVERAL = [
     (name, option)
-    for name, own in commands().items()
+    for name, own in PARSERS.items()
     for option, action in options_of(own).items()
     if action.nargs in ("+", "*", "?")
 ]
 ALONE = [
-    (name, option) for name, option in SEVERAL if options_of(commands()[name])[option].nargs == "?"
+    (name, option) for name, option in SEVERAL if options_of(PARSERS[name])[option].nargs == "?"
 ]
 
 
@@ -53,7 +47,7 @@ def read(words: list[str]) -> dict[str, object]:
 @pytest.mark.parametrize(("name", "option"), SEVERAL)
 def test_the_order_does_not_matter(name: str, option: str) -> None:
     """After the arguments, before them, in their midst, repeated: the same is read."""
-    own = commands()[name]
+    own = PARSERS[name]
     action = options_of(own)[option]
     values = VALUES.get(action.dest, ["c.parquet", "d.parquet"])
     arguments = [WORDS[argument.dest][0] for argument in arguments_of(own)]
@@ -74,7 +68,7 @@ def test_the_order_does_not_matter(name: str, option: str) -> None:
 
 @pytest.mark.parametrize(("name", "option"), ALONE)
 def test_an_option_that_may_stand_alone_leaves_the_arguments(name: str, option: str) -> None:
-    own = commands()[name]
+    own = PARSERS[name]
     arguments = [WORDS[argument.dest][0] for argument in arguments_of(own)]
     assert read([name, option, *arguments]) == read([name, *arguments, option])
 
@@ -101,10 +95,10 @@ def test_what_is_missing_is_still_missed(capsys, words: str, missing: str) -> No
     assert f"the following arguments are required: {missing}; write it" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", commands())
+@pytest.mark.parametrize("name", PARSERS)
 def test_the_usage_tells_an_order_that_works(name: str) -> None:
     """Arguments stand first in it; all options are in it; it fits a line of 100 letters."""
-    own = commands()[name]
+    own = PARSERS[name]
     usage = own.format_usage()
     assert all(len(line) <= 100 or line.count(" [") == 1 for line in usage.splitlines())
     flat = " ".join(usage.split())
@@ -115,9 +109,3 @@ def test_the_usage_tells_an_order_that_works(name: str) -> None:
         if option.startswith("--") and action.help != argparse.SUPPRESS:
             named = any(name in flat for name in action.option_strings)  # by one of its names
             assert named or option in ("--help", "--quiet", "--verbose"), option
-
-
-def test_a_name_may_be_cut_short(capsys, tmp_path) -> None:
-    words = ("derive", "--form", "markdown", "two-link", "--json", tmp_path / "j")
-    assert "| --- |" in answer(capsys, *words)
-    assert json.loads((tmp_path / "j").read_text())["robot"] == "two-link"

@@ -7,5 +7,5 @@ from tests.diagnose.conftest import Case, demonstration
 
 @pytest.fixture(scope="session")
 def case() -> Case:
-    """Sampled at 1 kHz."""
-    return demonstration(1000.0, seconds=(30.0, 20.0))
+    """Sampled at 250 Hz."""
+    return demonstration()
