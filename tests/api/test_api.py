@@ -194,10 +194,3 @@ def test_what_cannot_be_is_refused_in_one_line(chain, logs, case: str) -> None:
     with pytest.raises(ModelerError, match=words) as caught:
         run(chain, logs)
     assert "\n" not in str(caught.value)
-
-
-def test_a_star_brings_all_that_is_offered() -> None:
-    brought: dict[str, Any] = {}
-    exec("from modeler.api import *", brought)
-    kept = {"load", "derive", "on_gpu", "open_model", "Robot", "GpuModel", "show"}
-    assert kept <= brought.keys() - {"__builtins__"} == set(api.__all__)

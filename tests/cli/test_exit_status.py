@@ -60,14 +60,6 @@ def test_memory_runs_out_in_any_words(error: Exception, monkeypatch, capsys) -> 
     assert re.fullmatch(r"modeler: memory: .*\n", capsys.readouterr().err)
 
 
-@pytest.mark.parametrize("words", ["log {}", "fit demo-arm {} --out m.json", "fleet emps {}"])
-def test_what_the_system_refuses_of_a_path_is_one_line(words: str, capsys) -> None:
-    name = "x" * 300
-    assert main(words.format(name).split()) == 1
-    line = capsys.readouterr().err
-    assert line.startswith(f"modeler: {name}: cannot be") and line.count("\n") == 1
-
-
 @pytest.mark.rotating("long tests of cli")
 def test_interrupted(tmp_path: Path) -> None:
     """In the midst of the work, which `--verbose` tells."""

@@ -59,29 +59,6 @@ def test_robot_or_model_first_logs_last() -> None:
         assert first in ([], [0]) and logs in ([], [len(kinds) - 1]), command
 
 
-def test_what_is_read_is_named_alike() -> None:
-    wanted = {"--robot": places.RobotFile, "--map": places.MapWord, "--holdout": places.LogFile,
-              "--payload-log": places.LogFile, "--from": places.MotionFile,
-              "--check": places.MotionFile, "--motion": places.MotionOrKind,
-              "--list": places.ListFile, "--like": places.OriginalFile,
-              "--effects-from": places.Input}  # fmt: skip
-    for command, action in options():
-        if is_a(action, places.Input):
-            assert action.type is wanted.get(action.option_strings[-1]), command
-
-
-def test_a_name_means_one_thing_wherever_it_stands() -> None:
-    """Of options of one name, the same kind of value; what differs is listed here."""
-    differing = {
-        "--controller", "--from", "--near", "--window", "--method", "--out", "--report", "--force",
-        "--picture", "--open", "--write", "--format",
-    }  # fmt: skip
-    kinds: dict[str, set[object]] = {}
-    for _, action in options():
-        kinds.setdefault(action.option_strings[-1], set()).add((action.type, action.nargs))
-    assert {name for name, found in kinds.items() if len(found) > 1} <= differing
-
-
 def test_each_command_has_a_family_and_an_example_that_can_be_typed() -> None:
     assert list(FAMILIES) == [
         "workbench", "describe", "measure", "identify", "understand", "use", "about",

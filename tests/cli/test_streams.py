@@ -2,7 +2,6 @@
 
 import io
 import os
-import pty
 import subprocess
 import sys
 from pathlib import Path
@@ -103,22 +102,3 @@ def test_letters_that_a_terminal_lacks_are_shown_as_codes(tmp_path: Path, settin
         assert r"M\xe2nipulateur \xe0 un axe \U0001f916" in done.stdout
         failed = program("robots", "bräs.tom", cwd=tmp_path, env=os.environ | setting)
         assert failed.returncode == 1 and r"br\xe4s.tom" in failed.stderr
-
-
-@pytest.mark.rotating("long tests of cli")
-def test_progress_on_a_terminal_without_letters(tmp_path: Path) -> None:
-    """A title in brackets is no markup either."""
-    (tmp_path / "arm.toml").write_text(ARM, encoding="utf-8")
-    ours, theirs = pty.openpty()
-    command = [sys.executable, "-m", "modeler", "simulate", "arm.toml", "--duration", "1"]
-    try:
-        done = subprocess.run(
-            [*command, "--out", "[/b].csv"], cwd=tmp_path, stderr=theirs, timeout=60,
-            env=os.environ | {"PYTHONIOENCODING": "ascii", "TERM": "xterm"},
-        )  # fmt: skip
-        os.close(theirs)
-        shown = os.read(ours, 100_000)
-    finally:
-        os.close(ours)
-    assert done.returncode == 0 and b"simulating arm" in shown
-    assert max(shown) < 128

@@ -191,8 +191,8 @@ def test_commands_on_a_cluster(address: str, place: Path, tmp_path: Path, capsys
         in (capsys.readouterr().err)
     )
     assert main([*fit, "--method", "iv"]) == 1
-    told = f"--dask {address}: got --method iv, which needs all rows in one memory; expected --meth"
-    assert told in capsys.readouterr().err
+    message = f"--dask {address}: got --method iv, which needs all rows in one memory"
+    assert message in capsys.readouterr().err
 
 
 def test_what_does_not_answer_is_one_line(monkeypatch, distributed: Any) -> None:

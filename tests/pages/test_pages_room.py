@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from modeler.core.errors import ModelerError
 from modeler.report.blocks import Paragraph
 from modeler.report.page import Origin, Page, Section, entries, write_index, write_page
 from tests.repository import ROOT
@@ -97,9 +96,3 @@ def test_what_a_page_says_wrongly_does_no_harm(tmp_path: Path) -> None:
     (tmp_path / "odd.html").write_text(block)
     (entry,) = entries(tmp_path)
     assert (entry.title, entry.logs, entry.held_out, entry.command) == ("5", (), None, "")
-
-
-def test_a_folder_that_cannot_be_written_is_told(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("")
-    with pytest.raises(ModelerError, match="cannot be written"):
-        write_index(tmp_path / "file")
