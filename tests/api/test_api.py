@@ -122,8 +122,8 @@ def test_home_is_that_of_the_command(tmp_path: Path) -> None:
     robot = api.load("five-bar")
     found = api.home(robot)
     assert main(["home", "five-bar", "--json", str(tmp_path / "h.json")]) == 0
-    told = json.loads((tmp_path / "h.json").read_text())["modes"]
-    assert found.table().column("mode") == [mode["letter"] for mode in told]
+    result = json.loads((tmp_path / "h.json").read_text())["modes"]
+    assert found.table().column("mode") == [mode["letter"] for mode in result]
     other = next(mode.letter for k, mode in enumerate(found.modes) if k != found.own)
     turned = api.at_home(robot, found, other)
     again = api.home(turned)
@@ -147,10 +147,10 @@ def test_physical_values_are_those_of_the_command(tmp_path: Path, model) -> None
     api.save(model, tmp_path / "m.json")
     words = ["--known", known, "--json", str(tmp_path / "p.json")]
     assert main(["physical", str(tmp_path / "m.json"), *words]) == 0
-    told = json.loads((tmp_path / "p.json").read_text())["values"]["parameters"]
-    assert values.table().column("parameter") == [row["parameter"] for row in told]
-    assert values.table().column("value") == pytest.approx([row["value"] for row in told])
-    assert values.table().column("sigma") == pytest.approx([row["sigma"] for row in told])
+    result = json.loads((tmp_path / "p.json").read_text())["values"]["parameters"]
+    assert values.table().column("parameter") == [row["parameter"] for row in result]
+    assert values.table().column("value") == pytest.approx([row["value"] for row in result])
+    assert values.table().column("sigma") == pytest.approx([row["sigma"] for row in result])
 
 
 def fit(**options: Any) -> Callable[[Any, Any], object]:

@@ -31,7 +31,7 @@ def test_every_function_refuses_what_is_of_no_kind(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "given", "said"),
+    ("name", "given", "message"),
     [
         ("compare", ("arm.model.json", []), r"the text 'arm\.model\.json' as model; expected a mo"),
         ("simulate", ("demo-arm", "z.parquet"), r"the text 'demo-arm' as robot; .*load gives one"),
@@ -42,10 +42,12 @@ def test_every_function_refuses_what_is_of_no_kind(name: str) -> None:
         ("Load", (3, 2.0), "got 3 as logs; expected a list, each a text or a path or a log"),
     ],
 )
-def test_the_line_says_what_was_got_and_what_was_expected(name: str, given: Any, said: str) -> None:
-    with pytest.raises(DataError, match=said) as told:
+def test_the_line_says_what_was_got_and_what_was_expected(
+    name: str, given: Any, message: str
+) -> None:
+    with pytest.raises(DataError, match=message) as error:
         getattr(api, name)(*given)
-    assert str(told.value).startswith(f"{name}: ") and "\n" not in str(told.value)
+    assert str(error.value).startswith(f"{name}: ") and "\n" not in str(error.value)
 
 
 def test_one_log_alone_is_a_list_of_it(tmp_path: Path) -> None:

@@ -30,12 +30,12 @@ def test_a_fit_that_is_not_usable_says_so_wherever_it_is_seen(run, model) -> Non
     with pytest.warns(FitWarning) as seen:
         spoilt = modeler.identify("two-link", run | {"tau": 20.0 * noise})
     assert spoilt.fit.verdict is not None and not spoilt.fit.verdict.usable
-    (told,) = [each for each in seen if each.category is FitWarning]
-    assert Path(told.filename) == Path(__file__)  # the line that called
-    said = spoilt.fit.verdict.line.partition(";")[0]
-    assert said.removeprefix("Not valid: ") in str(told.message) and said in repr(spoilt)
-    assert said.partition(":")[0] in spoilt._repr_html_()
-    assert said.partition(":")[0] not in repr(model) + model._repr_html_()
+    (warning,) = [each for each in seen if each.category is FitWarning]
+    assert Path(warning.filename) == Path(__file__)  # the line that called
+    line = spoilt.fit.verdict.line.partition(";")[0]
+    assert line.removeprefix("Not valid: ") in str(warning.message) and line in repr(spoilt)
+    assert line.partition(":")[0] in spoilt._repr_html_()
+    assert line.partition(":")[0] not in repr(model) + model._repr_html_()
 
 
 def test_every_relative_error_is_a_fraction(run, model) -> None:
@@ -72,8 +72,8 @@ def test_messages_name_arguments_of_python(run, tmp_path) -> None:
 
 
 def test_commands_keep_their_options() -> None:
-    told = "use --method weighted, or run `modeler fit arm.toml log.csv --out m.json`"
-    assert in_python(told) == told.replace("--method", "method")
+    text = "use --method weighted, or run `modeler fit arm.toml log.csv --out m.json`"
+    assert in_python(text) == text.replace("--method", "method")
     assert in_python("run--a.csv: x -- y") == "run--a.csv: x -- y"
 
 

@@ -102,21 +102,21 @@ def test_the_prediction_is_the_models_torque_of_the_motion(model: md.Model, fram
     angle = pulse * time[:, None]
     q, qd, qdd = (amplitude * pulse**k * f for k, f in enumerate(
         (np.sin(angle), np.cos(angle), -np.sin(angle))))  # fmt: skip
-    found = model.predict({"time": time, "q": q, "qd": qd, "qdd": qdd})
+    predicted = model.predict({"time": time, "q": q, "qd": qd, "qdd": qdd})
     expected = md.recompile(model).inverse_dynamics(q, qd, qdd, model.beta)
-    sure = np.isfinite(found["tau"])
+    sure = np.isfinite(predicted["tau"])
     assert sure.mean() > 0.95
     bound = 2e-3 * np.abs(expected).max(axis=0)
     still = np.abs(qd) > 0.2  # beside reversals the sign of the speed may differ by a sample
-    assert (np.abs(found["tau"] - expected) < bound)[sure & still].all()
+    assert (np.abs(predicted["tau"] - expected) < bound)[sure & still].all()
 
 
 def test_positions_alone_are_enough_and_torques_are_not_read(model: md.Model, frame: Any) -> None:
     expected = model.predict(frame)
     alone = model.predict(frame.drop(columns=["tau1", "tau2"]))
     wrong = model.predict(frame.assign(tau1=np.nan, tau2=7.0))
-    for found in (alone, wrong):
-        assert list(found.columns) == ["tau1", "tau2"] and found.equals(expected)
+    for predicted in (alone, wrong):
+        assert list(predicted.columns) == ["tau1", "tau2"] and predicted.equals(expected)
     late = model.predict(frame.assign(tau2=np.roll(frame["tau2"], 5)))
     assert late.equals(expected)
 
@@ -126,15 +126,15 @@ def test_names_and_units_are_kept_out_again(frame: Any, model: md.Model, tmp_pat
     made = md.identify("two-link", given, mapping=MAPPING)
     np.testing.assert_allclose(made.beta, model.beta, rtol=1e-6)
     expected = odd(pandas.concat([frame[["time", "q1", "q2"]], model.predict(frame)], axis=1))
-    found = made.predict(given)  # by the mapping that it keeps
-    assert list(found.columns) == ["moment_a", "moment_b"]
-    np.testing.assert_allclose(found, expected[["moment_a", "moment_b"]], rtol=1e-5, atol=1e-2)
+    predicted = made.predict(given)  # by the mapping that it keeps
+    assert list(predicted.columns) == ["moment_a", "moment_b"]
+    np.testing.assert_allclose(predicted, expected[["moment_a", "moment_b"]], rtol=1e-5, atol=1e-2)
     again = md.load(made.save(tmp_path / "odd.json"))
-    assert again.predict(given).equals(found) and again.error(given) == made.error(given)
+    assert again.predict(given).equals(predicted) and again.error(given) == made.error(given)
     given.to_csv(tmp_path / "odd.csv", index=False)
     read = again.predict(tmp_path / "odd.csv")
     assert read.index.name == "time" and list(read.columns) == ["moment_a", "moment_b"]
-    np.testing.assert_allclose(read, found, rtol=1e-6)
+    np.testing.assert_allclose(read, predicted, rtol=1e-6)
 
 
 def test_the_guess_is_made_of_frames_too(frame: Any, model: md.Model) -> None:

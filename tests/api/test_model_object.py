@@ -65,7 +65,7 @@ def test_a_lopsided_interval_stays_lopsided(model: md.Model) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "said"),
+    ("name", "message"),
     [
         ("ZZ2", r"tell no value of ZZ2 alone; ZZ2R = ZZ2 \+ .* holds it: ask for .*ZZ2R"),
         ("M3", r"ZZ1R = .* holds it \(XX2R, ZZ2R, MX2R hold it too\)"),
@@ -74,11 +74,11 @@ def test_a_lopsided_interval_stays_lopsided(model: md.Model) -> None:
     ],
 )
 def test_who_asks_for_what_is_not_told_alone_learns_what_holds_it(
-    model: md.Model, name: str, said: str
+    model: md.Model, name: str, message: str
 ) -> None:
-    with pytest.raises(DataError, match=said) as told:
+    with pytest.raises(DataError, match=message) as error:
         model[name]
-    assert str(told.value).startswith(f'model["{name}"]: ') and "\n" not in str(told.value)
+    assert str(error.value).startswith(f'model["{name}"]: ') and "\n" not in str(error.value)
 
 
 def test_the_habits_of_statsmodels(model: md.Model) -> None:

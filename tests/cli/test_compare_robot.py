@@ -59,14 +59,14 @@ def next_line(text: str) -> list[str]:
 def test_the_values_of_the_file_are_compared_before_any_fit(folder, capsys) -> None:
     capsys.readouterr()
     assert main(["compare", "arm.urdf", "run.csv", "--json", "before.json"]) == 0
-    told = capsys.readouterr().out
+    printed = capsys.readouterr().out
     zero = "taken as 0: rotor_inertia, viscous, coulomb, offset of joint 1, 2"
-    assert zero in told
+    assert zero in printed
     before = json.loads(Path("before.json").read_text())
     assert any("taken as 0" in line for line in before["doubts"])
     # By hand: the torque that the file's numbers give, of the torque that was measured.
     assert 0.05 < before["joints"]["1"]["relative_error"] < 1.0
-    assert main(next_line(told)) == 0
+    assert main(next_line(printed)) == 0
     assert Path("arm.model.json").is_file()
     capsys.readouterr()
     words = ["compare", "arm.urdf", "arm.model.json", "run.csv", "--json", "both.json"]
@@ -84,8 +84,8 @@ def test_a_file_that_states_the_truth_has_no_error_but_noise(folder, capsys) -> 
     zeros = "".join(f"{name}{j} = 0.0\n" for name in ("Ia", "Off") for j in "12")
     Path("whole.toml").write_text(text.replace("Fv1 =", f"{zeros}Fv1 =", 1))
     assert main(["simulate", "whole.toml", "--duration", "8", "--out", "whole.csv"]) == 0
-    found = compare(open_robot("whole.toml"), "whole.csv")
-    assert found.relative_error < 0.005
+    comparison = compare(open_robot("whole.toml"), "whole.csv")
+    assert comparison.relative_error < 0.005
     capsys.readouterr()
     assert main(["compare", "whole.toml", "whole.csv"]) == 0
     assert "taken as 0" not in capsys.readouterr().out
@@ -110,8 +110,8 @@ def test_what_cannot_be_compared(folder, capsys, words: str, message: str) -> No
 @pytest.mark.parametrize("method", ["ridge", "consistent"])
 def test_every_method_takes_a_converted_robot(folder, capsys, method: str) -> None:
     assert main(["fit", "arm.urdf", "run.csv", "--method", method, "--out", "m.json"]) == 0
-    told = capsys.readouterr().out
-    assert f"method {method} does not use inertial = 0.3 of [parameters.uncertainty]" in told
+    printed = capsys.readouterr().out
+    assert f"method {method} does not use inertial = 0.3 of [parameters.uncertainty]" in printed
     assert main(["compare", "m.json", "run.csv", "--json", "m.compare.json"]) == 0
     assert json.loads(Path("m.compare.json").read_text())["relative_error"] < 0.01
 

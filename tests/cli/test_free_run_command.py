@@ -29,17 +29,17 @@ def test_text_json_and_pictures(capsys, slide: Path) -> None:
     assert "integrated twice" in out and "written: 3 files in" in out
     page = (slide / "f.html").read_text()
     assert "emps: free run in windows of 0.5 s" in page and "Joint 1: measured and free" in page
-    found = json.loads((slide / "f.json").read_text())
-    joint = found["joints"]["1"]
+    result = json.loads((slide / "f.json").read_text())
+    joint = result["joints"]["1"]
     assert joint["fit"] > 99.0 > joint["constant_speed"] and joint["unit"] == "m"
-    assert found["stability"]["unstable"] is False and "controller" in found
+    assert result["stability"]["unstable"] is False and "controller" in result
     assert {p.name for p in (slide / "p").iterdir()} == {
         f"joint_1_free_run.{kind}" for kind in ("png", "svg", "csv")
     }
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "message"),
     [
         ("--controller 20", "--controller 20: expected two to four numbers that are not negative"),
         ("--controller 20,inf", "--controller 20,inf: expected two to four numbers"),
@@ -49,9 +49,9 @@ def test_text_json_and_pictures(capsys, slide: Path) -> None:
         ("--window 9", "--window 9: the longest uninterrupted motion of these logs is "),
     ],
 )
-def test_bad_input_is_one_line(capsys, slide: Path, words: str, told: str) -> None:
+def test_bad_input_is_one_line(capsys, slide: Path, words: str, message: str) -> None:
     run = ("compare", "--free-run", slide / "m.json", slide / "a.parquet")
-    assert refusal(capsys, *run, *words.split()).startswith(f"modeler: {told}")
+    assert refusal(capsys, *run, *words.split()).startswith(f"modeler: {message}")
 
 
 def test_a_log_given_twice_is_refused(capsys, slide: Path) -> None:

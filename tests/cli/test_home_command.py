@@ -30,10 +30,10 @@ def test_modes_are_told(crank, capsys) -> None:
     assert "A   q2 = -1.861 rad (-106.6 deg), q3 = 0.3354 m\n" in out
     assert out.count("as [home] of the file") == 1
     assert '  q1 = "pi/2"\n  q2 = -1.860548\n  q3 = 0.33541\n' in out
-    told = json.loads(Path("modes.json").read_text())
-    assert told["chosen"] == told["of_the_file"] == "A"
-    assert [mode["letter"] for mode in told["modes"]] == ["A", "B"]
-    assert told["modes"][1]["home"]["3"] == pytest.approx(-0.33541, abs=1e-5)
+    result = json.loads(Path("modes.json").read_text())
+    assert result["chosen"] == result["of_the_file"] == "A"
+    assert [mode["letter"] for mode in result["modes"]] == ["A", "B"]
+    assert result["modes"][1]["home"]["3"] == pytest.approx(-0.33541, abs=1e-5)
     assert Path("crank.toml").read_text() == CRANK
 
 

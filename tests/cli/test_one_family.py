@@ -19,8 +19,8 @@ PARSERS = commands_of(parser())
 
 def options() -> Iterator[tuple[str, argparse.Action]]:
     """Every option of every command, with the name of the command."""
-    for command, own in PARSERS.items():
-        yield from ((command, action) for action in own._actions if action.option_strings)
+    for command, subparser in PARSERS.items():
+        yield from ((command, action) for action in subparser._actions if action.option_strings)
 
 
 def is_a(action: argparse.Action, *kinds: type) -> bool:
@@ -44,15 +44,15 @@ def test_what_is_written_is_named_alike() -> None:
 
 
 def test_every_page_can_be_opened() -> None:
-    for command, own in PARSERS.items():
-        names = {name for action in own._actions for name in action.option_strings}
+    for command, subparser in PARSERS.items():
+        names = {name for action in subparser._actions for name in action.option_strings}
         assert ("--open" in names) == ("--report" in names or command in ("show", "demo")), command
         assert "--json" in names, command
 
 
 def test_robot_or_model_first_logs_last() -> None:
-    for command, own in PARSERS.items():
-        kinds = [action.type for action in arguments_of(own)]
+    for command, subparser in PARSERS.items():
+        kinds = [action.type for action in arguments_of(subparser)]
         first = [i for i, kind in enumerate(kinds)
                  if kind in (places.RobotFile, places.ModelFile, places.RobotOrModel)]  # fmt: skip
         logs = [i for i, k in enumerate(kinds) if k in (places.LogFile, places.model_or_log)]
@@ -64,8 +64,8 @@ def test_each_command_has_a_family_and_an_example_that_can_be_typed() -> None:
         "workbench", "describe", "measure", "identify", "understand", "use", "about",
     ]  # fmt: skip
     assert list(PARSERS) == list(COMMANDS)
-    for name, own in PARSERS.items():
-        lines = re.findall(r"modeler ([^;>]+)", (own.epilog or "").replace(')"', ""))
+    for name, subparser in PARSERS.items():
+        lines = re.findall(r"modeler ([^;>]+)", (subparser.epilog or "").replace(')"', ""))
         assert lines and any(line.startswith(f"{name} ") for line in lines), name
         for line in lines:
             assert parsed(shlex.split(line.strip()))[0].read_as == [], line
@@ -125,14 +125,14 @@ def test_methods_are_one_or_several() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "message"),
     [
         ("compare m.json a.csv --window 2", "--window: is of --free-run; add that"),
         ("compare m.json n.json a.csv --free-run", "--free-run: got n.json too; expected one"),
     ],
 )
-def test_free_run_has_its_own_options(capsys, line: str, told: str) -> None:
-    assert told in refusal(capsys, *line.split())
+def test_free_run_has_its_own_options(capsys, line: str, message: str) -> None:
+    assert message in refusal(capsys, *line.split())
 
 
 # Pages that open.

@@ -72,13 +72,13 @@ def test_the_hint_is_what_can_be_typed(capsys, tmp_path, wrist):
 
 def test_a_moment_of_inertia_below_zero_is_not_told(capsys, tmp_path, two_link):
     """m2 far too large: Izz2 = ZZ2 - m2 cx2^2 or so comes out negative, and is not put down."""
-    told = {}
+    rows_by_mass = {}
     for m2 in (1e-3, 1e3):  # a light link of the same moments reaches far, and has none of its own
         _, raw = physical(capsys, tmp_path, two_link / "m.json", "--known", f"m1=1,m2={m2}")
-        told[m2] = {row["parameter"]: row for row in raw["values"]["parameters"]}
-    light = told[1e-3]["Izz2"]
+        rows_by_mass[m2] = {row["parameter"]: row for row in raw["values"]["parameters"]}
+    light = rows_by_mass[1e-3]["Izz2"]
     assert light["value"] is None and "is no moment of inertia: a known" in light["doubt"]
-    assert told[1e3]["Izz2"]["value"] > 0
+    assert rows_by_mass[1e3]["Izz2"]["value"] > 0
 
 
 def test_formulas_in_three_forms(capsys, tmp_path):

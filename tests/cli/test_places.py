@@ -59,7 +59,7 @@ READING = {  # what each command reads; outputs come after it
 
 
 @pytest.fixture
-def there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+def workdir(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A folder with files that say nothing: what is refused here is refused before they are read;
     afterwards they are as they were, and nothing has come.
     """
@@ -115,8 +115,8 @@ def ways() -> list[tuple[str, str, str, str, str]]:
 
 
 @pytest.mark.parametrize(("command", "option", "name", "what", "way"), ways())
-def test_an_input_is_never_an_output(there, capsys, command, option, name, what, way) -> None:
-    place = {"itself": name, "./": f"../{there.name}/./{name}"}.get(way, "alias")
+def test_an_input_is_never_an_output(workdir, capsys, command, option, name, what, way) -> None:
+    place = {"itself": name, "./": f"../{workdir.name}/./{name}"}.get(way, "alias")
     if way == "symlink":
         Path("alias").symlink_to(name)
     elif way == "hard link":
@@ -129,7 +129,7 @@ def test_an_input_is_never_an_output(there, capsys, command, option, name, what,
 
 
 @pytest.mark.parametrize("command", ["fit", "compare", "derive"])
-def test_two_outputs_are_two_files(there, capsys, command) -> None:
+def test_two_outputs_are_two_files(workdir, capsys, command) -> None:
     outputs = [action for name, action in actions() if name == command and is_a(action, Output)]
     first, second = (action.option_strings[0] for action in outputs[:2])
     Path("alias").symlink_to("same.html")  # which is not there yet
@@ -141,7 +141,7 @@ def test_two_outputs_are_two_files(there, capsys, command) -> None:
     assert f"{second} alias: {first} writes this file too; expected a name of its own" in err
 
 
-def test_stdout_may_go_to_that_file(there, capsys, monkeypatch) -> None:
+def test_stdout_may_go_to_that_file(workdir, capsys, monkeypatch) -> None:
     with Path("folder").open("w") as out:
         monkeypatch.setattr(sys, "stdout", out)
         status = main(["robots", "--json", "folder"])
@@ -150,7 +150,7 @@ def test_stdout_may_go_to_that_file(there, capsys, monkeypatch) -> None:
     assert "--json folder: stdout writes this file too" in capsys.readouterr().err
 
 
-def test_a_built_in_robot_is_an_input_too(there, capsys) -> None:
+def test_a_built_in_robot_is_an_input_too(workdir, capsys) -> None:
     place = builtin_file("wrist")
     before = place.read_bytes()
     err = refusal(capsys, "derive", "wrist", "--report", str(place))
@@ -161,13 +161,13 @@ def test_a_built_in_robot_is_an_input_too(there, capsys) -> None:
     ("command", "option", "place"),
     [("fit", "--out", "new.csv"), ("derive", "--json", "NEW.PARQUET")],
 )
-def test_what_is_no_log_is_not_named_like_one(there, capsys, command, option, place) -> None:
+def test_what_is_no_log_is_not_named_like_one(workdir, capsys, command, option, place) -> None:
     err = refusal(capsys, *READING[command].split(), option, place)
     assert f"{option} {place}: this is a log; expected a name of its own" in err
 
 
 @pytest.mark.parametrize("command", READING)
-def test_places_that_cannot_be_written_are_refused_first(there, capsys, command) -> None:
+def test_places_that_cannot_be_written_are_refused_first(workdir, capsys, command) -> None:
     Path("folder").write_text("a file")
     words = READING[command].split()
     for option, place in (("--json", "folder/below/x.json"), ("--json", "/proc/nowhere/x.json")):
@@ -178,7 +178,7 @@ def test_places_that_cannot_be_written_are_refused_first(there, capsys, command)
         assert f"folder/below{ends}: cannot be written" in err
 
 
-def test_a_dash_is_for_json(there, capsys) -> None:
+def test_a_dash_is_for_json(workdir, capsys) -> None:
     err = refusal(capsys, "derive", "arm.toml", "--report", "-")
     assert "--report -: only --json takes - for stdout; expected the name of a file" in err
 
@@ -192,7 +192,7 @@ def test_a_dash_is_for_json(there, capsys) -> None:
         ("compare m.json folder/overview.csv --picture folder", "overview.csv in it is a log"),
     ],
 )
-def test_a_folder_keeps_its_names(there, capsys, words, message) -> None:
+def test_a_folder_keeps_its_names(workdir, capsys, words, message) -> None:
     Path("folder").mkdir()
     Path("folder/overview.csv").write_text("time,q1\n")
     Path("alias").symlink_to("folder/Makefile")

@@ -55,7 +55,7 @@ def urdf(two_link, tmp_path_factory):
 
 
 @pytest.fixture
-def here(two_link, urdf, tmp_path, monkeypatch):
+def workdir(two_link, urdf, tmp_path, monkeypatch):
     """Log, model and URDF on a machine without a compiler and with nothing compiled."""
     (tmp_path / "nothing").mkdir()
     folder = tmp_path / "work"
@@ -77,34 +77,34 @@ def test_every_command_stands_here() -> None:
 @pytest.mark.parametrize(
     "name", ["derive", "export", *rotating(*sorted({*WORKS} - {"derive", "export"}))]
 )
-def test_these_work(here, name, capsys) -> None:
+def test_these_work(workdir, name, capsys) -> None:
     words, written = WORKS[name]
     assert main(shlex.split(words)) == 0, capsys.readouterr().err
-    assert written is None or (here / written).stat().st_size > 100
+    assert written is None or (workdir / written).stat().st_size > 100
 
 
-def test_every_way_out_works(here, capsys) -> None:
+def test_every_way_out_works(workdir, capsys) -> None:
     for kind in FORMATS:
         assert main(["export", "m.json", "--to", kind, "--out", kind]) == 0
     assert "sources only, for nothing could be compiled here" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("name", REFUSES)
-def test_these_say_what_to_install(here, name, capsys) -> None:
+def test_these_say_what_to_install(workdir, name, capsys) -> None:
     assert main(REFUSES[name].split()) == 1
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith("modeler: C compiler: none of cc, gcc, clang is found; install one: ")
     assert "MinGW-w64 or Visual Studio" in line
 
 
-def test_a_log_tells_that_no_fit_was_tried(here, capsys) -> None:
+def test_a_log_tells_that_no_fit_was_tried(workdir, capsys) -> None:
     """All else of the log is as with a compiler; a mapping is not written untried."""
     assert main(["log", "a.parquet", "--robot", "two-link", "--json", "log.json"]) == 0
-    doubts = json.loads((here / "log.json").read_text())["doubts"]
+    doubts = json.loads((workdir / "log.json").read_text())["doubts"]
     (line,) = [doubt for doubt in doubts if "C compiler" in doubt]
     assert line.startswith("not tried by a fit of two-link: C compiler: none of cc")
     text = builtin_text("two-link")
-    (here / "own.toml").write_text(text, encoding="utf-8")
+    (workdir / "own.toml").write_text(text, encoding="utf-8")
     assert main(["log", "a.parquet", "--robot", "own.toml", "--write"]) == 1
     assert "C compiler: none of cc" in capsys.readouterr().err
-    assert (here / "own.toml").read_text(encoding="utf-8") == text
+    assert (workdir / "own.toml").read_text(encoding="utf-8") == text

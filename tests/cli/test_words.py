@@ -19,10 +19,10 @@ VALUES = {"sets": ["3"], "cad": ["cad.toml"]}
 PARSERS = commands_of(parser())
 
 
-def required(own: argparse.ArgumentParser) -> list[str]:
+def required(subparser: argparse.ArgumentParser) -> list[str]:
     found = []
-    for action in own._actions:
-        out = own.prog.endswith(" fit") and action.dest == "out"  # none of several methods
+    for action in subparser._actions:
+        out = subparser.prog.endswith(" fit") and action.dest == "out"  # none of several methods
         if action.option_strings and (action.required or out):
             found += [action.option_strings[-1], "out.toml" if "TOML" in str(action) else "out"]
     return found
@@ -30,8 +30,8 @@ def required(own: argparse.ArgumentParser) -> list[str]:
 
 SEVERAL = [
     (name, option)
-    for name, own in PARSERS.items()
-    for option, action in options_of(own).items()
+    for name, subparser in PARSERS.items()
+    for option, action in options_of(subparser).items()
     if action.nargs in ("+", "*", "?")
 ]
 ALONE = [
@@ -47,11 +47,11 @@ def read(words: list[str]) -> dict[str, object]:
 @pytest.mark.parametrize(("name", "option"), SEVERAL)
 def test_the_order_does_not_matter(name: str, option: str) -> None:
     """After the arguments, before them, in their midst, repeated: the same is read."""
-    own = PARSERS[name]
-    action = options_of(own)[option]
+    subparser = PARSERS[name]
+    action = options_of(subparser)[option]
     values = VALUES.get(action.dest, ["c.parquet", "d.parquet"])
-    arguments = [WORDS[argument.dest][0] for argument in arguments_of(own)]
-    rest = required(own)
+    arguments = [WORDS[argument.dest][0] for argument in arguments_of(subparser)]
+    rest = required(subparser)
     after = read([name, *arguments, *rest, option, *values])
     assert after[action.dest] in (values, values[0], 3)
     orders = [
@@ -68,8 +68,8 @@ def test_the_order_does_not_matter(name: str, option: str) -> None:
 
 @pytest.mark.parametrize(("name", "option"), ALONE)
 def test_an_option_that_may_stand_alone_leaves_the_arguments(name: str, option: str) -> None:
-    own = PARSERS[name]
-    arguments = [WORDS[argument.dest][0] for argument in arguments_of(own)]
+    subparser = PARSERS[name]
+    arguments = [WORDS[argument.dest][0] for argument in arguments_of(subparser)]
     assert read([name, option, *arguments]) == read([name, *arguments, option])
 
 
@@ -98,14 +98,14 @@ def test_what_is_missing_is_still_missed(capsys, words: str, missing: str) -> No
 @pytest.mark.parametrize("name", PARSERS)
 def test_the_usage_tells_an_order_that_works(name: str) -> None:
     """Arguments stand first in it; all options are in it; it fits a line of 100 letters."""
-    own = PARSERS[name]
-    usage = own.format_usage()
+    subparser = PARSERS[name]
+    usage = subparser.format_usage()
     assert all(len(line) <= 100 or line.count(" [") == 1 for line in usage.splitlines())
     flat = " ".join(usage.split())
     first = next(re.finditer(r"[ \[]-", flat)).start()
-    for action in arguments_of(own):
+    for action in arguments_of(subparser):
         assert 0 < flat.find(str(action.metavar)) < first
-    for option, action in options_of(own).items():
+    for option, action in options_of(subparser).items():
         if option.startswith("--") and action.help != argparse.SUPPRESS:
             named = any(name in flat for name in action.option_strings)  # by one of its names
             assert named or option in ("--help", "--quiet", "--verbose"), option

@@ -36,12 +36,12 @@ def test_every_identification_is_reproduced(name, capsys, tmp_path):
     if drawn:
         check_figure_2(json.loads((tmp_path / "drawn.json").read_text()))
     assert "[truth recovered]" in capsys.readouterr().out
-    told = json.loads(place.read_text())
-    assert "lines" not in told
-    titles = [table["title"] for table in told["methods"]]
+    result = json.loads(place.read_text())
+    assert "lines" not in result
+    titles = [table["title"] for table in result["methods"]]
     starts = TITLES[name].split("; ")
     assert all(t.startswith(s) for t, s in zip(titles, starts, strict=True))
-    rows = [row for table in told["methods"] for row in table["rows"]]
+    rows = [row for table in result["methods"] for row in table["rows"]]
     assert sum(row["outcome"] == "truth recovered" for row in rows) >= 7
     for row in rows:
         share = re.search(r"\(([\d.e+]+) %\)$", row["ours"])
@@ -49,10 +49,10 @@ def test_every_identification_is_reproduced(name, capsys, tmp_path):
             assert share is not None and float(share[1]) <= 50, row
 
 
-def check_figure_2(told):
+def check_figure_2(result):
     """The measured torque is noisy about the modelled one, which is none where the axis stands."""
-    check_schema("pictures", told)
-    ((left, right),) = told["pictures"][0]["panels"]
+    check_schema("pictures", result)
+    ((left, right),) = result["pictures"][0]["panels"]
     measured, modelled = ([np.nan if y is None else y for y in s["y"]] for s in left["series"])
     off = np.subtract(measured, modelled)
     known = ~np.isnan(off)
@@ -66,16 +66,16 @@ def check_figure_2(told):
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "message"),
     [
         (("hanssen-2000", "--section", "print"), "figures are of the methods"),
         (("guegan-2003", "--section", "methods"), "guegan-2003 has no figure to draw; leave it"),
     ],
 )
-def test_a_picture_that_is_not_there_is_refused(capsys, monkeypatch, tmp_path, words, told):
+def test_a_picture_that_is_not_there_is_refused(capsys, monkeypatch, tmp_path, words, message):
     monkeypatch.setitem(METHODS, "guegan-2003", lambda paper, report: [])
     assert main(["reproduce", *words, "--picture", str(tmp_path / "p")]) == 1
-    assert told in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 def test_a_method_that_fails_ends_with_status_1(capsys, monkeypatch):
