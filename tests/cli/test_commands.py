@@ -36,6 +36,25 @@ def test_closed_forms_and_columns(capsys, tmp_path):
         assert found[key]["angles"]["2m7"] == "q2 - q7" and found[key]["equation"]
 
 
+@pytest.mark.parametrize(
+    ("options", "shown"),
+    [
+        ("--format latex", "\\begin{align}"),
+        ("--format markdown", "| --- |"),
+        ("--expanded", "S112 =\n"),
+        ("--nonzero", "S112 = -2*L1*MX2*s2"),
+    ],
+)
+def test_forms_of_closed_forms(capsys, options, shown):
+    assert shown in answer(capsys, "derive", "two-link", "--closed-form", *options.split())
+
+
+def test_effects_are_shown(capsys):
+    out = answer(capsys, "effects", "asymmetric_coulomb")
+    assert "offset" in out and "torque against speed, in top speeds" in out
+    assert "got stricktion (did you mean" in refusal(capsys, "effects", "stricktion")
+
+
 @pytest.mark.parametrize("asked", [("--nonzero",), ("--expanded",), ("--nonzero", "--terms")])
 def test_options_that_would_do_nothing_are_refused(capsys, asked):
     err = refusal(capsys, "derive", "two-link", *asked)

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli import main, parser
-from modeler.cli.completion import SCRIPTS, candidates
+from modeler.cli import parser
+from modeler.cli.completion import candidates
 from modeler.core.builtin import builtin_names
 from modeler.core.estimators import ABOUT
 from modeler.effects.catalogue import CATALOGUE
@@ -81,12 +81,6 @@ def test_options_are_those_of_the_command(folder: Path) -> None:
     assert {"--holdout", "--without", "--json", "--quiet"} <= set(options)
     assert "--method" not in options
     assert candidates(["completion", "--wo"], parser()) == []  # what only the scripts use
-
-
-@pytest.mark.parametrize("shell", SCRIPTS)
-def test_the_script_is_printed(capsys, shell: str) -> None:
-    assert main(["completion", shell]) == 0
-    assert capsys.readouterr().out.strip() == SCRIPTS[shell].strip()
 
 
 def shell_of(name: str) -> str:

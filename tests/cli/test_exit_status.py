@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from tests.cli.running import program
+from tests.cli.running import program, refusal
 from tests.repository import ROOT
 
 DOCUMENTED = {0, 1, 2, 130}
@@ -58,6 +58,13 @@ def test_memory_runs_out_in_any_words(error: Exception, monkeypatch, capsys) -> 
     monkeypatch.setattr(program, "_carried_out", fails)
     assert main(["robots"]) == 1
     assert re.fullmatch(r"modeler: memory: .*\n", capsys.readouterr().err)
+
+
+def test_what_the_system_refuses_of_a_path_is_one_line(capsys) -> None:
+    name = "x" * 300
+    assert refusal(capsys, "fit", "demo-arm", name, "--out", "m.json").startswith(
+        f"modeler: {name}: cannot be"
+    )
 
 
 @pytest.mark.rotating("long tests of cli")

@@ -112,6 +112,29 @@ def test_values_from_a_model(capsys, tmp_path, wrist):
         assert pair == pytest.approx(both[1][x], rel=1e-6), x
 
 
+def test_what_is_known_and_contradicts_is_refused(capsys, wrist):
+    file, truth = wrist
+    known = (*EIGHT, "ct2")
+    out = answer(capsys, "physical", file, "--known", listed(truth, known))
+    assert "each known parameter against" in out
+    wrong = listed(truth | {"ct2": 1.05 * truth["ct2"]}, known)
+    err = complaint(capsys, "physical", file, "--known", wrong)
+    assert err.startswith("modeler: --known contradicts the fit: ") and "ct2 = " in err
+
+
+@pytest.mark.rotating("long tests of cli")
+def test_a_fit_against_cad(capsys, tmp_path, wrist):
+    file, truth = wrist
+    cad = tmp_path / "cad.toml"
+    cad.write_text("".join(f"{x} = {v!r}\n" for x, v in truth.items()))
+    assert "all 17 agree with CAD" in answer(capsys, "physical", file, "--cad", cad)
+    cad.write_text(cad.read_text().replace(f"cm = {truth['cm']!r}", f"cm = {1.1 * truth['cm']!r}"))
+    out, raw = physical(capsys, tmp_path, file, "--cad", cad)
+    assert "suspicious" in out and "all agree if cm = " in out
+    best = raw["cad"]["explanations"][0]
+    assert best["letters"] == ["cm"] and best["fitted"][0] == pytest.approx(truth["cm"], rel=0.01)
+
+
 def test_parameters_that_a_fit_set_aside_are_not_told(capsys, tmp_path, wrist):
     file, truth = wrist
     model = load_model(file)

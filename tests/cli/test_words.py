@@ -34,9 +34,6 @@ SEVERAL = [
     for option, action in options_of(subparser).items()
     if action.nargs in ("+", "*", "?")
 ]
-ALONE = [
-    (name, option) for name, option in SEVERAL if options_of(PARSERS[name])[option].nargs == "?"
-]
 
 
 def read(words: list[str]) -> dict[str, object]:
@@ -64,13 +61,6 @@ def test_the_order_does_not_matter(name: str, option: str) -> None:
         orders.append([option, values[0], *rest, option, values[1], *arguments])
     for words in orders:
         assert read([name, *words]) == after, words
-
-
-@pytest.mark.parametrize(("name", "option"), ALONE)
-def test_an_option_that_may_stand_alone_leaves_the_arguments(name: str, option: str) -> None:
-    subparser = PARSERS[name]
-    arguments = [WORDS[argument.dest][0] for argument in arguments_of(subparser)]
-    assert read([name, option, *arguments]) == read([name, *arguments, option])
 
 
 def test_what_was_given_back_is_told() -> None:
