@@ -75,12 +75,6 @@ def run(folder: Path, *words: str) -> tuple[int, str]:
     return ran.returncode, ran.stdout + ran.stderr
 
 
-def test_the_package_says_that_it_is_typed() -> None:
-    found = importlib.util.find_spec("modeler")
-    assert found is not None and found.origin is not None
-    assert Path(found.origin).with_name("py.typed").is_file()
-
-
 def right(folder: Path) -> list[str]:
     return sorted(p.name for p in folder.glob("*.py") if p.name != "wrong.py")
 
