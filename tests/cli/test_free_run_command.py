@@ -5,19 +5,18 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli import main
+from tests.cli.inputs import folder_after
 from tests.cli.running import answer, refusal
 
 
 @pytest.fixture(scope="module")
 def slide(tmp_path_factory) -> Path:
     """A simulated log of one axis, and a model fitted to it."""
-    folder = tmp_path_factory.mktemp("slide")
-    log, model = str(folder / "a.parquet"), str(folder / "m.json")
-    words = ["simulate", "emps", "--duration", "4", "--rate", "250", "--out", log]
-    assert main(words) == 0
-    assert main(["fit", "emps", log, "--out", model]) == 0
-    return folder
+    return folder_after(
+        tmp_path_factory.mktemp("slide"),
+        "simulate emps --duration 4 --rate 250 --out {}/a.parquet",
+        "fit emps {0}/a.parquet --out {0}/m.json",
+    )
 
 
 @pytest.mark.rotating("long tests of cli")
