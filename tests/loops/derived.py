@@ -15,7 +15,7 @@ from tests.rotation import ROTATING
 TURN = pytest.mark.rotating
 
 ALWAYS = ("slider_crank", "rscr")
-LONG = ("swinging_four_bar", "watt", "stephenson", "rssr_universal", "rccc")
+LONG = ("stephenson", "rssr_universal", "rccc")
 WEIGHED = [
     kind if kind in ALWAYS else pytest.param(kind, marks=ROTATING if kind in LONG else TURN)
     for kind in DRAWN

@@ -129,20 +129,13 @@ def placed(R: np.ndarray, p: np.ndarray) -> dict[str, float]:
     return {k: float(x) for k, x in zip(_COLUMNS, cells, strict=True)}
 
 
-def four_bar(draw: _Drawing, on: str = "0") -> None:
+def four_bar(draw: _Drawing) -> None:
     """Crank, coupler with an offset, rocker."""
-    draw.planar("1", on, actuated=True)
+    draw.planar("1", "0", actuated=True)
     draw.planar("2", "1")
-    draw.planar("3", on)
+    draw.planar("3", "0")
     draw.planar("E", "2", "F")
     draw.close("F", "3", "E", "revolute")
-
-
-def swinging_four_bar(draw: _Drawing) -> None:
-    """The same on a link that turns about a skew axis."""
-    draw.row("9", "0", "R", True)
-    draw.spatial("T", "9", "F")
-    four_bar(draw, "T")
 
 
 def slider_crank(draw: _Drawing) -> None:
@@ -152,15 +145,6 @@ def slider_crank(draw: _Drawing) -> None:
     draw.planar("3", "2")
     draw.row("E", "3", "F", gamma=draw.angle(), d=draw.length(), alpha="pi/2")
     draw.close("F", "0", "E", "prismatic")
-
-
-def watt(draw: _Drawing) -> None:
-    """A four-bar whose coupler and rocker carry the second loop."""
-    four_bar(draw)
-    draw.planar("4", "2")
-    draw.planar("5", "3")
-    draw.planar("G", "4", "F")
-    draw.close("H", "5", "G", "revolute")
 
 
 def stephenson(draw: _Drawing) -> None:
@@ -187,15 +171,6 @@ def double_parallelogram(draw: _Drawing) -> None:
     draw.row("H", "6", "F", d=other)
     draw.home |= {"q1": 1.1, "q2": -1.1, "q3": 1.1, "q4": 1.9, "q5": -1.9, "q6": 1.9}
     draw.loops += ['["A", "E", "F", "revolute"],', '["B", "G", "H", "revolute"],']
-
-
-def rusr(draw: _Drawing) -> None:
-    """Crank, universal joint, coupler, spherical joint, rocker."""
-    draw.spatial("1", "0", actuated=True)
-    draw.ball("23", "1")
-    draw.spatial("4", "0")
-    draw.spatial("E", "3", "F")
-    draw.close("F", "4", "E", "spherical")
 
 
 def rssr_universal(draw: _Drawing) -> None:
@@ -239,8 +214,8 @@ def on_a_plane(draw: _Drawing) -> None:
 
 DRAWN = {
     f.__name__: f
-    for f in (four_bar, swinging_four_bar, slider_crank, watt, stephenson, double_parallelogram,
-              rusr, rssr_universal, rscr, rccc, on_a_plane)
+    for f in (four_bar, slider_crank, stephenson, double_parallelogram, rssr_universal, rscr, rccc,
+              on_a_plane)
 }  # fmt: skip
 
 

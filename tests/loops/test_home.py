@@ -2,6 +2,7 @@
 
 import tomllib
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,14 +10,15 @@ import pytest
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import LoopError
 from modeler.derivation.closure import SINGULAR
-from modeler.derivation.derive import HomeModes, derive_model, modes_near, with_home
+from modeler.derivation.derive import Home, HomeModes, derive_model, modes_near, with_home
 from modeler.derivation.walks import linkage_of
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from tests.robot_texts import CRANK, PARALLELOGRAM
-from tests.robots import LOOPED, one_always
+from tests.robots import one_always
 from tests.rotation import ROTATING
 
+RPR = (Path(__file__).parent / "rpr.toml").read_text(encoding="utf-8")
 BUILT_IN = one_always(("five-bar", "sr400", "delta", "evra", "stewart"), "five-bar")
 SHARED = ("twoloops", *(pytest.param(n, marks=ROTATING) for n in ("excavator_bucket", "rccc")))
 CLOSED = 1e-9
@@ -54,8 +56,9 @@ def check(found: HomeModes) -> None:
 
 
 def check_found(text: str) -> None:
-    """A home is found without [home], and the posture of the file is among the modes at its q."""
+    """The file's home stays; without, one is found, and the file's is among the modes at its q."""
     robot, bare = of_text(text), of_text(without_home(text))
+    assert with_home(robot) == Home(robot)
     home = with_home(bare)
     assert "[home] found: mode A" in home.told
     model = derive_model(bare)
@@ -82,29 +85,7 @@ def test_home_is_found_for_further_robots(loop_robots_folder, name) -> None:
     check_found(text)
 
 
-@pytest.mark.parametrize("name", one_always(LOOPED, "five-bar"))
-def test_a_good_home_stays(name) -> None:
-    robot = of_text(builtin_text(name))
-    home = with_home(robot)
-    assert home.robot is robot and home.told == ""
-
-
-def test_the_modes_of_a_crank_are_those_of_its_triangle() -> None:
-    """R sin q1 + L sin(q1 + q2) = 0 has two solutions."""
-    found = modes_near(of_text(CRANK), {"1": 0.7})
-    check(found)
-    seen = sorted((mode.posture[1], mode.posture[2]) for mode in found.modes)
-    tilt = np.arcsin(0.10 * np.sin(0.7) / 0.35)
-    expected = sorted(
-        (way - 0.7, 0.10 * np.cos(0.7) + 0.35 * np.cos(way)) for way in (-tilt, tilt - np.pi)
-    )
-    turned = [((q2 + np.pi) % (2 * np.pi) - np.pi, q3) for q2, q3 in expected]
-    assert np.array(seen) == pytest.approx(np.array(sorted(turned)), abs=1e-9)
-    assert found.modes[0].posture[2] > 0.0  # the travel that is longer than zero
-
-
-@pytest.mark.parametrize("factor", [1e-3, 1e3])
-def test_modes_do_not_depend_on_the_unit_of_length(factor) -> None:
+def test_modes_do_not_depend_on_the_unit_of_length(factor=1e-3) -> None:
     larger = CRANK.replace("R = 0.10", f"R = {0.10 * factor}").replace("0.35", f"{0.35 * factor}")
     larger = larger.replace("q3 = 0.33", f"q3 = {0.33 * factor}")
     one, other = modes_near(of_text(CRANK), {}), modes_near(of_text(larger), {})
@@ -139,34 +120,6 @@ def platform_angles(lengths: np.ndarray, R: float, r: float) -> list[float]:
     return sorted(angles)
 
 
-RPR = """\
-name = "rpr"
-gravity = [0, 0, 0]
-legs = ["1", "2", "3"]
-
-[mdh]
-columns = ["j", "a", "mu", "sigma", "gamma", "alpha", "d", "theta", "r"]
-rows = [
-  ["B1", "0", 0, 2, "pi/2", 0, 0.8, 0, 0],
-  ["B2", "0", 0, 2, "7*pi/6", 0, 0.8, 0, 0],
-  ["B3", "0", 0, 2, "11*pi/6", 0, 0.8, 0, 0],
-  ["1{i}", "B{i}", 0, 0, 0, 0, 0, "q1{i}", 0],
-  ["2{i}", "1{i}", 1, 1, 0, "-pi/2", 0, 0, "q2{i}"],
-  ["3{i}", "2{i}", 0, 2, 0, "pi/2", 0, 0, 0],
-  ["41", "P", 0, 2, "pi/2", 0, 0.2, 0, 0],
-  ["42", "P", 0, 2, "7*pi/6", 0, 0.2, 0, 0],
-  ["43", "P", 0, 2, "11*pi/6", 0, 0.2, 0, 0],
-]
-
-[platform]
-name = "P"
-motion = "planar"
-
-[loops]
-rows = [["leg {i}", "3{i}", "4{i}", "revolute"]]
-"""
-
-
 @pytest.mark.parametrize("lengths", [(0.7, 0.75, 0.65), (0.75, 0.95, 0.85)])
 def test_all_modes_of_a_planar_platform_are_found(lengths) -> None:
     found = modes_near(of_text(RPR), dict(zip(("21", "22", "23"), lengths, strict=True)))
@@ -182,14 +135,6 @@ def test_a_cylinder_is_longer_than_zero() -> None:
     """Of two ways to write a leg, [1.2, -0.7] and [1.2 - pi, 0.7], the second is meant."""
     home = with_home(of_text(RPR)).robot.home
     assert all(home[name] > 0.0 for name in ("21", "22", "23"))
-
-
-def test_an_excavator_gets_cylinders_longer_than_zero(loop_robots_folder) -> None:
-    text = (loop_robots_folder / "excavator_firsttry.toml").read_text(encoding="utf-8")
-    home = with_home(of_text(text))
-    assert home.robot.home["6"] > 0.0 and home.robot.home["8"] > 0.0
-    assert "[home] completed: moved q8 1.5 -> " in home.told and "\n" not in home.told
-    assert derive_model(of_text(text)).closure is not None
 
 
 def test_hints_choose_the_mode() -> None:
@@ -230,25 +175,20 @@ def test_a_poor_home_is_polished_to_the_mode_that_is_near(loop_robots_folder) ->
     assert np.array(moved) == pytest.approx(0.0, abs=1e-5)
 
 
-def test_a_singular_home_is_refused_with_what_is_lost(loop_robots_folder) -> None:
-    """Three legs that meet in the middle of the platform let it turn."""
-    text = (loop_robots_folder / "3rpr_singular.toml").read_text(encoding="utf-8")
+def test_a_singular_home_is_refused_with_what_is_lost() -> None:
+    """Three legs that meet in the middle of the platform let it turn; a little longer, they do not.
+
+    The posture that is offered is good as it stands.
+    """
+    text = RPR + '[home]\nqP = 0.1\n"q1{i}" = 1.5\n"q2{i}" = LENGTH\n'
     with pytest.raises(LoopError) as caught:
-        derive_model(of_text(text))
+        derive_model(of_text(text.replace("LENGTH", "0.6")))
     told = str(caught.value)
     assert "the loops are singular at [home]: joints P, 11, 12, 13 could move there" in told
     assert "(qP : q11 : q12 : q13 = 1 : -0.33 : -0.33 : -0.33; singular value " in told
-    stated = dict(entry.split(" = ") for entry in told.split("such as ")[1].split(", "))
-    lines = "\n".join(f"{name} = {value}" for name, value in stated.items())
-    again = of_text(without_home(text) + f"\n[home]\n{lines}\n")
-    assert with_home(again).robot is again  # the posture that is offered is good as it stands
-
-
-def test_small_singular_values_are_told_from_large_ones() -> None:
-    """Just off the singular posture it is no longer refused: the legs reach a little further."""
-    text = RPR + '[home]\nqP = 0.1\n"q1{i}" = 1.5\n"q2{i}" = LENGTH\n'
-    with pytest.raises(LoopError, match="singular"):
-        derive_model(of_text(text.replace("LENGTH", "0.6")))
+    stated = "\n".join(told.split("such as ")[1].split(", "))
+    again = of_text(f"{RPR}[home]\n{stated}\n")
+    assert with_home(again).robot is again
     model = derive_model(of_text(text.replace("LENGTH", "0.61")))
     linkage = linkage_of(model)
     assert linkage is not None and model.closure is not None

@@ -11,7 +11,6 @@ import pytest
 
 from modeler.codegen.package import write_emitted
 from modeler.codegen.workflow import generate
-from modeler.core.files import resource_dir
 from modeler.core.manifest import Emitted
 from tests.codegen.fitted_library import Functions, motion, with_values
 from tests.loops.derived import of_file
@@ -138,21 +137,3 @@ def test_torques_that_overflow_are_told_too():
     pointers = [a.ctypes.data_as(ctypes.c_void_p) for a in (*rows, out)]
     call = functions._library.five_bar_fitted_inverse_dynamics
     assert call(*pointers) == NOT_FINITE and np.isnan(out).all()
-
-
-def test_statuses_mean_the_same_wherever_they_are_written():
-    header = (resource_dir("csrc") / "include" / "modeler_status.h").read_text()
-    codes = dict(re.findall(r"MODELER_([A-Z_]+) = (\d)", header))
-    assert codes == {
-        "DONE": "0", "CLOSED": "0", "OPEN": "1", "SINGULAR": "2", "NOT_FINITE": "3",
-        "UNFINISHED": "4", "FOREIGN": "5",
-    }  # fmt: skip
-    files = module("five-bar").emitted.files
-    told = " ".join(files["five_bar.h"].replace("\n *", " ").split())
-    assert (
-        "2 singular posture; 3 an input is not finite" in told
-        and "4 these values are so far" in told
-    )
-    rows = re.findall(r"^\| (\d) \| ([a-z ]+)", files["README.md"], re.MULTILINE)
-    assert [row[0] for row in rows] == list("01234")
-    assert rows[3][1].startswith("an input that is not finite") and rows[4][1].startswith("too far")

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import LoopError, ShapeError
-from modeler.robot.read import read_robot
 from tests.loops.closed_states import closed
 from tests.modules import module, plain
 from tests.robots import CLOSED, TIED, one_always
@@ -25,24 +24,6 @@ def test_regressors_and_observation_are_those_of_the_graph(name):
     close(c.regressor(q, qd, qdd), phi)
     close(c.base_regressor(q, qd, qdd), phi[:, :, kept])
     close(c.observation(q, qd, qdd), phi[:, :, kept].reshape(-1, base.rank))
-
-
-@pytest.mark.parametrize("name", one_always(TIED, *ALWAYS))
-def test_inverse_dynamics_is_the_sum_of_its_parts(name):
-    c = plain(name)
-    (q, qd, qdd), _, phi = closed(name, 10)
-    chi = np.random.default_rng(3).normal(size=phi.shape[2])
-    beta = c.base_parameters(chi)
-    tau = c.inverse_dynamics(q, qd, qdd, beta)
-    close(tau, phi @ chi)
-    M = c.inertia_matrix(q, beta)
-    close(M, np.swapaxes(M, 1, 2), 1e-12)
-    parts = c.coriolis(q, qd, beta) + c.gravity(q, beta) + c.friction(qd, beta, q)
-    close(np.einsum("nij,nj->ni", M, qdd) + parts, tau)
-    still = 0 * qd
-    rest = c.gravity(q, beta) + c.friction(still, beta, q)
-    close(rest, c.inverse_dynamics(q, still, still, beta))
-    close(c.coriolis(q, -2 * qd, beta), 4 * c.coriolis(q, qd, beta))
 
 
 @pytest.mark.parametrize("name", one_always(CLOSED, *ALWAYS))
@@ -78,34 +59,6 @@ def test_what_is_out_of_reach_is_told_by_sample():
         c.base_regressor(q, q, q)
     with pytest.raises(LoopError, match=r"sample 2.*got \(0.19, 0.19, 1.4\)"):
         c.observation(q, q, q)
-
-
-def test_outputs_are_nan_where_loops_do_not_close():
-    c = plain("orthoglide-2003")
-    q = np.array([[0.19, 0.19, 1.4]])
-    function = next(f for f in c.spec.functions if f.name.endswith("_close"))
-    out, status = np.empty((1, *function.outputs[0].shape)), np.zeros(1, dtype=np.intc)
-    c._library.batch(function, [q], out, status)
-    assert status[0] == 1 and np.all(np.isnan(out))
-
-
-def test_forward_kinematics_shows_every_row_and_the_loops_closed():
-    robot, c = read_robot("orthoglide-2003"), plain("orthoglide-2003")
-    (q, _, _), _, _ = closed("orthoglide-2003", 5)
-    T = c.forward_kinematics(q)
-    names = [joint.name for joint in robot.moving]
-    assert T.shape == (5, len(names), 3, 4)
-    platform = T[:, names.index("P")]
-    np.testing.assert_allclose(platform[:, :, :3], np.tile(np.eye(3), (5, 1, 1)), atol=1e-12)
-    a, d6, b3 = 0.6, 0.1, -0.04
-    for leg in "123":  # the platform's point is d6 along the slide and -b3 beside it from O5
-        frame = T[:, names.index(f"5{leg}")]
-        tip = np.einsum("nij,j->ni", frame[:, :, :3], [d6, 0, -b3]) + frame[:, :, 3]
-        np.testing.assert_allclose(tip, platform[:, :, 3], atol=1e-10)
-    x, y, z = platform[:, :, 3].T
-    np.testing.assert_allclose(x**2 + y**2 + (z - q[:, 0] - d6) ** 2, 0.31**2, atol=1e-12)
-    np.testing.assert_allclose((x - q[:, 1] - d6 + a) ** 2 + y**2 + (z - a) ** 2, 0.31**2)
-    np.testing.assert_allclose(x**2 + (y - q[:, 2] - d6 + a) ** 2 + (z - a) ** 2, 0.31**2)
 
 
 def test_friction_of_passive_joints_needs_positions():
