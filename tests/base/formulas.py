@@ -1,4 +1,4 @@
-"""Readers of printed formulas, by recursive descent: plain text and LaTeX to numbers.
+"""Readers of printed formulas: plain text by Python, LaTeX by recursive descent, to numbers.
 
 They share nothing with the program that prints. Precedence is that of mathematics and C: `a/b*c`
 is (a/b) c, `-a**2` is -(a**2); in LaTeX, factors beside each other are multiplied.
@@ -15,7 +15,6 @@ _FUNCTIONS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
     "sign": np.sign, "abs": np.abs, "exp": np.exp, "tanh": np.tanh,
 }  # fmt: skip
-_TEXT = re.compile(r"\d+(?:\.\d*)?(?:e[-+]?\d+)?|[A-Za-z]\w*|\*\*|[-+*/()]")
 _GREEK = r"\\(?:alpha|beta|gamma|delta|theta|phi|psi|omega|epsilon|mu|Omega)(?![A-Za-z])"
 _DOTTED = r"\\d?dot\{(?:\\omega|[a-z])\}"
 _HEAD = rf"[A-Za-z]|\\mathit\{{(?:\w|\\_)+\}}|{_GREEK}|{_DOTTED}"
@@ -31,11 +30,11 @@ class UnreadableError(Exception):
     """Not a formula."""
 
 
-class _Reader:
-    def __init__(self, text: str, words: re.Pattern[str], values: Values) -> None:
-        if rest := words.sub("", text).strip():
+class _Latex:
+    def __init__(self, text: str, values: Values) -> None:
+        if rest := _LATEX.sub("", text).strip():
             raise UnreadableError(f"{text}: {rest}")
-        self.text, self.words, self.values = text, words.findall(text), values
+        self.text, self.words, self.values = text, _LATEX.findall(text), values
 
     def result(self) -> np.ndarray:
         value = self.sum()
@@ -61,46 +60,6 @@ class _Reader:
             value = value + self.product() if self.take() == "+" else value - self.product()
         return value
 
-    def product(self) -> np.ndarray:
-        raise NotImplementedError
-
-    def letter(self, name: str) -> np.ndarray:
-        if name not in self.values:
-            raise UnreadableError(f"{self.text}: no {name}")
-        return self.values[name]
-
-
-class _Text(_Reader):
-    def product(self) -> np.ndarray:
-        value = self.power()
-        while self.next in ("*", "/"):
-            value = value * self.power() if self.take() == "*" else value / self.power()
-        return value
-
-    def power(self) -> np.ndarray:
-        base = self.atom()
-        if self.next != "**":
-            return base
-        self.take()
-        sign = -1.0 if self.next == "-" else 1.0
-        if self.next == "-":
-            self.take()
-        return base ** (sign * self.power())
-
-    def atom(self) -> np.ndarray:
-        word = self.take()
-        if word == "(" or word in _FUNCTIONS:
-            if word != "(":
-                self.take("(")
-            value = self.sum()
-            self.take(")")
-            return _FUNCTIONS[word](value) if word != "(" else value
-        if word[0].isdigit():
-            return np.float64(word)
-        return np.float64(np.pi) if word == "pi" else self.letter(word)
-
-
-class _Latex(_Reader):
     def product(self) -> np.ndarray:
         value = self.power()
         while self.next not in ("", "+", "-", "}", "]", *_CLOSING):
@@ -157,7 +116,10 @@ class _Latex(_Reader):
             return self.group() ** (1 / root)
         if word[0].isdigit():
             return np.float64(word)
-        return np.float64(np.pi) if word == r"\pi" else self.letter(self.name(word))
+        name = self.name(word)
+        if word != r"\pi" and name not in self.values:
+            raise UnreadableError(f"{self.text}: no {name}")
+        return np.float64(np.pi) if word == r"\pi" else self.values[name]
 
     def name(self, word: str) -> str:
         return name_of_latex(word)
@@ -170,17 +132,20 @@ class _Written(_Latex):
 
 def text_value(text: str, values: Values) -> np.ndarray:
     """Value of `XXP + RP**2*sin(phi1)**2*M31`."""
-    return _Text(text, _TEXT, values).result()
+    try:
+        return eval(text, {"__builtins__": {}}, {**_FUNCTIONS, "pi": np.pi, **values})
+    except (SyntaxError, NameError, TypeError) as error:
+        raise UnreadableError(text) from error
 
 
 def latex_value(text: str, values: Values) -> np.ndarray:
     r"""Value of `\mathit{XX} + R^{2} \sin^{2}{\left(\phi_{1} \right)} M_{31}`."""
-    return _Latex(text, _LATEX, values).result()
+    return _Latex(text, values).result()
 
 
 def written_value(text: str, values: Values) -> np.ndarray:
     r"""Value of `2\,\dot{q}_{1}\,\left(a + b\right)`; names as LaTeX writes them."""
-    return _Written(text, _LATEX, values).result()
+    return _Written(text, values).result()
 
 
 def name_of_latex(text: str) -> str:

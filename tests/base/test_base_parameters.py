@@ -13,6 +13,7 @@ from modeler.derivation.relations import relation_text
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import EffectUse
 from tests.base.ranks import seen
+from tests.base.test_hard_tables import model_of
 from tests.modules import module
 from tests.robots import ROBOTS
 
@@ -154,18 +155,16 @@ def test_value_zero_and_right_angles_are_exact():
         assert relations(table(rows, symbols=f"al = {value}\nd = 0.0")) == expected
 
 
-def random_table(rng: np.random.Generator):
+def random_tree(rng: np.random.Generator) -> dict[str, str | list[dict]]:
     """A random tree of 2 to 5 rows with the entries where grouping changes its form."""
-    rows, symbols = [], []
+    rows, symbols = [], "g = 9.81\n"
     for j in range(1, int(rng.integers(2, 6)) + 1):
-        alpha = rng.choice(
-            ["0", "pi/2", "-pi/2", "pi", "pi/3", f"al{j}"], p=[0.25, 0.2, 0.2, 0.1, 0.1, 0.15]
-        )
+        alphas = ["0", "pi/2", "-pi/2", "pi", "pi/3", f"al{j}"]
+        alpha = rng.choice(alphas, p=[0.25, 0.2, 0.2, 0.1, 0.1, 0.15])
         gamma = rng.choice(["0", "pi/2", f"ga{j}"], p=[0.8, 0.1, 0.1])
         d, b, r = (rng.choice(["0", f"{x}{j}", "0.3"], p=[0.5, 0.35, 0.15]) for x in "dbr")
-        sigma = (
-            int(rng.choice([0, 1, 2], p=[0.65, 0.25, 0.1])) if j > 1 else int(rng.integers(0, 2))
-        )
+        first = int(rng.integers(0, 2))
+        sigma = int(rng.choice([0, 1, 2], p=[0.65, 0.25, 0.1])) if j > 1 else first
         theta = {
             0: rng.choice([f"q{j}", f"q{j} + pi/2", f"-q{j} + 0.4"]),
             1: rng.choice(["0", "pi/2", "0.4"]),
@@ -173,21 +172,18 @@ def random_table(rng: np.random.Generator):
         }[sigma]
         r = f"q{j} + {r}" if sigma == 1 else r
         a = j - 1 if rng.random() < 0.75 else int(rng.integers(0, j))
+        cells = {"gamma": gamma, "b": b, "alpha": alpha, "d": d, "theta": theta, "r": r}
         rows.append(
-            f'["{j}", "{a}", {sigma}, "{gamma}", "{b}", "{alpha}", "{d}", "{theta}", "{r}"]'
+            {"j": str(j), "a": str(a), "sigma": sigma} | {k: str(x) for k, x in cells.items()}
         )
-        symbols += [
-            f"{s}{j} = {v:.3f}"
-            for s, v in zip(("al", "ga", "d", "b", "r"), rng.uniform(0.2, 0.7, 5), strict=True)
-        ]
+        for letter, value in zip(
+            ("al", "ga", "d", "b", "r"), rng.uniform(0.2, 0.7, 5), strict=True
+        ):
+            symbols += f"{letter}{j} = {value:.3f}\n"
     gravity = rng.choice(['[0, 0, "-g"]', '["g", 0, 0]', '["g", "0.5*g", "-g"]', "[0, 0, 0]"])
-    effects = [e for e in ("rotor_inertia", "viscous", "coulomb", "offset") if rng.random() < 0.4]
-    return (
-        f'name = "random"\ngravity = {gravity}\n[symbols]\ng = 9.81\n' + "\n".join(symbols)
-        + '\n[mdh]\ncolumns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]'
-        + "\nrows = ["
-        + ",\n".join(rows) + "]\n[effects]\n" + "\n".join(f'{e} = "all"' for e in effects)
-    )  # fmt: skip
+    every = ("rotor_inertia", "viscous", "coulomb", "offset")
+    effects = "".join(f'{e} = "all"\n' for e in every if rng.random() < 0.4)
+    return {"rows": rows, "gravity": gravity, "more": f"[effects]\n{effects}", "symbols": symbols}
 
 
 @pytest.mark.parametrize(
@@ -195,9 +191,9 @@ def random_table(rng: np.random.Generator):
 )
 def test_random_trees(seed):
     """The exact relations against the rank in floating point, on tables nobody thought of."""
-    text = random_table(np.random.default_rng(seed))
-    model = derive_model(robot_from_text(text, "random.toml"))
+    tree = random_tree(np.random.default_rng(seed))
+    model = model_of(**tree)
     base = base_parameters(model)
-    assert base.rank == seen(model), text
-    assert base.proof.kind.startswith("exact"), text
-    assert base.proof.agreement < 1e-12, text
+    assert base.rank == seen(model), tree
+    assert base.proof.kind.startswith("exact"), tree
+    assert base.proof.agreement < 1e-12, tree

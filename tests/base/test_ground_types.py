@@ -4,9 +4,10 @@ import json
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
+
+from tests.repository import ROOT
 
 _RUN = """
 import json
@@ -27,16 +28,14 @@ print(GROUND_TYPES, json.dumps({n: {key: told[key] for key in keys} for n, told 
 
 
 def answers(types: str) -> dict:
-    root = Path(__file__).resolve().parents[2]
     done = subprocess.run(
-        [sys.executable, "-c", _RUN], capture_output=True, text=True, timeout=300, cwd=root,
+        [sys.executable, "-c", _RUN], capture_output=True, text=True, timeout=300, cwd=ROOT,
         env={**os.environ, "SYMPY_GROUND_TYPES": types}, check=True,
     )  # fmt: skip
     used, told = done.stdout.split(" ", 1)
     if used != types:
         pytest.skip(f"NOT CHECKED: sympy takes {used} here, not {types}")
-    found: dict = json.loads(told)
-    return found
+    return json.loads(told)
 
 
 @pytest.mark.slow

@@ -76,6 +76,14 @@ CASES = {
     "rotor that links hide": (
         [R(1, 0), R(2, 1, d="L")], "[0, 0, 0]",
         '[coupling]\n2 = "q1 + q2"\n[effects]\ncoupled_inertia = ["2"]\n', 4, "numeric"),
+    "four shafts of two joints": (
+        [R(1, 0), R(2, 1, d="L")], '[0, 0, "-g"]', '[coupling]\n1 = "q1 - q2"\n2 = "q1 + q2"\n'
+        '[effects]\nviscous = "all"\ncoulomb = "all"\ncoupled_friction = ["1", "2"]\n', 11,
+        "exact"),
+    "shafts whose speeds are in proportion": (
+        [R(1, 0), R(2, 1, d="L"), R(3, 2, d="L")], '[0, 0, "-g"]',
+        '[relations]\nq3 = "-5*q1/2"\n[effects]\nviscous = "all"\ncoulomb = "all"\n', None,
+        "exact"),
     "twelve joints without gravity": (
         [R(j, j - 1, alpha="pi/2", d="L") for j in range(1, 13)], "[0, 0, 0]", "", None, "exact"),
     "multiples of the primes": (

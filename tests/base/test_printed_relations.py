@@ -93,9 +93,7 @@ def test_any_coefficient_is_printed_as_it_is(found, halves):
     [
         ("1/(D13*sin(gam13))", "MY7/(D13*sin(gam13))"),
         ("-a - b", "-(a + b)*MY7"),
-        ("(a - b)/(a + b)", "(a - b)*MY7/(a + b)"),
         ("a/b + c", "(a/b + c)*MY7"),
-        ("1/(a + b)**2", "MY7/(a + b)**2"),
         ("sqrt(3)/2", "sqrt(3)/2*MY7"),
         (sympy.Float(13.73), "13.73*MY7"),
     ],

@@ -7,7 +7,6 @@ import pytest
 import sympy
 
 from modeler.core.builtin import builtin_text
-from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.field import TooLarge, geometry_field, sparse_row_reduce
 from modeler.derivation.grouping import column_relations
@@ -15,7 +14,6 @@ from modeler.derivation.numeric_rank import random_states, regressor_values
 from modeler.derivation.tied import tied_relations
 from modeler.robot.read import robot_from_text
 from tests.base.ranks import seen
-from tests.base.test_hard_tables import R, model_of
 from tests.modules import module
 
 TIES = '[relations]\nq4 = "-q3"\nq5 = "-q2 - pi/2"\nq7 = "q3"\n'
@@ -218,17 +216,3 @@ def test_multiples_of_the_primes(length, message):
     model = leg(changes=(('"D4"', f'"{length}"'),), **NO_LINK_5)
     with pytest.raises(TooLarge, match=message):
         relations_of(model)
-
-
-@pytest.mark.slow
-def test_coefficients_that_would_fill_pages_are_numbers():
-    """Four general twists between joints that go two by two."""
-    symbols = "g = 9.81\nL = 0.4\n" + "".join(f"a{i} = {0.3 + 0.1 * i}\n" for i in range(1, 5))
-    rows = [R(j, j - 1, alpha=f"a{j}", d="L", r="L") for j in (1, 2, 3, 4)]
-    rows[2]["theta"] = "q1"
-    model = model_of(rows, symbols=symbols)
-    base = base_parameters(model)
-    assert base.proof.kind == "numeric"
-    assert re.search(r"No exact proof: a coefficient has up to \d+ terms", base.proof.statement)
-    assert base.rank == seen(model)
-    assert base.proof.agreement < 1e-9

@@ -97,16 +97,12 @@ def test_closed_forms_show_what_was_written():
 
 @pytest.mark.parametrize(
     ("value", "halves", "text"),
-    [
-        ("0.1564", False, "0.1564"), ("-0.05", False, "-0.05"), ("12.5", False, None),
-        ("12.5", True, "12.5"), ("1/3", True, None), ("1/6", True, None), ("3", True, None),
-        ("1/1024", False, None), ("1/1024", True, "0.0009765625"), ("1e-9", False, "0.000000001"),
-    ],
+    [("0.1564", False, "0.1564"), ("12.5", False, None), ("12.5", True, "12.5"),
+     ("1/3", True, None), ("1/1024", False, None), ("1/1024", True, "0.0009765625"),
+     ("1e-9", False, "0.000000001")],
 )  # fmt: skip
 def test_decimals_are_exact_or_none(value, halves, text):
-    found = decimal_text(Fraction(value), halves)
-    assert found == text
-    assert found is None or Fraction(found) == Fraction(value)
+    assert decimal_text(Fraction(value), halves) == text
 
 
 def test_every_decimal_comes_back():

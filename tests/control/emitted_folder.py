@@ -1,49 +1,19 @@
 """A whole folder as `modeler generate` writes it, compiled by any compiler and called by ctypes."""
 
 import ctypes
-import re
 import subprocess
-from functools import cache
 from pathlib import Path
 
 import numpy as np
 
-from modeler.codegen import Control, Derivation, derive
+from modeler.codegen import Control, Derivation
 from modeler.codegen.workflow import generate
-from modeler.robot.robot import INERTIAL, Robot
+from modeler.robot.robot import Robot
+from tests.bodies import buildable
 from tests.codegen.fitted_library import FittedParameter, FittedSpec
 from tests.oracles.complex_step import Oracle
 
-OWN = {"Ia": 0.3, "Iam": 0.2, "Fv": 0.5, "Fvm": 0.4, "Fs": 0.8, "Fsm": 0.3, "Off": 0.2, "Fva": 0.1,
-       "Fst": 0.4}  # fmt: skip
 STATE = 1 << 20  # bytes, more than any state takes
-
-
-@cache
-def derived(robot: str) -> Derivation:
-    """A built-in robot by its name."""
-    from modeler.codegen import load
-
-    return derive(load(robot))
-
-
-def bodies(names: list[str], seed: int) -> dict[str, float]:
-    """Standard parameters: each body five mass points, rotors and friction that could be."""
-    random, known, found = np.random.default_rng(seed), {}, {}
-    inertial = re.compile(rf"({'|'.join(sorted(INERTIAL, key=len, reverse=True))})(.+)")
-    for name in names:
-        match = inertial.fullmatch(name)
-        if match is None:
-            prefix = max((p for p in OWN if name.startswith(p)), key=len)
-            found[name] = OWN[prefix] * random.uniform(0.5, 1.0)
-            continue
-        if match[2] not in known:
-            m, p = random.uniform(0.1, 1.0, 5), random.normal(0, 0.15, (5, 3))
-            J = np.einsum("k,kij->ij", m, [x @ x * np.eye(3) - np.outer(x, x) for x in p])
-            numbers = [*J[np.triu_indices(3)], *(m @ p), m.sum()]
-            known[match[2]] = dict(zip(INERTIAL, numbers, strict=True))
-        found[name] = known[match[2]][match[1]]
-    return found
 
 
 def with_values(spec, beta: np.ndarray) -> FittedSpec:
@@ -68,7 +38,8 @@ class Folder:
         self.robot: Robot = derivation.robot
         precision = "single" if single else "double"
         bare = generate(derivation, precision=precision).spec
-        self.chi = bodies([p.name for p in bare.standard], seed)
+        values = buildable(bare, np.random.default_rng(seed))
+        self.chi = dict(zip([p.name for p in bare.standard], values, strict=True))
         K = np.zeros((len(bare.base), len(bare.standard)))
         places = {p.name: k for k, p in enumerate(bare.standard)}
         for i, base in enumerate(bare.base):

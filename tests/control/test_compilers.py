@@ -14,10 +14,6 @@ ALIGNED = {"gcc": "-Wcast-align=strict", "clang": "-Wcast-align"}
 MORE = ("tree 1", "five-bar")
 
 
-def folder(name: str, path, single: bool = False) -> Folder:
-    return Folder(derivation(name), path, single)
-
-
 @pytest.mark.rotating("long tests of control")
 @pytest.mark.parametrize(
     ("name", "single", "compilers"),
@@ -29,7 +25,7 @@ def folder(name: str, path, single: bool = False) -> Folder:
     ],
 )  # fmt: skip
 def test_no_compiler_warns(name, single, compilers, tmp_path):
-    made = folder(name, tmp_path, single)
+    made = Folder(derivation(name), tmp_path, single)
     sources = [str(p.relative_to(tmp_path)) for p in tmp_path.glob("**/*.c")]
     assert len(sources) > 5
     for cc in filter(shutil.which, compilers):
@@ -41,7 +37,7 @@ def test_no_compiler_warns(name, single, compilers, tmp_path):
 @pytest.mark.parametrize("name", ["two-link", *(pytest.param(n, marks=ROTATING) for n in MORE)])
 def test_sanitizers_find_nothing(name, tmp_path):
     """In the folder's own check, which calls every function."""
-    made = folder(name, tmp_path)
+    made = Folder(derivation(name), tmp_path)
     words = ["-std=c99", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
     probe = subprocess.run(
         ["gcc", *words, "-x", "c", "-", "-o", str(tmp_path / "probe")],

@@ -5,7 +5,7 @@ import pytest
 
 from modeler.codegen import derive, generate
 from modeler.codegen.control import Control
-from modeler.core.errors import LoopError, ModelerError
+from modeler.core.errors import ModelerError
 from modeler.robot.read import robot_from_text
 from tests.bodies import buildable
 from tests.control.draw import emitted
@@ -29,28 +29,6 @@ def test_a_massless_last_link():
     assert set(model.statuses("forward_dynamics", **given)) == {2}
     with pytest.raises(ModelerError, match=r"forward_dynamics.*not positive"):
         model.evaluate("forward_dynamics", **given)
-
-
-def test_what_loops_cannot_do_is_told():
-    """Loops that do not close, NaN, no inertia or a negative one: a status, and an error."""
-    made = emitted("five-bar")[1]
-    model, spec = loaded(made), made.spec
-    q = np.array([[spec.closure.home[k] for k in spec.closure.given]])
-    qd, beta = (
-        np.full((1, 2), 0.5),
-        model.base_parameters(buildable(spec, np.random.default_rng(6))),
-    )
-    now = {"q": q, "qd": qd, "beta": beta}
-    for wrong, expected in (
-        ({"q": q + np.array([4.0, -4.0])}, (1, 2, 4)), ({"q": q * np.nan}, (3,)),
-        ({"beta": beta * np.inf}, (3,)),
-    ):  # fmt: skip
-        assert model.statuses("coriolis_matrix", **{**now, **wrong})[0] in expected
-        with pytest.raises(LoopError):
-            model.evaluate("coriolis_matrix", **{**now, **wrong})
-    for factor, expected in ((1, 0), (0, 2), (-1, 2)):
-        given = {"q": q, "qd": qd, "tau": qd, "beta": factor * beta}
-        assert model.statuses("forward_dynamics", **given)[0] == expected
 
 
 LOADED = """\

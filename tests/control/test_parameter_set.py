@@ -1,7 +1,9 @@
 """Parameters that change at run time: seal, check, a store without tears, payload by addition."""
 
+import shutil
 import subprocess
 import zlib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,96 +17,13 @@ from tests.control.draw import emitted
 from tests.modules import STRICT, compiler, loaded, plain
 
 NAME = "two-link"
-PROGRAM = r"""
-#include <pthread.h>
-#include <stdio.h>
-#include <string.h>
-#include "two_link_control.h"
-
-static two_link_store store;
-static int over;
-
-/* A cycle: all of one set, or none. */
-static void *reader(void *counted)
-{
-    int cycles = 0;
-    while (!__atomic_load_n(&over, __ATOMIC_ACQUIRE)) {
-        const two_link_set *const set = two_link_set_current(&store);
-        if (set != NULL) {
-            const double first = set->beta[0];
-            for (int i = 0; i < TWO_LINK_BASE_PARAMETERS; i++)
-                if (set->beta[i] < first || set->beta[i] > first)
-                    return NULL;
-            cycles++;
-        }
-    }
-    *(int *)counted = cycles;
-    return NULL;
-}
-
-int main(void)
-{
-    two_link_set set, other;
-    pthread_t thread;
-    int cycles = 0, published = 0;
-
-    memset(&set, 0, sizeof(set));
-    if (two_link_set_current(&store) != NULL ||
-        two_link_set_publish(&store, &set) != MODELER_FOREIGN)
-        return 1;
-    for (int i = 0; i < TWO_LINK_BASE_PARAMETERS; i++)
-        set.beta[i] = 0.5 + i;
-    for (size_t i = 0; i < sizeof(set.widths) / sizeof(*set.widths); i++)
-        set.widths[i] = 0.01;
-    two_link_set_seal(&set);
-    printf("%lu %u", (unsigned long)set.checksum, (unsigned)(sizeof(set.widths) / sizeof(double)));
-    if (two_link_set_check(&set) != MODELER_DONE)
-        return 2;
-    for (size_t byte = 0; byte < offsetof(two_link_set, checksum); byte++) {
-        other = set;
-        ((unsigned char *)&other)[byte] ^= 4;
-        if (two_link_set_check(&other) != MODELER_FOREIGN)
-            return 3;
-    }
-    other = set;
-    other.beta[1] = 1e300 * 1e300;
-    two_link_set_seal(&other);
-    if (two_link_set_check(&other) != MODELER_NOT_FINITE)
-        return 4;
-    if (two_link_set_publish(&store, &set) != MODELER_DONE)
-        return 5;
-    if (two_link_set_publish(&store, &set) != MODELER_UNFINISHED) /* nobody has taken it */
-        return 6;
-    if (two_link_set_publish(&store, &other) != MODELER_NOT_FINITE)
-        return 7;
-    if (memcmp(two_link_set_current(&store), &set, sizeof(set)) != 0)
-        return 8;
-    for (int i = 0; i < TWO_LINK_BASE_PARAMETERS; i++)
-        set.beta[i] = 0.0;
-    two_link_set_seal(&set);
-    while (two_link_set_publish(&store, &set) != MODELER_DONE ||
-           two_link_set_current(&store) == NULL)
-        ;
-    if (pthread_create(&thread, NULL, reader, &cycles) != 0)
-        return 9;
-    while (published < 100) {
-        for (int i = 0; i < TWO_LINK_BASE_PARAMETERS; i++)
-            set.beta[i] = published;
-        two_link_set_seal(&set);
-        published += two_link_set_publish(&store, &set) == MODELER_DONE;
-    }
-    __atomic_store_n(&over, 1, __ATOMIC_RELEASE);
-    pthread_join(thread, NULL);
-    return cycles > 0 ? 0 : 10;
-}
-"""
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     where = tmp_path_factory.mktemp("set")
     generate(derive(load(NAME)), where, control=Control())
-    (where / "hammer.c").write_text(PROGRAM)
+    shutil.copy(Path(__file__).parent / "sets.c", where)
     return where
 
 
@@ -114,9 +33,9 @@ def folder(tmp_path_factory):
     [("gcc", ["-fsanitize=thread"]), ("gcc", ["-fsanitize=address,undefined"]), ("clang", [])],
 )
 def test_sets_are_checked_and_never_torn(folder, cc, flags):
-    sources = ["hammer.c", "two_link.c", "two_link_base_regressor.c", "two_link_control.c"]
+    sources = ["sets.c", "two_link.c", "two_link_base_regressor.c", "two_link_control.c"]
     strict = [flag for flag in STRICT if flag != "-Wpedantic"]
-    made = folder / f"hammer-{cc}{len(flags)}"
+    made = folder / f"sets-{cc}{len(flags)}"
     command = [compiler(cc), *strict, "-O1", "-g", *flags, "-o", made, *sources]
     subprocess.run([*command, "-lm", "-lpthread"], cwd=folder, check=True)
     done = subprocess.run([made], capture_output=True, text=True, check=False, timeout=60)

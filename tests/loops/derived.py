@@ -14,13 +14,13 @@ from tests.rotation import ROTATING
 
 TURN = pytest.mark.rotating
 
-ALWAYS = ("slider_crank", "rscr")
+ALWAYS = ("rscr",)
 LONG = ("stephenson", "rssr_universal", "rccc")
 WEIGHED = [
     kind if kind in ALWAYS else pytest.param(kind, marks=ROTATING if kind in LONG else TURN)
     for kind in DRAWN
 ]
-"""All kinds that are drawn: one in the plane and one in space always, some slow."""
+"""All kinds that are drawn: one in space always, some slow."""
 
 
 @cache

@@ -156,23 +156,6 @@ def stephenson(draw: _Drawing) -> None:
     draw.close("H", "5", "G", "revolute")
 
 
-def double_parallelogram(draw: _Drawing) -> None:
-    """Two parallelograms in series, both driven."""
-    wide, one, other = draw.length(), draw.length(), draw.length()
-    draw.row("1", "0", "R", True)
-    draw.row("2", "1", "R", d=one)
-    draw.row("3", "0", "R", d=wide)
-    draw.row("E", "2", "F", d=wide)
-    draw.row("F", "3", "F", d=one)
-    draw.row("4", "2", "R", True)
-    draw.row("5", "4", "R", d=other)
-    draw.row("6", "2", "R", d=wide)
-    draw.row("G", "5", "F", d=wide)
-    draw.row("H", "6", "F", d=other)
-    draw.home |= {"q1": 1.1, "q2": -1.1, "q3": 1.1, "q4": 1.9, "q5": -1.9, "q6": 1.9}
-    draw.loops += ['["A", "E", "F", "revolute"],', '["B", "G", "H", "revolute"],']
-
-
 def rssr_universal(draw: _Drawing) -> None:
     """Crank, spherical joint, coupler, universal joint that closes the loop, rocker."""
     draw.spatial("1", "0", actuated=True)
@@ -214,8 +197,7 @@ def on_a_plane(draw: _Drawing) -> None:
 
 DRAWN = {
     f.__name__: f
-    for f in (four_bar, slider_crank, stephenson, double_parallelogram, rssr_universal, rscr, rccc,
-              on_a_plane)
+    for f in (four_bar, slider_crank, stephenson, rssr_universal, rscr, rccc, on_a_plane)
 }  # fmt: skip
 
 

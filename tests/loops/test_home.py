@@ -75,6 +75,7 @@ def test_home_is_found_for_built_in_robots(name) -> None:
     check_found(builtin_text(name))
 
 
+@pytest.mark.rotating("long tests of loops")
 @pytest.mark.parametrize("name", SHARED)
 def test_home_is_found_for_further_robots(loop_robots_folder, name) -> None:
     text = (loop_robots_folder / f"{name}.toml").read_text(encoding="utf-8")
@@ -120,7 +121,9 @@ def platform_angles(lengths: np.ndarray, R: float, r: float) -> list[float]:
     return sorted(angles)
 
 
-@pytest.mark.parametrize("lengths", [(0.7, 0.75, 0.65), (0.75, 0.95, 0.85)])
+@pytest.mark.parametrize(
+    "lengths", [(0.75, 0.95, 0.85), pytest.param((0.7, 0.75, 0.65), marks=pytest.mark.rotating)]
+)
 def test_all_modes_of_a_planar_platform_are_found(lengths) -> None:
     found = modes_near(of_text(RPR), dict(zip(("21", "22", "23"), lengths, strict=True)))
     check(found)

@@ -6,7 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from modeler import api
 from modeler.cli import main
+from modeler.core.errors import DataError
+from modeler.diagnosis import LawAsked
 from modeler.robot.read import read_robot
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.further_robots import FurtherRobots
@@ -64,22 +67,6 @@ def logged(robot: str, folder: Path, name: str, seed: int, *hidden: str) -> str:
 
 
 @rotating_with("logs of robots with loops")
-def test_a_spring_is_added(tmp_path: Path) -> None:
-    """It reads the position of its joint, which the C of a robot with loops gives to effects."""
-    hidden = ("--hide", "spring@12")
-    train = logged("orthoglide-2003", tmp_path, "a.csv", 1, *hidden)
-    held_out = logged("orthoglide-2003", tmp_path, "b.csv", 2, *hidden)
-    models = [str(tmp_path / f"m{k}.json") for k in (1, 2)]
-    assert main(["fit", "orthoglide-2003", train, "--out", models[0]]) == 0
-    words = ["add", models[0], "spring", "--joint", "12", train, "--out", models[1]]
-    told = tmp_path / "told.json"
-    assert main([*words, "--holdout", held_out, "--json", str(told)]) == 0
-    errors = [step["error"] for step in json.loads(told.read_text())["waterfall"]]
-    assert len(errors) == 2 and errors[1] < 0.8 * errors[0]
-    assert main(["compare", models[1], held_out]) == 0
-
-
-@rotating_with("logs of robots with loops")
 def test_a_load_on_the_platform_is_called_a_load(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -96,6 +83,7 @@ def test_a_load_on_the_platform_is_called_a_load(
     assert "payload" not in said.partition("cannot show:")[2].partition("\n")[0]
 
 
+@pytest.mark.rotating("long tests of loops")
 @pytest.mark.parametrize("robot", ["five-bar", pytest.param("delta", marks=ROTATING)])
 def test_friction_that_is_drawn_for_a_passive_joint_is_felt(robot: str) -> None:
     """By some motor as a share of its torque that a diagnosis can see, by none as most of it."""
@@ -108,3 +96,12 @@ def test_friction_that_is_drawn_for_a_passive_joint_is_felt(robot: str) -> None:
     needed = np.sqrt(np.mean(before**2, axis=0))
     share = np.sqrt(np.mean((after - before) ** 2, axis=0)) / needed
     assert 0.03 < share.max() < 0.5
+
+
+@pytest.mark.rotating("long tests of loops")
+def test_a_law_of_the_load_is_refused(tmp_path: Path) -> None:
+    """In robots with loops a law reads the motion of its own joint: said before a fit."""
+    model = api.identify(api.load("five-bar"), [logged("five-bar", tmp_path, "a.csv", 1)])
+    told = "of load: five-bar has loops, and there a law reads the q, v and a of its joint"
+    with pytest.raises(DataError, match=told):
+        api.add(model, "learned", [tmp_path / "a.csv"], joint="11", law=LawAsked(("load",)))

@@ -6,21 +6,15 @@ the torques of the motors, with J and dJ/dt of the two points that meet.
 """
 
 from functools import cache
-from typing import NamedTuple
 
 import numpy as np
 import pytest
 
-from modeler.codegen.emit import emit
-from modeler.derivation.base_parameters import base_parameters
-from modeler.derivation.derive import derive_model
-from modeler.derivation.result import BaseParameters
+from modeler.codegen.workflow import derive
 from modeler.robot.mjcf import mjcf_tree
 from modeler.robot.read import robot_from_text
-from modeler.robot.robot import Robot
 from modeler.robot.tree_text import tree_to_toml
-from modeler.runtime.model import CompiledModel
-from tests.modules import loaded
+from tests.loops.derived import compiled_plainly
 
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")
 
@@ -194,20 +188,11 @@ class Loop:
         return solved[: len(self.driven)]
 
 
-class Ours(NamedTuple):
-    robot: Robot
-    base: BaseParameters
-    c: CompiledModel
-
-
 @cache
-def ours(text, folder):
-    path = folder / "loop.xml"
-    path.write_text(text)
-    robot = robot_from_text(tree_to_toml(mjcf_tree(path), str(path)).text, "loop.toml")
-    model = derive_model(robot)
-    base = base_parameters(model)
-    return Ours(model.robot, base, loaded(emit(model, base)))
+def derivation_of(name, folder):
+    path = folder / f"{name}.xml"
+    path.write_text(mjcf(name))
+    return derive(robot_from_text(tree_to_toml(mjcf_tree(path), str(path)).text, "loop.toml"))
 
 
 @pytest.fixture(autouse=True)
@@ -233,8 +218,8 @@ def states(loop, count):
 @pytest.mark.rotating
 @pytest.mark.parametrize("name", NAMES)
 def test_torques_are_those_of_mujocos_equations(name, folder):
-    robot, _, c = ours(mjcf(name), folder)
-    loop = Loop(mjcf(name))
+    derivation, loop = derivation_of(name, folder), Loop(mjcf(name))
+    robot, c = derivation.model.robot, compiled_plainly(derivation)
     postures, qd, qdd = states(loop, 20)
     motors = np.array(postures)[:, loop.driven]
     assert [joint.name for joint in robot.coordinates] == [f"{j + 1}" for j in loop.driven]
@@ -280,11 +265,11 @@ def test_there_are_as_many_base_parameters_as_mujoco_feels(name, folder):
     matrix = matrix[:, lengths > 1e-9] / lengths[lengths > 1e-9]
     singular = np.linalg.svd(matrix, compute_uv=False)
     rank = int(np.sum(singular > 1e-9 * singular[0]))
-    counts = ours(mjcf(name), folder).base.counts()
+    counts = derivation_of(name, folder).base.counts()
     assert rank == counts["inertial"] + counts["rotor_inertia"]
 
 
 def test_parallelograms_are_ones_by_their_symbols(folder):
     """Equal lengths are one symbol, that of the link between two joints too: the proof is exact."""
-    base = ours(mjcf("one on another"), folder).base
+    base = derivation_of("one on another", folder).base
     assert base.proof.kind == "exact" and "seemed to follow" not in base.proof.statement

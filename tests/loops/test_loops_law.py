@@ -32,8 +32,9 @@ from tests.rotation import ROTATING, rotating
 
 SAME = ("orthoglide-2003-similar-legs",)  # the same loops as another's
 BUILT_IN = one_always((name for name in LOOPED if name not in SAME), "five-bar")
+FOLDER = "loop_robots_folder"
 OUTSIDE = [
-    "rccc_wide", *rotating("offset_parallelogram", "twoloops"),
+    *rotating("rccc_wide", "offset_parallelogram", "twoloops"),
     *(pytest.param(n, marks=ROTATING) for n in ("3rpr_sim", "excavator_bucket")),
 ]  # fmt: skip
 
@@ -211,14 +212,10 @@ def lawful(found: Verdict) -> None:
     assert found.refused <= 1e-3 * found.clear, found
 
 
-@pytest.mark.parametrize("name", BUILT_IN)
-def test_status_0_is_closed_on_the_branch_of_home(name):
-    check(closed_robot(name), name)
-
-
-@pytest.mark.parametrize("name", OUTSIDE)
-def test_status_0_is_closed_on_the_branch_of_home_elsewhere(name, loop_robots_folder):
-    check(closed_robot(name, loop_robots_folder), name)
+@pytest.mark.parametrize("name", [*BUILT_IN, *OUTSIDE])
+def test_status_0_is_closed_on_the_branch_of_home(name, request):
+    inside = name in LOOPED
+    check(closed_robot(name, None if inside else request.getfixturevalue(FOLDER)), name)
 
 
 @pytest.mark.parametrize("kind", WEIGHED)

@@ -64,25 +64,12 @@ def spoilt(links: Sequence[Link], seed: int, share: float = 0.3) -> tuple[Link, 
 
     found = []
     for link in links:
-        mass = wrong(link.mass)
-        scale = np.sqrt(1.0 + draw.uniform(-share, share, 3))
-        box = np.diag(_spread(link.inertia) * scale**2)
-        tensor = np.trace(box) * np.eye(3) - box
-        found.append(
-            dataclasses.replace(
-                link, mass=mass, centre=tuple(map(wrong, link.centre)),
-                inertia=(*map(float, np.diag(tensor)), 0.0, 0.0, 0.0),
-                damping=wrong(link.damping), friction=wrong(link.friction),
-                armature=wrong(link.armature),
-            )
-        )  # fmt: skip
+        stated = {k: wrong(getattr(link, k)) for k in ("mass", "damping", "friction", "armature")}
+        ratio = wrong(1.0)  # one for all moments of a body: it could be built
+        inertia = tuple(float(x) * ratio for x in link.inertia)
+        centre = tuple(map(wrong, link.centre))
+        found.append(dataclasses.replace(link, **stated, inertia=inertia, centre=centre))
     return tuple(found)
-
-
-def _spread(inertia: Sequence[float]) -> np.ndarray:
-    """Second moments of the mass along the axes: a body that can be built has none below 0."""
-    moments = np.array(inertia[:3])
-    return 0.5 * moments.sum() - moments
 
 
 def _text(values: Sequence[float]) -> str:
@@ -148,22 +135,12 @@ def mjcf(name: str, links: Sequence[Link], step: float = 0.0005) -> str:
     )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Run:
-    """What MuJoCo did, at the rate of the log; SI units."""
+def logged(truth: str, believed: str, links: Sequence[Link], seed: int, seconds: float,
+           rate: float = 1000.0) -> dict[str, np.ndarray]:  # fmt: skip
+    """A log of an MJCF under computed torques of another, on a sum of sines within its ranges.
 
-    time: np.ndarray
-    q: np.ndarray
-    qd: np.ndarray
-    tau: np.ndarray
-    asked: np.ndarray
-
-
-def moved(truth: str, believed: str, links: Sequence[Link], seed: int, seconds: float,
-          rate: float = 1000.0) -> Run:  # fmt: skip
-    """The arm of an MJCF under computed torques of another, on a sum of sines within its ranges.
-
-    Torques are held between the rows of the log, as a drive holds them.
+    Torques are held between the rows, as a drive holds them. By joints' names in any order:
+    positions in counts of 18 bits, torques with noise of a hundredth of their rms.
     """
     import mujoco
 
@@ -173,23 +150,28 @@ def moved(truth: str, believed: str, links: Sequence[Link], seed: int, seconds: 
     asked = sines(links, seed, time)
     every = round(1.0 / rate / plant.opt.timestep)
     data.qpos[:], data.qvel[:] = asked[0, 0], asked[1, 0]
-    q, qd, tau = (np.zeros((len(time), len(links))) for _ in range(3))
+    q, tau = (np.zeros((len(time), len(links))) for _ in range(2))
     stiff, damp = 18.0**2, 2 * 0.9 * 18.0
     mass = np.zeros((plant.nv, plant.nv))
     limits = np.array([link.effort for link in links])
     for k in range(len(time)):
-        q[k], qd[k] = data.qpos, data.qvel
+        q[k] = data.qpos
         guess.qpos[:], guess.qvel[:] = data.qpos, data.qvel
         mujoco.mj_forward(model, guess)
         mujoco.mj_fullM(model, guess, mass)
         wanted = asked[2, k] + damp * (asked[1, k] - data.qvel) + stiff * (asked[0, k] - data.qpos)
-        friction = model.dof_damping * data.qvel + model.dof_frictionloss * np.tanh(
-            asked[1, k] / 0.05
-        )
+        sign = np.tanh(asked[1, k] / 0.05)
+        friction = model.dof_damping * data.qvel + model.dof_frictionloss * sign
         tau[k] = np.clip(mass @ wanted + guess.qfrc_bias + friction, -limits, limits)
         data.ctrl[:] = tau[k]
         mujoco.mj_step(plant, data, every)
-    return Run(time, q, qd, tau, asked[0])
+    draw, step = np.random.default_rng(seed), 2 * np.pi / 2**18
+    tau += 0.01 * np.sqrt(np.mean(tau**2, axis=0)) * draw.normal(size=tau.shape)
+    columns = {"time": time}
+    for j in draw.permutation(len(links)):  # a recorder knows no order
+        columns[f"{links[j].joint}_position"] = np.round(q[:, j] / step) * step
+        columns[f"{links[j].joint}_effort"] = tau[:, j]
+    return columns
 
 
 def sines(links: Sequence[Link], seed: int, time: np.ndarray) -> np.ndarray:
@@ -212,20 +194,6 @@ def sines(links: Sequence[Link], seed: int, time: np.ndarray) -> np.ndarray:
         own[0] += 0.5 * (low + high) - 0.5 * (own[0].max() + own[0].min())
         found[:, :, j] = own
     return found
-
-
-def logged(run: Run, links: Sequence[Link], seed: int, counts: float = 2**18,
-           noise: float = 0.01) -> dict[str, np.ndarray]:  # fmt: skip
-    """A log by joints' names: positions in counts, torques with noise of a share of their rms."""
-    draw = np.random.default_rng(seed)
-    step = 2 * np.pi / counts
-    q = np.round(run.q / step) * step
-    tau = run.tau + noise * np.sqrt(np.mean(run.tau**2, axis=0)) * draw.normal(size=run.tau.shape)
-    columns = {"time": run.time}
-    for j in draw.permutation(len(links)):  # a recorder knows no order
-        columns[f"{links[j].joint}_position"] = q[:, j]
-        columns[f"{links[j].joint}_effort"] = tau[:, j]
-    return columns
 
 
 def followed(

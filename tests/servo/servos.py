@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
-from scipy.spatial.transform import Rotation
 
 from modeler.robot import Robot
 
@@ -33,44 +32,6 @@ class Servo:
         return self.gain * self.voltage / self.resistance
 
 
-def mjcf_of(robot: Robot, servos: list[Servo], step: float = 0.0005) -> str:
-    """The rows of a serial robot as bodies of MuJoCo, their frames those of the table."""
-    names, values = robot.symbol_values(), robot.parameters
-    head = (
-        f'<mujoco model="{robot.name}"><option timestep="{step:g}" integrator="implicitfast" '
-        'gravity="0 0 -9.81"/><worldbody>'
-    )
-    bodies, motors = "", ""
-    for joint, servo in zip(robot.joints, servos, strict=True):
-        cells = {c: getattr(joint, c).number(names | {joint.variable: 0.0})
-                 for c in ("alpha", "d", "theta", "r")}  # fmt: skip
-        turn = Rotation.from_euler("X", cells["alpha"])
-        place = turn.apply([cells["d"], 0.0, cells["r"]])
-        x, y, z, w = (turn * Rotation.from_euler("Z", cells["theta"])).as_quat()
-        mass, n = values[f"M{joint.name}"], joint.name
-        centre = np.array([values[f"M{axis}{n}"] for axis in "XYZ"]) / mass
-        tensor = np.zeros((3, 3))
-        tensor[np.triu_indices(3)] = [
-            values[f"{p}{n}"] for p in ("XX", "XY", "XZ", "YY", "YZ", "ZZ")
-        ]
-        tensor = tensor + np.triu(tensor, 1).T
-        tensor -= mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
-        full = [*np.diag(tensor), tensor[0, 1], tensor[0, 2], tensor[1, 2]]
-        bodies += (
-            f'<body name="{n}" pos="{_text(place)}" quat="{_text([w, x, y, z])}">'
-            f'<inertial pos="{_text(centre)}" mass="{mass!r}" fullinertia="{_text(full)}"/>'
-            f'<joint name="{n}" axis="0 0 1" damping="{servo.damping}" '
-            f'frictionloss="{servo.friction}" armature="{servo.armature}"/>'
-        )
-        motors += f'<motor joint="{n}"/>'
-    tail = "</body>" * len(servos)
-    return f"{head}{bodies}{tail}</worldbody><actuator>{motors}</actuator></mujoco>"
-
-
-def _text(values: object) -> str:
-    return " ".join(f"{value!r}" for value in np.asarray(values, dtype=float).tolist())
-
-
 @dataclass(frozen=True)
 class Frames:
     """What a recorder saw at its rate: rad, shares of the voltage."""
@@ -81,19 +42,18 @@ class Frames:
     duty: np.ndarray
 
 
-def recorded(xml: str, servos: list[Servo], goals: np.ndarray, fps: float) -> Frames:
+def recorded(robot: Robot, servo: Servo, goals: np.ndarray, fps: float) -> Frames:
     """Position servos that follow goals (frames, joints), seen through encoders of 12 bits."""
-    import mujoco
+    from tests.oracles.mujoco_machine import mujoco, mujoco_model
 
-    model = mujoco.MjModel.from_xml_string(xml)
+    rotors = {f"Ia{joint.name}": servo.armature for joint in robot.joints}
+    model = mujoco_model(robot, {**robot.parameters, **rotors}, light=0.0)
     data = mujoco.MjData(model)
     every, ticks = 2, round(1000.0 / fps)  # the servo's loop runs at 1 kHz, or nearly
     model.opt.timestep = 1.0 / (fps * ticks * every)
-    step = 2 * np.pi / COUNTS
-    stiff, per_duty, induced = (
-        np.array([getattr(s, n) if n else s.gain * s.k_e / s.resistance for s in servos])
-        for n in ("stiffness", "per_duty", "")
-    )
+    model.opt.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    model.dof_damping[:], model.dof_frictionloss[:] = servo.damping, servo.friction
+    step, induced = 2 * np.pi / COUNTS, servo.gain * servo.k_e / servo.resistance
     data.qpos[:] = goals[0]
     state, duty = np.zeros_like(goals), np.zeros_like(goals)
     for k, goal in enumerate(goals):
@@ -101,12 +61,11 @@ def recorded(xml: str, servos: list[Servo], goals: np.ndarray, fps: float) -> Fr
         for tick in range(ticks):
             seen = np.round(data.qpos / step) * step
             ramp = before + (goal - before) * (tick / ticks)  # the servo's own profile
-            share = np.clip(stiff * (ramp - seen), -1.0, 1.0)
-            share = np.round(share, 3)
+            share = np.round(np.clip(servo.stiffness * (ramp - seen), -1.0, 1.0), 3)
             if tick == 0:
                 state[k], duty[k] = seen, share
             for _ in range(every):
-                data.ctrl[:] = per_duty * share - induced * data.qvel
+                data.qfrc_applied[:] = servo.per_duty * share - induced * data.qvel
                 mujoco.mj_step(model, data)
     return Frames(np.arange(len(goals)) / fps, goals, state, duty)
 

@@ -11,7 +11,7 @@ import pytest
 from modeler.cli import main
 from tests.rotation import ROTATING
 
-from .arms import ARM7, followed, logged, mjcf, moved, spoilt, urdf
+from .arms import ARM7, followed, logged, mjcf, spoilt, urdf
 
 pytest.importorskip(
     "mujoco", reason="NOT CHECKED: files in and out, for mujoco-core is not installed"
@@ -25,8 +25,7 @@ def written(folder: Path, seed: int):
     Path(folder, "arm.xml").write_text(mjcf("arm", wrong))
     truth, believed, logs = mjcf("arm", ARM7), mjcf("arm", wrong), []
     for k, seconds in enumerate((14.0, 14.0, 6.0)):
-        run = moved(truth, believed, ARM7, seed + k, seconds)
-        logs.append(logged(run, ARM7, seed + 10 + k))
+        logs.append(logged(truth, believed, ARM7, seed + k, seconds))
         pq.write_table(pa.table(logs[-1]), folder / f"log{k}.parquet")
     return wrong, logs[-1]
 

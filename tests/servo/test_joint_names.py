@@ -59,13 +59,9 @@ def test_the_guess_says_the_names(arm):
     given, _ = columns("position/{}", "effort/{}")
     suggested = look_at(given, arm).suggested
     assert f'names = {{1 = "{NAMES[0]}", 2 = "{NAMES[1]}", 3 = "{NAMES[2]}"}}\n' in suggested
-    assert "which joint is which?" not in suggested
     assert '"q<j>" = "position/{name}"' in suggested
-
-
-def test_without_the_names_their_order_is_doubted(arm):
-    given, _ = columns("joint_states.position[{}]", "joint_states.effort[{}]")
-    assert "in the order of the log: which joint is which?" in look_at(given).suggested
+    doubt = "in the order of the log: which joint is which?"
+    assert doubt not in suggested and doubt in look_at(given).suggested
 
 
 def test_names_of_log_go_before_those_of_the_file():

@@ -13,7 +13,7 @@ from modeler.logs import EITHER
 from modeler.observation import observe
 from tests.rotation import ROTATING
 
-from .servos import Servo, mjcf_of, recorded, write_dataset
+from .servos import Servo, recorded, write_dataset
 
 pytest.importorskip("mujoco", reason="NOT CHECKED: servo arms, for mujoco-core is not installed")
 
@@ -33,8 +33,9 @@ def arm():
     return compile_model(generate(derive(load("so101"))))
 
 
-def episodes(robot, servos, fps, count=3, seconds=15.0):
+def episodes(fps, count=3, seconds=15.0):
     """Frames of free motion of all joints."""
+    robot = load("so101")
     rng = np.random.default_rng()
     limits = [robot.limits[joint.name] for joint in robot.joints]
     middle = np.array([(own.lower + own.upper) / 2 for own in limits])
@@ -47,7 +48,7 @@ def episodes(robot, servos, fps, count=3, seconds=15.0):
             1.0 / np.abs(sines).max(axis=0),
             2.5 / np.abs(np.gradient(sines, 1 / fps, axis=0)).max(axis=0) / reach,
         )
-        yield recorded(mjcf_of(robot, servos), servos, middle + reach * sines, fps)  # fmt: skip
+        yield recorded(robot, TRUTH, middle + reach * sines, fps)
 
 
 def fitted(compiled, folder, mapping=MAPPING):
@@ -65,8 +66,7 @@ def in_sigmas(result):
 @pytest.mark.rotating("long tests of servo")
 @pytest.mark.parametrize("fps", [30.0, pytest.param(50.0, marks=ROTATING)])
 def test_a_data_set_tells_armature_friction_and_damping(arm, tmp_path, fps):
-    robot, servos = load("so101"), [TRUTH] * 6
-    folder = write_dataset(tmp_path / "set", list(episodes(robot, servos, fps)), MOTORS, fps)
+    folder = write_dataset(tmp_path / "set", list(episodes(fps)), MOTORS, fps)
     found = in_sigmas(fitted(arm, folder))
     off, sure = np.array(list(found.values())).T
     assert np.abs(off).max() < 5.0, found
@@ -75,8 +75,7 @@ def test_a_data_set_tells_armature_friction_and_damping(arm, tmp_path, fps):
 
 
 def test_without_k_e_what_the_motor_induces_is_damping(arm, tmp_path):
-    robot, servos = load("so101"), [TRUTH] * 6
-    folder = write_dataset(tmp_path / "set", list(episodes(robot, servos, 50.0, 1)), MOTORS, 50.0)
+    folder = write_dataset(tmp_path / "set", list(episodes(50.0, 1)), MOTORS, 50.0)
     joints = (dataclasses.replace(j, drive=dataclasses.replace(j.drive, k_e=0.0))
               for j in arm.spec.joints)  # fmt: skip
     spec = dataclasses.replace(arm.spec, joints=tuple(joints))
@@ -88,7 +87,7 @@ def test_without_k_e_what_the_motor_induces_is_damping(arm, tmp_path):
 
 
 def test_a_data_set_without_loads_is_refused(arm, tmp_path):
-    frames = list(episodes(load("so101"), [TRUTH] * 6, 50.0, 1, 4.0))
+    frames = list(episodes(50.0, 1, 4.0))
     folder = write_dataset(tmp_path / "set", frames, MOTORS, 50.0, load=False)
     with pytest.raises(DataError, match="no column tau1 or current1 or duty1"):
         fitted(arm, folder, ["auto"])
@@ -96,19 +95,13 @@ def test_a_data_set_without_loads_is_refused(arm, tmp_path):
 
 def test_the_table_places_links_as_the_file_does():
     """Lengths and zero angles of the arms, by plain trigonometry."""
-    for name, reach in (("so101", (0.11600, 0.13500)), ("vx300s", (0.30585, None))):
-        robot = load(name)
-        values = robot.symbol_values()
-        assert values["D3"] == pytest.approx(reach[0], abs=2e-5)
-        if reach[1]:
-            assert values["D4"] == pytest.approx(reach[1], abs=2e-5)
-    so101 = load("so101").symbol_values()
-    assert so101["phi"] == pytest.approx(np.arctan2(0.028, 0.11257), abs=1e-9)
-    assert so101["psi"] == pytest.approx(np.arctan2(0.0052, 0.1349), abs=1e-9)
-    assert so101["D3"] == pytest.approx(np.hypot(0.028, 0.11257), abs=1e-9)
-    assert load("vx300s").symbol_values()["psi"] == pytest.approx(
-        np.arctan2(0.05955, 0.3), abs=1e-9
-    )
+    so101, vx300s = (load(name).symbol_values() for name in ("so101", "vx300s"))
+    stated = [so101["D3"], so101["phi"], so101["psi"], vx300s["psi"]]
+    sides = [(0.028, 0.11257), (0.0052, 0.1349), (0.05955, 0.3)]
+    angles = [np.arctan2(*each) for each in sides]
+    assert stated == pytest.approx([np.hypot(*sides[0]), *angles], abs=1e-9)
+    near = [so101["D3"], so101["D4"], vx300s["D3"]]
+    assert near == pytest.approx([0.11600, 0.13500, 0.30585], abs=2e-5)
 
 
 @pytest.mark.rotating("long tests of servo")
@@ -124,9 +117,5 @@ def test_degrees_that_may_be_parts_of_a_range_are_told(arm, reach, doubted):
     assert any(EITHER in line for line in lines) == doubted
     (found,) = log_maps(arm, [columns], ["auto"])
     assert any(EITHER in line for line in found.told) == (doubted and "[deg]" in found.told[0])
-    given = {"time": t} | {f"q{j}": columns[name] for j, name in enumerate(names_of(columns), 1)}
+    given = {"time": t} | {f"q{j}": columns[name] for j, name in enumerate(names, 1)}
     assert not any(EITHER in line for line in look_at(given, arm).doubts)
-
-
-def names_of(columns):
-    return [name for name in columns if name.startswith("observation.state")]

@@ -4,18 +4,17 @@ import dataclasses
 
 import numpy as np
 
-from modeler.robot.read import read_robot
 from modeler.robot.robot import Robot
 from modeler.simulation import PlantParameters
 from tests.oracles.complex_step import Oracle
-from tests.robots import LOOPED, one_always
+from tests.robots import LOOPED, TIED, kinds_first, one_always
 
 LOOPS = one_always(LOOPED, "five-bar")
+RELATIONS = kinds_first([name for name in TIED if name not in LOOPED])
 
 
-def without_effects(name: str) -> Robot:
+def without_effects(source: Robot) -> Robot:
     """The robot with rotor inertias only, so that no energy is lost."""
-    source = read_robot(name)
     kept = tuple(use for use in source.effects if use.effect == "rotor_inertia")
     return dataclasses.replace(source, effects=kept)
 

@@ -3,53 +3,28 @@
 import dataclasses
 import re
 
-import casadi as ca
 import numpy as np
 import pytest
-from closed_robots import LOOPS, energies, without_effects
+from closed_robots import LOOPS, RELATIONS
 
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError, RobotError
 from modeler.robot.read import read_robot, robot_from_text
-from modeler.robot.robot import INERTIAL
 from modeler.simulation import SimulationSettings, motion_limits, plant_parameters, simulate
 from modeler.simulation.closing import (
     _same_mode,
     constraints_of,
     followed,
-    motor_torques,
     rates,
     sampled,
     tree_from_free,
 )
-from modeler.simulation.plant import of_free
 from tests.modules import compiled, module
 from tests.robot_texts import CRANK, robot
-from tests.robots import LOOPED, TIED, kinds_first
 
-RELATIONS = [name for name in TIED if name not in LOOPED]
 IDEAL = SimulationSettings(
     duration=1.5, rate=400, encoder_counts=0, linear_resolution=0, torque_noise=0
 )
-
-
-@pytest.mark.parametrize("name", LOOPS)
-def test_the_motors_power_is_what_the_energy_gains(name):
-    """Central differences at two sampling times: their error falls with the square."""
-    source = without_effects(name)
-    errors = []
-    for rate in (400.0, 800.0):
-        settings = dataclasses.replace(IDEAL, rate=rate)
-        truth = simulate(source, settings).truth
-        parameters = plant_parameters(source, motion_limits(source))
-        constraints = constraints_of(source)
-        v = followed(source, constraints, truth.q)
-        vd, _ = rates(constraints, v, truth.qd, truth.qdd)
-        total = energies(source, parameters, v, vd)
-        power = np.sum(truth.tau * truth.qd, axis=1)
-        gained = (total[2:] - total[:-2]) * rate / 2
-        errors.append(np.abs(gained - power[1:-1]).max() / np.abs(power).max())
-    assert errors[1] < 1e-3 and errors[1] < 0.3 * errors[0]
 
 
 @pytest.mark.parametrize("name", LOOPS)
@@ -83,42 +58,7 @@ def test_the_limits_are_kept(name, motion):
         assert np.abs(truth.qdd[:, i]).max() <= limit.acceleration
 
 
-def test_a_crank_by_hand():
-    """Point masses on crank and slider: the torque from the slider's position in closed form."""
-    masses = {p + row: 0.0 for row in "123" for p in INERTIAL} | {"M3": 2.0, "M1": 1.0}
-    masses |= {"XX1": 0.015, "YY1": 0.015, "ZZ1": 0.03}
-    source = dataclasses.replace(robot(CRANK), parameters=masses)
-    truth = simulate(source, IDEAL).truth
-    R, L = 0.10, 0.35
-    q = ca.SX.sym("q")
-    x = R * ca.cos(q) + ca.sqrt(L**2 - (R * ca.sin(q)) ** 2)
-    slope = ca.jacobian(x, q)
-    by_hand = ca.Function("x", [q], [ca.vertcat(x, slope, ca.jacobian(slope, q))])
-    _, dx, ddx = sampled(by_hand, truth.q)[:, :, 0].T
-    qd, qdd = truth.qd[:, 0], truth.qdd[:, 0]
-    expected = 0.03 * qdd + 2.0 * dx * (dx * qdd + ddx * qd**2)
-    assert np.abs(expected).max() > 0.05
-    np.testing.assert_allclose(truth.tau[:, 0], expected, rtol=0, atol=1e-10)
-
-
-@pytest.mark.parametrize("name", LOOPS)
-def test_multipliers_agree_with_a_least_squares_solution(name):
-    """S tau + J^T lambda = load as one system, redundant equations included."""
-    source = read_robot(name)
-    truth = simulate(source, dataclasses.replace(IDEAL, duration=0.5, rate=50)).truth
-    constraints = constraints_of(source)
-    v = followed(source, constraints, truth.q)
-    load = np.random.default_rng(1).normal(size=v.shape)
-    tau = motor_torques(constraints, v, load)
-    S = np.eye(v.shape[1])[:, constraints.given]
-    for i, J in enumerate(sampled(constraints.slope, v)):
-        system = np.hstack([S, J.T])
-        found, _, _, _ = np.linalg.lstsq(system, load[i], rcond=1e-10)
-        np.testing.assert_allclose(system @ found, load[i], atol=1e-9)
-        np.testing.assert_allclose(found[: len(S.T)], tau[i], atol=1e-8)
-
-
-@pytest.mark.parametrize("name", kinds_first(RELATIONS))
+@pytest.mark.parametrize("name", RELATIONS)
 def test_relations_are_kept_by_the_controlled_robot(name):
     """Torques as the model's wherever no joint creeps; joints without motor swing."""
     source = read_robot(name)
@@ -138,25 +78,6 @@ def test_relations_are_kept_by_the_controlled_robot(name):
     assert moving.mean() > 0.15
     error = np.abs(tau - truth.tau)[moving]
     assert error.max() < 1e-9 * np.abs(truth.tau).max()
-
-
-@pytest.mark.parametrize("name", kinds_first(RELATIONS))
-def test_energy_of_robots_with_relations(name):
-    """The motors' work over each tick, with held torques, is what T + U gains."""
-    source = without_effects(name)
-    # Rotors that no effect gives an inertia would have none: light links where the file has none.
-    source = dataclasses.replace(source, links={})
-    log = simulate(source, dataclasses.replace(IDEAL, duration=2.0, rate=1000))
-    truth = log.truth
-    turns, offset = tree_from_free(source)
-    v, vd = truth.q @ turns.T + offset, truth.qd @ turns.T
-    parameters = plant_parameters(source, motion_limits(source))
-    total = energies(source, parameters, v, vd)
-    work = np.cumsum(np.sum(truth.tau[:-1] * np.diff(truth.q, axis=0), axis=1))
-    np.testing.assert_allclose(total[1:] - total[0], work, rtol=0, atol=1e-7 * np.ptp(total))
-    assert np.ptp(total) > 0.01
-
-    assert len(of_free(source, motion_limits(source))) == len(source.free)
 
 
 def test_relations_of_relations():
@@ -180,40 +101,27 @@ def test_relations_of_relations():
     np.testing.assert_allclose(turns @ [q1, q4] + offset, expected, atol=1e-14)
 
 
-def test_sensors():
-    source, step = read_robot("five-bar"), 2 * np.pi / 4096
-    settings = dataclasses.replace(IDEAL, encoder_counts=4096, torque_noise=0.03, duration=3.0)
-    log = simulate(source, settings)
+def test_sensors_seeds_and_progress():
+    source, step, shares = read_robot("five-bar"), 2 * np.pi / 4096, []
+    settings = dataclasses.replace(
+        IDEAL, rate=1500, encoder_counts=4096, torque_noise=0.03, duration=2.0
+    )
+    log = simulate(source, settings, shares.append)
     np.testing.assert_allclose(log.q / step, np.round(log.q / step), atol=1e-6)
     assert 0.9 * step / 2 < np.abs(log.q - log.truth.q).max() <= step / 2 * (1 + 1e-9)
     noise = (log.tau - log.truth.tau) / np.sqrt(np.mean(log.truth.tau**2, axis=0))
     np.testing.assert_allclose(noise.std(axis=0), 0.03, rtol=0.06)
-    ideal = simulate(source, dataclasses.replace(IDEAL, duration=0.5))
-    assert np.array_equal(ideal.q, ideal.truth.q) and np.array_equal(ideal.tau, ideal.truth.tau)
-
-
-def test_seeds_and_progress():
-    source, shares = read_robot("five-bar"), []
-    first = simulate(source, dataclasses.replace(IDEAL, rate=2000), shares.append)
-    again = simulate(source, dataclasses.replace(IDEAL, rate=2000))
-    other = simulate(source, dataclasses.replace(IDEAL, seed=1, parameter_seed=1))
-    assert np.array_equal(first.tau, again.tau) and np.array_equal(first.q, again.q)
-    assert np.abs(first.truth.q[: len(other.time)] - other.truth.q).max() > 0.01
-    drawn = first.truth.drawn
-    assert drawn == other.truth.drawn and "ZZ11" not in drawn
-    assert all(first.truth.parameters[n] != other.truth.parameters[n] for n in drawn)
     assert shares == sorted(shares) and shares[-1] == 1.0 and len(shares) > 1
-
-
-def test_sampling_does_not_change_the_motion():
-    """Chunks and postures found all at once: the same answer as one after the other."""
-    source = read_robot("five-bar")
-    constraints = constraints_of(source)
-    q = simulate(source, dataclasses.replace(IDEAL, rate=2000, duration=1.2)).truth.q
-    thin = slice(None, None, 7)
-    np.testing.assert_allclose(
-        followed(source, constraints, q)[thin], followed(source, constraints, q[thin]), atol=1e-9
+    again, ideal, other = (
+        simulate(source, changed)
+        for changed in (settings, IDEAL, dataclasses.replace(IDEAL, seed=1, parameter_seed=1))
     )
+    assert np.array_equal(log.tau, again.tau) and np.array_equal(log.q, again.q)
+    assert np.array_equal(ideal.q, ideal.truth.q) and np.array_equal(ideal.tau, ideal.truth.tau)
+    assert np.abs(ideal.truth.q - other.truth.q).max() > 0.01
+    drawn = ideal.truth.drawn
+    assert drawn == other.truth.drawn and "ZZ11" not in drawn
+    assert all(ideal.truth.parameters[n] != other.truth.parameters[n] for n in drawn)
 
 
 def test_legs_that_share_parameters_are_alike_and_told_once():
@@ -292,11 +200,13 @@ def test_moments_without_mass_are_refused():
         simulate(source, IDEAL)
 
 
-def test_motions_by_name():
-    with pytest.raises(DataError, match="motion: got fast; expected one of exciting, point-to-po"):
-        simulate(read_robot("five-bar"), dataclasses.replace(IDEAL, motion="fast"))
-    with pytest.raises(DataError, match=r"duration 0.05 s, too short for a move and back"):
-        simulate(
-            read_robot("five-bar"),
-            dataclasses.replace(IDEAL, motion="point-to-point", duration=0.05),
-        )
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"motion": "fast"}, "motion: got fast; expected one of exciting, point-to-po"),
+        ({"motion": "point-to-point", "duration": 0.05}, "0.05 s, too short for a move and back"),
+    ],
+)
+def test_motions_by_name(change, message):
+    with pytest.raises(DataError, match=message):
+        simulate(read_robot("five-bar"), dataclasses.replace(IDEAL, **change))

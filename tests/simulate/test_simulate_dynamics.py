@@ -5,10 +5,9 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from closed_robots import energies
 
 from modeler.core.errors import RobotError
-from modeler.robot.robot import EffectUse, Robot
+from modeler.robot.robot import INERTIAL, EffectUse, Robot
 from modeler.simulation import PlantParameters, motion_limits, plant_parameters
 from modeler.simulation.plant import Plant, build_plant
 from tests.oracles.pinocchio_dynamics import pin, places_of
@@ -67,38 +66,6 @@ def test_forward_dynamics_agree_with_pinocchio(text, seed=0):
         np.testing.assert_allclose(back, tau + resistance, rtol=0, atol=1e-10 * max(scale, 1))
 
 
-@pytest.mark.parametrize("text", TEXTS)
-def test_energies_agree_with_pinocchio(text):
-    source = dataclasses.replace(robot(text), effects=())
-    parameters = plant_parameters(source, motion_limits(source))
-    model, places = places_of(source, parameters.standard)
-    assert places == list(range(model.nv))
-    data = model.createData()
-    q, qd = np.random.default_rng(3).normal(size=(2, model.nv))
-    theirs = pin.computeKineticEnergy(model, data, q, qd)
-    theirs += pin.computePotentialEnergy(model, data, q)
-    assert energies(source, parameters, q[None], qd[None])[0] == pytest.approx(theirs, rel=1e-12)
-
-
-@pytest.mark.parametrize("text", TEXTS)
-def test_power_of_motors_and_friction_changes_the_energy(text):
-    """qd . (tau - friction) = d(T + U)/dt, with T and U formed apart from the torques."""
-    source = robot(text)
-    plant, parameters = plant_of(source)
-    friction = friction_of(source)
-    rng = np.random.default_rng(4)
-    n = len(plant.joints)
-    for _ in range(5):
-        q, qd, tau = rng.normal(size=(3, n))
-        qdd = column(plant.acceleration, q, qd, [], tau)
-        h = 1e-5
-        steps = np.array([[h], [-h]])
-        v, vd = q + steps * qd + steps**2 / 2 * qdd, qd + steps * qdd
-        ahead, behind = energies(source, parameters, v, vd)
-        power = qd @ (tau - friction(q, qd))
-        assert (ahead - behind) / (2 * h) == pytest.approx(power, rel=1e-6, abs=1e-6)
-
-
 def test_pendulum_is_that_of_the_textbook():
     source = robot(
         PENDULUM,
@@ -111,17 +78,6 @@ def test_pendulum_is_that_of_the_textbook():
     for q, qd, qdd in ((0.3, 1.1, -2.0), (-2.0, -0.4, 0.7)):
         expected = 1.0 * qdd + 9.81 * 1.2 * np.cos(q) + 0.5 * qd + 0.7 * np.sign(qd) - 0.2
         assert float(plant.torque(q, qd, qdd, [])) == pytest.approx(expected, rel=1e-12)
-
-
-NO_PRODUCTS = "XX1 = 0.1\nXY1 = 0\nXZ1 = 0\nYY1 = 0.95\nYZ1 = 0\nZZ1 = 0.9\nMY1 = 0\nMZ1 = 0\n"
-
-
-@pytest.mark.parametrize(("cell", "sign"), [("q1", 1), ("-q1", -1)])
-def test_a_mass_lifted_along_or_against_z(cell, sign):
-    rows = f'columns = ["j", "a", "sigma", "r"]\nrows = [["1", "0", 1, "{cell}"]]\n'
-    text = f'name = "lift"\ngravity = [0, 0, "-9.81"]\n[mdh]\n{rows}'
-    plant, _ = plant_of(robot(text, parameters=NO_PRODUCTS + "MX1 = 0.6\nM1 = 3"))
-    assert float(plant.torque(0.2, 0.5, 2.0, [])) == pytest.approx(3 * (2.0 + sign * 9.81))
 
 
 def test_friction_opposes_motion_and_is_full_at_two_percent_of_the_top_speed():
@@ -151,23 +107,17 @@ def test_a_motor_that_turns_with_two_joints_loads_both():
     np.testing.assert_allclose(with_motor - without, shaft * motor, rtol=1e-9)
 
 
-def test_an_effect_without_physics_is_named():
-    source = dataclasses.replace(robot(PENDULUM), effects=(EffectUse("levitation", ("1",)),))
-    with pytest.raises(RobotError, match="joint 1: effect levitation cannot be simulated"):
+COUPLED = dataclasses.replace(robot(TWO_LINK), effects=(EffectUse("coupled_inertia", ("2",)),))
+NOTHING = "".join(f"{prefix}2 = 0\n" for prefix in INERTIAL)
+MISTAKES = [
+    (dataclasses.replace(robot(PENDULUM), effects=(EffectUse("levitation", ("1",)),)),
+     "joint 1: effect levitation cannot be simulated"),
+    (COUPLED, r"joint 2: coupled_inertia .* coupling"),
+    (robot(TWO_LINK, parameters=NOTHING), "joint 2: nothing gives it an inertia"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("source", "message"), MISTAKES)
+def test_what_cannot_be_simulated_is_named(source, message):
+    with pytest.raises(RobotError, match=message):
         plant_of(source)
-
-
-def test_a_coupled_effect_without_coupling_is_named():
-    source = dataclasses.replace(
-        robot(TWO_LINK), effects=(EffectUse("coupled_inertia", ("2",)),), coupling={}
-    )
-    with pytest.raises(RobotError, match=r"joint 2: coupled_inertia .* coupling"):
-        plant_of(source)
-
-
-def test_a_joint_without_inertia_is_named():
-    nothing = "".join(
-        f"{p}2 = 0\n" for p in ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-    )
-    with pytest.raises(RobotError, match="joint 2: nothing gives it an inertia"):
-        plant_of(robot(TWO_LINK, parameters=nothing))

@@ -104,15 +104,6 @@ def test_letters_of_a_paper_count_where_they_have_numbers():
     assert parameters.standard["MX1"] == pytest.approx(0.6)
 
 
-def test_seeds():
-    source = robot(ARM)
-    first, again, other = (
-        plant_parameters(source, motion_limits(source), seed).standard for seed in (7, 7, 8)
-    )
-    assert first == again
-    assert all(first[name] != other[name] for name in first)
-
-
 @pytest.mark.parametrize("name", kinds_first(builtin_names()))
 def test_every_built_in_robot_can_be_filled_in(name):
     source = read_robot(name)
@@ -145,24 +136,6 @@ def test_whatever_a_real_body_has_can_be_stated(count):
         second = pseudo_inertia(values)  # positive up to rounding, by an oracle of its own
         size = np.sqrt(np.abs(np.diag(second)) + 1e-9 * np.abs(np.diag(second)).max())
         assert np.linalg.eigvalsh(second / np.outer(size, size))[0] > -1e-4, (seed, stated)
-
-
-@pytest.mark.parametrize(
-    "stated",
-    [
-        {"ZZ": 5, "MX": 1, "MY": 0.3, "M": 3},
-        {"XX": 0.4, "YY": 0.4, "ZZ": 0.8, "MX": 0.1, "MY": 0.03, "M": 3},
-        {"MX": 1000.0},
-        {"M": 0.0},
-        {"XX": 0.0, "M": 2.0},
-    ],
-)
-def test_links_that_exist_are_not_refused(stated):
-    lines = "\n".join(f"{prefix}2 = {value}" for prefix, value in stated.items())
-    source = robot(ARM, parameters=lines)
-    standard = plant_parameters(source, motion_limits(source)).standard
-    assert {p: standard[p + "2"] for p in stated} == stated
-    assert is_physical({p: standard[p + "2"] for p in INERTIAL})
 
 
 @pytest.mark.parametrize(

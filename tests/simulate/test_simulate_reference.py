@@ -10,16 +10,20 @@ from modeler.simulation.trajectory import exciting_reference, one_joint_referenc
 LIMITS = (Limits(-1.5, 1.5, 2.0, 8.0), Limits(0.1, 0.3, 0.5, 3.0), Limits(-3.0, -1.0, 1.0, 20.0))
 
 
-@pytest.mark.parametrize("seed", range(2))
-@pytest.mark.parametrize("duration", [0.3, 4.0, 20.0])
-def test_within_the_limits_and_at_rest_at_both_ends(seed, duration):
-    reference = exciting_reference(LIMITS, duration, 500.0, seed)
-    assert reference.q.shape == (round(duration * 500), 3)
+def check_limits(reference):
     for i, limit in enumerate(LIMITS):
         assert limit.lower < reference.q[:, i].min()
         assert reference.q[:, i].max() < limit.upper
         assert np.abs(reference.qd[:, i]).max() < limit.speed
         assert np.abs(reference.qdd[:, i]).max() < limit.acceleration
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("duration", [0.3, 4.0, 20.0])
+def test_within_the_limits_and_at_rest_at_both_ends(seed, duration):
+    reference = exciting_reference(LIMITS, duration, 500.0, seed)
+    assert reference.q.shape == (round(duration * 500), 3)
+    check_limits(reference)
     for end in (0, -1):
         np.testing.assert_allclose(reference.qd[end], 0, atol=1e-12)
         np.testing.assert_allclose(reference.qdd[end], 0, atol=1e-9)
@@ -52,26 +56,11 @@ def test_it_uses_the_range_and_several_speeds_both_ways():
                 assert np.sum((way * share > low) & (way * share < high)) > 50
 
 
-def test_seeds():
-    first, again, other = (exciting_reference(LIMITS, 3.0, 500.0, s) for s in (1, 1, 2))
-    assert np.array_equal(first.q, again.q)
-    assert np.abs(first.q - other.q).max() > 0.01
-
-
-def test_mistakes():
-    with pytest.raises(DataError, match=r"holds 1 samples .* expected at least 2"):
-        exciting_reference(LIMITS, 0.001, 1000.0, 0)
-
-
 @pytest.mark.parametrize("ways", [np.eye(3), np.array([[1, -0.4, 0.2], [0, 1, -0.5], [0, 0, 1]])])
 def test_one_joint_at_a_time(ways, seed=0):
     """Within the limits; most of the time at most one joint moves, each at several poses."""
     reference = one_joint_reference(LIMITS, 150.0, 200.0, seed, ways)
-    for i, limit in enumerate(LIMITS):
-        assert limit.lower < reference.q[:, i].min()
-        assert reference.q[:, i].max() < limit.upper
-        assert np.abs(reference.qd[:, i]).max() < limit.speed
-        assert np.abs(reference.qdd[:, i]).max() < limit.acceleration
+    check_limits(reference)
     difference = (reference.q[2:] - reference.q[:-2]) * 100.0
     assert np.abs(difference - reference.qd[1:-1]).max() < 2e-2
     joints = reference.qd @ np.linalg.inv(ways)
@@ -83,6 +72,11 @@ def test_one_joint_at_a_time(ways, seed=0):
         assert len(np.unique(np.round(poses, 6), axis=0)) > 1
 
 
-def test_too_short_for_one_joint_there_and_back():
+def test_seeds_and_times_that_are_too_short():
+    first, again, other = (exciting_reference(LIMITS, 3.0, 500.0, s) for s in (1, 1, 2))
+    assert np.array_equal(first.q, again.q)
+    assert np.abs(first.q - other.q).max() > 0.01
+    with pytest.raises(DataError, match=r"holds 1 samples .* expected at least 2"):
+        exciting_reference(LIMITS, 0.001, 1000.0, 0)
     with pytest.raises(DataError, match="too short for one joint to move there and back"):
         one_joint_reference(LIMITS, 1.0, 200.0, 0)

@@ -13,10 +13,11 @@ from modeler.cli import main
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.robot.robot import Robot
 from modeler.simulation import SimulationSettings, simulate
-from tests.further_robots import FurtherRobots
 from tests.oracles.closed_ways import closed_near, followed, regularity
 from tests.oracles.complex_step import Oracle
 from tests.robot_texts import CRANK
+from tests.robots import LOOPED
+from tests.rotation import rotating
 
 SHARE = 0.45
 """Of home's distance; less than what is promised by what two ways to write a loop differ."""
@@ -41,24 +42,16 @@ def least_share(robot: Robot, q: np.ndarray) -> float:
     return float(least[1:].min() / least[0])
 
 
-@pytest.mark.parametrize("name", LOOPS)
-def test_half_of_homes_distance_is_kept(name: str) -> None:
-    robot = read_robot(name)
-    log = simulate(robot, SimulationSettings(duration=12.0, rate=50.0, seed=1))
-    assert least_share(robot, log.truth.q) > SHARE
-
-
 @pytest.mark.parametrize(
-    "file",
-    [
-        "offset_parallelogram",
-        *(pytest.param(f, marks=pytest.mark.rotating) for f in ("3rpr_passive", "rccc_wide")),
-    ],
+    "name", [*LOOPS, "offset_parallelogram", *rotating("3rpr_passive", "rccc_wide")]
 )
-def test_on_robots_from_elsewhere(file: str, loop_robots_folder: FurtherRobots) -> None:
-    robot = read_robot(str(loop_robots_folder / f"{file}.toml"))
-    log = simulate(robot, SimulationSettings(duration=8.0, rate=50.0, seed=2))
-    assert least_share(robot, log.truth.q) > SHARE
+def test_half_of_homes_distance_is_kept(name: str, request: pytest.FixtureRequest) -> None:
+    elsewhere = name not in LOOPED
+    path = request.getfixturevalue("loop_robots_folder") / f"{name}.toml" if elsewhere else name
+    robot = read_robot(path)
+    seconds, seed = (8.0, 2) if elsewhere else (12.0, 1)
+    settings = SimulationSettings(duration=seconds, rate=50.0, seed=seed)
+    assert least_share(robot, simulate(robot, settings).truth.q) > SHARE
 
 
 def test_without_limits_and_near_a_singular_posture() -> None:
@@ -73,9 +66,8 @@ def test_without_limits_and_near_a_singular_posture() -> None:
 
 def test_what_was_done_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "steep.toml").write_text(STEEP)
-    words = ["simulate", str(tmp_path / "steep.toml"), "--duration", "8", "--rate", "50"]
-    assert main([*words, "--out", str(tmp_path / "a.csv")]) == 0
-    assert "of the way from [home] to the limits: farther, the loops" in capsys.readouterr().out
-    words = ["simulate", "five-bar", "--duration", "4", "--rate", "50"]
-    assert main([*words, "--out", str(tmp_path / "b.csv")]) == 0
-    assert "[home]" not in capsys.readouterr().out
+    for robot, told in ((str(tmp_path / "steep.toml"), True), ("five-bar", False)):
+        words = ["simulate", robot, "--duration", "8", "--rate", "50"]
+        assert main([*words, "--out", str(tmp_path / "a.csv")]) == 0
+        said = "of the way from [home] to the limits: farther, the loops"
+        assert (said in capsys.readouterr().out) == told

@@ -23,14 +23,3 @@ def test_every_operation_with_every_sign() -> None:
                 function = getattr(np, name)
                 (one,) = graph.evaluate([graph.call(name, u)], values)
                 np.testing.assert_array_equal(one, function(s * a))
-
-
-def test_what_is_asked_for_again_is_listed_once_and_forgotten_at_last() -> None:
-    graph = Graph()
-    x = graph.symbol("x")
-    powers = [x**k for k in range(1, 40)]
-    for _ in range(2):
-        for k, power in enumerate(powers, start=1):
-            assert graph.evaluate([power, 1, x - x][:1], {"x": 2.0}) == [2.0**k]
-    assert len(graph._plans) < 30
-    assert graph.evaluate([x - x, graph.constant(3)], {}) == [0.0, 3.0]

@@ -1,6 +1,5 @@
 """How much work a longer robot is, counted, and constants that would not end."""
 
-import numpy as np
 import pytest
 import sympy
 
@@ -9,7 +8,7 @@ from modeler.core.expression import parse
 from modeler.derivation import field as field_module
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.geometry import cos_sin, folded
+from modeler.derivation.geometry import folded
 from modeler.derivation.graph import Graph
 from modeler.robot.read import robot_from_text
 
@@ -78,19 +77,6 @@ def test_the_refusal_names_row_and_column():
     text = chain(2).replace('"d1"', '"(d0 + d1 + r0 + r1 + 1)**60/1e30"')
     with pytest.raises(DerivationError, match=r'^c: row "2", column d: "'):
         derive_model(robot_from_text(text, "c"))
-
-
-@pytest.mark.parametrize("text", ["a + b + c + d + e", "40*a", "3*a - 2*b"])
-def test_long_angles_stand_for_themselves(text):
-    angle = folded(parse(text), LETTERS)
-    c, s = cos_sin(angle)
-    assert isinstance(c, sympy.cos)
-    assert isinstance(s, sympy.sin)
-    values = {letter: 0.1 * (k + 1) for k, letter in enumerate(LETTERS.values())}
-    expected = float(angle.subs(values))
-    np.testing.assert_allclose(
-        [float(c.subs(values)), float(s.subs(values))], [np.cos(expected), np.sin(expected)]
-    )
 
 
 def test_a_robot_with_a_long_angle_has_an_exact_answer():

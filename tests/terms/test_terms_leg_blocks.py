@@ -11,11 +11,11 @@ import pytest
 from modeler.core.errors import RobotError
 from modeler.formulas import block_form
 from modeler.formulas.function_sheet import sheet_latex, sheet_lines
-from modeler.formulas.regressor_form import regressor_form, short_form
+from modeler.formulas.regressor_form import short_form
 from tests.rotation import rotating
 from tests.terms.cases import base_of, model_of
-from tests.terms.printed_lines import compiled, derived, known, printed_coupling, run_lines
-from tests.terms.test_terms_whole_torque import check, motions_of, printed_columns
+from tests.terms.printed_lines import compiled, derived, known, run_lines
+from tests.terms.test_terms_whole_torque import check, motions_of
 
 
 def printed(name):
@@ -94,24 +94,6 @@ def test_without_the_inverse_as_scanned_they_do_not():
     assert distance("orthoglide-2003", np.linalg.inv) > 0.1
 
 
-def test_jacobians_are_the_slopes_of_the_spheres():
-    """Bars hold the platform on spheres: L_i = p_i + 1/2 - sqrt(D^2 - p_j^2 - p_k^2)."""
-    D, name = 0.31, "orthoglide-2003"
-    _, lines, sides = printed(name)
-    axes = {"11": "P", "12": "Px", "13": "Py"}
-    for (q, _, _), values in states(name):
-        M = matrices(sides, run_lines(lines, values))
-        p = {"Px": values["qPx"], "Py": values["qPy"], "P": values["qP"] - values["a"]}
-        for i, (motor, own) in enumerate(axes.items()):
-            rest = [axis for axis in p if axis != own]
-            root = np.sqrt(D**2 - sum(p[axis] ** 2 for axis in rest))
-            assert q[i] == pytest.approx(p[own] + 0.5 - root, abs=1e-9)
-            slopes = [1.0 if axis == own else p[axis] / root for axis in ("Px", "Py", "P")]
-            np.testing.assert_allclose(M["Jpinv"][i], slopes, atol=1e-9)
-            np.testing.assert_allclose(M[f"J{motor[1]}inv"][0], slopes, atol=1e-9)
-        np.testing.assert_allclose(M["Jp"] @ M["Jpinv"], np.eye(3), atol=1e-12)
-
-
 def test_sizes_and_order_are_the_paper_s():
     words, _, sides = printed("orthoglide-2003")
     told = "\n".join(words)
@@ -177,27 +159,6 @@ def test_spheres_are_those_of_the_paper():
         assert found[f"fp{k}"] == pytest.approx(eval(text, {}, values), abs=1e-12)
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "orthoglide-2003",
-        pytest.param("3rrr", marks=pytest.mark.rotating),
-        *(pytest.param(n, marks=pytest.mark.slow) for n in ("delta", "stewart")),
-    ],
-)
-def test_spheres_vanish_where_the_loops_are_closed(name):
-    derivation, model = derived(name), compiled(name)
-    none = replace(derivation.base, parameters=())
-    lines = sheet_lines(short_form(derivation.model, none).sheet)
-    closure = derivation.model.closure
-    for q, _, _ in motions_of(derived(name)):
-        for step in (0.0, 1e-3):
-            u = model.close(q[None] + step)[0]
-            found = run_lines(lines, known(derivation, u, 0 * u))
-            spheres = [found[f"fp{k + 1}"] for k in range(len(closure.given))]
-            assert np.max(np.abs(spheres)) < 1e-12
-
-
 def test_six_motors_leave_the_inverse_of_k_to_a_solver():
     """J_t = L K^-1 of a Stewart platform, L and K printed, against the closure's Jacobian."""
     model = model_of("stewart")
@@ -222,17 +183,3 @@ def test_six_motors_leave_the_inverse_of_k_to_a_solver():
     expected = -np.linalg.solve(F[:, list(closure.solved)], F[:, list(closure.given)])
     J = L @ np.linalg.inv(L[list(closure.given)])
     assert np.max(np.abs(J[list(closure.solved)] - expected)) < 1e-11 * np.max(np.abs(expected))
-
-
-def test_columns_of_a_loop_robot_are_the_tree_s_projected():
-    name = "five-bar"
-    derivation, model = derived(name), compiled(name)
-    lines = sheet_lines(regressor_form(derivation.model, derivation.base).sheet)
-    for q, qd, qdd in motions_of(derived(name)):
-        u, G = model.close(q[None])[0], model.coupling(q[None])[0]
-        first = run_lines(lines, known(derivation, u, G @ qd, [0.0] * len(u)))
-        J, bias = printed_coupling(derivation, first)
-        found = run_lines(lines, known(derivation, u, J @ qd, J @ qdd + bias))
-        expected = model.base_regressor(q[None], qd[None], qdd[None])[0]
-        printed = J.T @ printed_columns(derivation, found)
-        assert np.max(np.abs(printed - expected)) < 1e-12 * np.max(np.abs(expected))

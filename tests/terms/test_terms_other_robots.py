@@ -1,7 +1,6 @@
 """Coefficient tables of other robots: names, relations, physical letters, the map."""
 
 import random
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -11,6 +10,7 @@ from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
+from modeler.core.builtin import builtin_text
 from modeler.core.errors import RobotError
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
@@ -18,11 +18,11 @@ from modeler.derivation.field import value_modulo
 from modeler.formulas.coefficients import coefficient_table, independent_coefficients
 from modeler.formulas.physical import random_point
 from modeler.formulas.render import backward_lines, forward_lines
-from modeler.formulas.ring import base_map, inverse_map, motions_of
+from modeler.formulas.ring import base_map
 from modeler.robot.read import robot_from_text
 from tests.base.formulas import text_value
 from tests.rotation import rotating
-from tests.terms.cases import TEXTS, closed_of, edited_wrist, model_of, robot_text, table_of
+from tests.terms.cases import TEXTS, closed_of, robot_text, table_of
 from tests.terms.closed_form_values import evaluate
 from tests.terms.printed_lines import compiled, derived
 
@@ -42,19 +42,25 @@ def test_combinations_hold_at_a_random_point(name):
         assert (values[key] - total) % prime == 0, key
 
 
-@pytest.mark.parametrize("name", ROBOTS)
-def test_map_is_square_with_as_many_rows_as_base_parameters_that_count(name):
+@pytest.mark.parametrize("name", [*ROBOTS, *rotating("wrist")])
+def test_the_printed_map_and_its_printed_inverse_undo_each_other(name):
     """Known geometry leaves as many coefficients as there are base parameters in M, S or g."""
-    table = table_of(name)
-    frictionless = [
-        p
-        for p in table.base.parameters
-        if table.base.columns[p.column].kind in ("inertial", "rotor_inertia")
-    ]
-    assert len(table.known_geometry) == len(table.map.columns) == len(frictionless)
-    assert table.map.determinant
-    inverse = inverse_map(table.map, table.closed.algebra.static_ring)
-    assert inverse is not None and set(inverse) == {p.name for p in frictionless}
+    table, random = table_of(name), np.random.default_rng(14)
+    kinds = [table.base.columns[p.column].kind for p in table.base.parameters]
+    frictionless = sum(kind in ("inertial", "rotor_inertia") for kind in kinds)
+    assert len(table.known_geometry) == len(table.map.columns) == frictionless
+    lengths = {name: random.uniform(0.3, 1.4) for name in table.closed.algebra.geometry.values}
+    base = {name: random.uniform(0.3, 1.4) for name in table.base_names}
+    forward = [line.split(" = ") for line in forward_lines(table)]
+    coefficients = {name: text_value(right, lengths | base) for name, right in forward}
+    assert list(coefficients) == list(table.map.rows)
+    found = {
+        name: text_value(right, lengths | coefficients)
+        for name, right in (line.split(" = ") for line in backward_lines(table))
+    }
+    assert found.keys() == set(table.map.columns) and table.map.determinant
+    for name, value in found.items():
+        assert value == pytest.approx(base[name], rel=1e-10), name
 
 
 def test_generic_letters_and_first_names_of_a_planar_arm():
@@ -71,79 +77,47 @@ def test_generic_letters_and_first_names_of_a_planar_arm():
     assert names["g1", "s1*s2"] == "PG1" and names["J11", "s2"] == "PJ1"
 
 
-def test_an_axis_needs_only_its_mass():
+LEVER = robot_text(
+    "lever", ['"1", "0", 0, 0, 0, 0, 0, "q1", 0'],
+    rest='[physical.1]\nmass = "m"\ncentre = ["u - v", 0, 0]\ninertia = [0, 0, 0, 0, 0, 0]\n',
+)  # fmt: skip
+
+
+def test_which_letters_are_felt():
+    """An axis needs its mass; rotors and angles count, once; MZ of a last link enters as cz3, and
+    with a known length not alone; of a difference of letters it is told.
+    """
     table = table_of("emps")
     assert [(c.name, c.function, c.monomial) for c in table.coefficients] == [("PJ1", "J11", "1")]
     assert table.identifiability.appearing == ("m1",)
-
-
-def test_rotor_inertias_are_physical_parameters():
-    appearing = table_of("odd").identifiability.appearing
-    assert {"Ia1", "Ia2", "Ia3"} <= set(appearing)
-
-
-def test_angles_count_once():
+    assert {"Ia1", "Ia2", "Ia3"} <= set(table_of("odd").identifiability.appearing)
     letters = table_of("general3").identifiability.letters
     assert {"al1", "al2", "al3"} <= set(letters)
     assert not any(letter.startswith(("cos", "sin")) for letter in letters)
-
-
-def test_no_column_of_the_jacobian_is_mistaken_for_another():
-    """Physical: MZ of the last link enters as cz3, and with a known length not alone."""
-    table = table_of("scara")
-    assert [dict(group) for group in table.identifiability.sums] == [{"Izz2": 1, "Izz3": 1}]
-
-
-def test_difference_of_two_letters_is_told():
-    link = '[physical.1]\nmass = "m"\ncentre = ["u - v", 0, 0]\ninertia = [0, 0, 0, 0, 0, 0]\n'
-    text = robot_text("lever", ['"1", "0", 0, 0, 0, 0, 0, "q1", 0'], rest=link)
-    model = derive_model(robot_from_text(text, "lever"))
-    table = coefficient_table(model, base_parameters(model))
-    assert [dict(group) for group in table.identifiability.sums] == [{"u": 1, "v": -1}]
+    model = derive_model(robot_from_text(LEVER, "lever"))
+    lever = coefficient_table(model, base_parameters(model))
+    for table, sums in ((table_of("scara"), {"Izz2": 1, "Izz3": 1}), (lever, {"u": 1, "v": -1})):
+        assert [dict(group) for group in table.identifiability.sums] == [sums]
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "message"),
+    ("text", "message"),
     [
-        ('mass = "bm"', 'mass = "sin(bm)"', r'\[physical.2\]: got "sin\(bm\)"; expected a polynom'),
-        ('mass = "bm"', 'mass = "1/bm"', r'\[physical.2\]: got "1/bm"; expected a polynomial'),
+        (builtin_text("wrist").replace('mass = "bm"', 'mass = "sin(bm)"'),
+         r'\[physical.2\]: got "sin\(bm\)"; expected a polynom'),
+        (builtin_text("wrist").replace('mass = "bm"', 'mass = "1/bm"'),
+         r'\[physical.2\]: got "1/bm"; expected a polynomial'),
+        (TEXTS["weightless"].replace('"L"', '"m12"').replace("L = 0.5", "m12 = 0.5"),
+         r"symbol m12 is also the name of a physical parameter"),
     ],
-)
-def test_mistakes_in_physical(old, new, message):
-    model = edited_wrist((old, new))
+)  # fmt: skip
+def test_letters_that_cannot_be_are_refused(text, message):
+    model = derive_model(robot_from_text(text, "robot"))
     with pytest.raises(RobotError, match=message):
         coefficient_table(model, base_parameters(model))
 
 
-def test_symbol_that_is_a_generic_letter_is_refused():
-    text = TEXTS["weightless"].replace('"L"', '"m12"').replace("L = 0.5", "m12 = 0.5")
-    model = derive_model(robot_from_text(text, "weightless"))
-    with pytest.raises(RobotError, match=r"symbol m12 is also the name of a physical parameter"):
-        coefficient_table(model, base_parameters(model))
-
-
-@pytest.mark.parametrize("name", ["wrist", *rotating("odd")])
-def test_the_printed_map_and_its_printed_inverse_undo_each_other(name):
-    table, random = table_of(name), np.random.default_rng(14)
-    lengths = {name: random.uniform(0.3, 1.4) for name in table.closed.algebra.geometry.values}
-    base = {name: random.uniform(0.3, 1.4) for name in table.base_names}
-    forward = [line.split(" = ") for line in forward_lines(table)]
-    coefficients = {name: text_value(right, lengths | base) for name, right in forward}
-    assert list(coefficients) == list(table.map.rows)
-    backward = [line.split(" = ") for line in backward_lines(table)]
-    if table.map.determinant is None:
-        assert backward == []
-        return
-    found = {name: text_value(right, lengths | coefficients) for name, right in backward}
-    assert found.keys() == set(table.map.columns)
-    for name, value in found.items():
-        assert value == pytest.approx(base[name], rel=1e-10), name
-
-
-TIED_ROBOTS = ["orthoglide-leg", *rotating("geared", "sr400")]
-
-
-@pytest.mark.parametrize("name", TIED_ROBOTS)
+@pytest.mark.parametrize("name", ["orthoglide-leg", "geared", *rotating("sr400")])
 def test_expanded_form_of_a_tied_robot_gives_the_torque_of_the_c(name):
     derivation, model = derived(name), compiled(name)
     columns = derivation.base.columns
@@ -168,20 +142,6 @@ def test_a_leg_has_34_coefficients_of_rank_12():
     assert len(table.known_geometry) == len(table.map.columns) == 12 and table.map.determinant
     assert [c.monomial for c in table.coefficients if c.function == "g3"] == ["s3", "c3"]
     assert "m5" not in table.physical.letters  # link 5 has no body
-
-
-def test_motions_of_gears_screws_and_sums():
-    """q2 = q1/2 makes q1/2 the angle; 1.37 q3 is an angle of its own; q3 - 2 q1 too long a sum."""
-    found = motions_of(model_of("geared").geometry)
-    assert found.names == ("s1_2", "c1_2", "s3", "c3", "s7", "c7", "q1", "s5", "c5", "s6", "c6")
-    assert found.turns[0] == {0: 2} and found.turns[1] == {0: 1}
-    assert found.each[0].form == {0: Fraction(1, 2)}
-    assert found.each[4].form == {1: Fraction(137, 100)} and found.travel(0) == 6
-
-
-def test_parallelograms_need_no_angles_of_their_own():
-    found = motions_of(model_of("sr400").geometry)
-    assert [motion.joint for motion in found.each] == ["1", "2", "4", "5", "6", "7"]
 
 
 def test_long_tables_are_cut_to_what_the_others_follow_from():

@@ -3,7 +3,6 @@
 import re
 import shutil
 import subprocess
-from fractions import Fraction
 from math import cos, sin
 from pathlib import Path
 
@@ -23,9 +22,8 @@ from modeler.formulas.render import (
     coefficients_markdown,
     coefficients_text,
     determinant_text,
-    table_lines,
 )
-from modeler.formulas.text import LATEX, combination_text, latex_symbol, signed_sum
+from modeler.formulas.text import LATEX, latex_symbol
 from tests.base.formulas import text_value, written_value
 from tests.effects.test_effects_in_c import REFERENCE, SHAPES, written
 from tests.terms.cases import closed_of, model_of, table_of
@@ -68,28 +66,12 @@ def expected(name: str) -> dict[str, float]:
     return {f.name: values[f.kind, f.joints] for f in closed.functions}
 
 
-def test_text_can_be_read_back():
-    names, told = numbers_of("odd")[0], expected("odd")
-    printed = printed_functions(closed_form_text(closed_of("odd")))
+def test_a_closed_form_can_be_read_back_from_text_and_latex():
+    closed, told, names = closed_of("odd"), expected("odd"), numbers_of("odd")[0]
+    printed = printed_functions(closed_form_text(closed))
     for function, text in list(printed.items())[::8]:
         assert text_value(text, names) == pytest.approx(told[function], rel=1e-9)
-
-
-def test_equation_names_the_factored_letter():
-    assert "+ g*g_i" in closed_form_text(closed_of("wrist"))
-    assert "+ g_i" in closed_form_text(closed_of("odd"))
-
-
-def test_markdown_has_a_row_per_monomial():
-    closed = closed_of("wrist")
-    page = closed_form_markdown(closed)
-    assert page.count("\n| `") == closed.monomials == 101
-    assert "| `s2**2*s3**2` | `-XX3 + YY3` |" in page
-
-
-def test_latex_of_a_closed_form_has_its_values():
-    closed, told = closed_of("odd"), expected("odd")
-    letters = {latex_symbol(key): value for key, value in numbers_of("odd")[0].items()}
+    letters = {latex_symbol(key): value for key, value in names.items()}
     blocks = closed_form_latex(closed).split("\\begin{align*}\n")[1:]
     assert len(blocks) >= len(closed.functions) == len(told)
     for block, function in list(zip(blocks, told, strict=False))[::4]:
@@ -98,15 +80,13 @@ def test_latex_of_a_closed_form_has_its_values():
         assert found == pytest.approx(told[function], rel=1e-9, abs=1e-12)
 
 
-def test_combinations_and_sums_are_known():
-    table = table_of("wrist")
-    assert combination_text(table.relations.combinations["PS41"]) == "-PJ4/2"
-    base = next(line[4] for line in table_lines(table) if line[0] == "PJ4")
-    assert base == "-2*YZ3 + 2*bl1*MY3" and determinant_text(table) == "-16"
-
-
-def test_coefficients_as_tables():
-    table = table_of("wrist")
+def test_tables_of_the_wrist():
+    closed, table = closed_of("wrist"), table_of("wrist")
+    page = closed_form_markdown(closed)
+    assert page.count("\n| `") == closed.monomials == 101
+    assert "| `s2**2*s3**2` | `-XX3 + YY3` |" in page
+    assert "+ g*g_i" in closed_form_text(closed) and "+ g_i" in closed_form_text(closed_of("odd"))
+    assert determinant_text(table) == "-16"
     lines = coefficients_text(table).splitlines()
     assert len(lines) == 102 and lines[0].split()[:3] == ["name", "in", "monomial"]
     assert re.search(r"^PS3 +S112 +c2\*s2 +2\*PJ1 \+ 2\*PJ3 ", "\n".join(lines), re.M)
@@ -115,22 +95,6 @@ def test_coefficients_as_tables():
     latex = coefficients_latex(table)
     assert latex.count(" ={}& ") == latex.count(r"\text{ in }") == 101
     assert r"\mathit{PS}_{3} ={}& 2\,\mathit{PJ}_{1} + 2\,\mathit{PJ}_{3} \quad" in latex
-
-
-@pytest.mark.parametrize(
-    ("name", "expected"),
-    [("XX3R", r"\mathit{XX}_{3R}"), ("g", "g"), ("alpha2", r"\alpha_{2}"),
-     ("cos(al)", r"\cos{(\mathit{al})}"), ("two_words", r"\mathit{two\_words}")],
-)  # fmt: skip
-def test_latex_names(name, expected):
-    assert latex_symbol(name) == expected
-
-
-def test_signed_sums():
-    half = [(Fraction(-1, 2), "a"), (Fraction(3, 2), "b"), (Fraction(-1, 3), "")]
-    assert signed_sum(half) == "-a/2 + 3*b/2 - 1/3" and signed_sum([]) == "0"
-    assert signed_sum([(Fraction(1), "a"), (Fraction(-1), "b")]) == "a - b"
-    assert signed_sum([(Fraction(-3, 2), "a")], LATEX) == r"-\tfrac{3}{2}\,a"
 
 
 FRAGMENT = "\\documentclass{article}\n\\usepackage{amsmath}\n\\begin{document}\n%s\\end{document}\n"

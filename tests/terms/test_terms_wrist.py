@@ -1,8 +1,6 @@
 """The wrist: an independent derivation (tests/reference), its page, the misprints of the paper."""
 
-import dataclasses
 import difflib
-from fractions import Fraction
 from pathlib import Path
 
 import pytest
@@ -22,7 +20,6 @@ from modeler.formulas.print_checks import (
     wrong_functions,
 )
 from modeler.formulas.print_report import check_friction, terms_report
-from modeler.formulas.printed import Coupling
 from modeler.formulas.ring import classes, inverse_map
 from modeler.formulas.text import form_text, physical_text
 from tests.terms.cases import base_of, edited_wrist, model_of, table_of
@@ -78,18 +75,13 @@ def test_every_coefficient_is_the_stated_combination_of_the_seventeen(table):
         assert sympy.expand(found - sympy.sympify(text)) == 0, name
 
 
-def test_definitions_in_the_papers_letters(table):
-    for name, physical, _ in definition_lines():
-        found = physical_text(
-            table.by_name[name].physical, table.physical.names, table.physical.masses
-        )
-        assert sympy.expand(sympy.sympify(found) - sympy.sympify(physical)) == 0, name
-
-
-def test_definitions_in_base_parameters(table):
+def test_definitions_in_the_papers_letters_and_in_base_parameters(table):
     static = table.closed.algebra.names[table.closed.algebra.moving :]
-    for name, _, base in definition_lines():
-        found = form_text(table.by_name[name].base, table.base_names, static)
+    for name, physical, base in definition_lines():
+        own = table.by_name[name]
+        found = physical_text(own.physical, table.physical.names, table.physical.masses)
+        assert sympy.expand(sympy.sympify(found) - sympy.sympify(physical)) == 0, name
+        found = form_text(own.base, table.base_names, static)
         assert sympy.expand(sympy.sympify(found) - sympy.sympify(base)) == 0, name
 
 
@@ -147,24 +139,6 @@ def test_page_of_the_wrist_is_current(regenerate):
     assert not difference, f"\n{difference}\nIf this change is meant: pytest --regenerate"
 
 
-CORRECTED = [
-    ("PS18*s3*s2*c2 + PS2*c3", "PS1*s3*c3*s2*c2 + PS2*c3"),
-    ("PS21*s3*c3 + PS22*c3**2 + PS23*s2*c3", "PS21*s3*c3*c2 + PS22*c3**2*c2 + PS23*c2"),
-    ('PS40*s2"', 'PS40*s2 - PJ4*c2*s3 - PJ5*c2*c3"'),
-    ('S223 = "0"', 'S223 = "-2*PJ1*s3*c3 - 2*PJ2*c3**2 + PJ2"'),
-    ("PS45*c3*s3 + ", "PS45*c3*s3*c2**2 + "),
-    (
-        'PS50*c3*c3 + PS51*s3*c3*s2 + PS52*c3**2*s2 + PS53*s2 + PS54*c2*s3 + PS55*c2*c3"""',
-        'PS50"""\nS312 = "PS51*s3*c3*s2 + PS52*c3**2*s2 + PS53*s2 + PS54*c2*s3 + PS55*c2*c3"',
-    ),
-    ('PJ5 = "2*(cJ13 - cm*ct2*', 'PJ5 = "2*(cJ13 - cm*ct3*'),
-    ('cm = ["-PG2**2 + PG3**2", "PJ3 - PS3/2 + PJ1"]', 'cm = ["PG2**2 + PG3**2", "PJ16 - cJ11"]'),
-    ('aJ11 = "-PJ7 +', 'aJ11 = ["-PJ7 +'),
-    ('+ ct3**2)"\n\n[terms.printed.c', '+ ct3**2)", -1]\n\n[terms.printed.c'),
-    ('"PJ10", "PJ13", "PJ16", "PJ19", "PS3",', '"PJ10", "PJ13", "PJ16", "PJ19",'),
-]  # fmt: skip
-
-
 def table_with(*edits: tuple[str, str]):
     return coefficient_table(edited_wrist(*edits), base_of("wrist"))
 
@@ -181,16 +155,6 @@ def test_each_misprint_breaks_the_power_balance_and_the_derived_model_does_not(t
     assert power_balance(table, exact_state(table)) == 0
     for check in wrong_functions(table):
         assert check.power_defect is not None and abs(check.power_defect) > 1e-3
-
-
-def test_power_defect_of_the_truncated_s213_by_hand(table):
-    # -(derived - printed) qd1 qd2 qd3 with PJ4, PJ5 of the example and s, c at the rational state
-    cm, ct2, ct3, e, cJ12, cJ13 = 4, 0.02, 0.03, 0.16, 0.002, -0.003
-    PJ4, PJ5 = 2 * (cJ12 - cm * ct2 * e), 2 * (cJ13 - cm * ct3 * e)
-    c2, s3, c3 = (1 - 1 / 9) / (1 + 1 / 9), 0.8 / (1 + 0.16), (1 - 0.16) / (1 + 0.16)
-    expected = (PJ4 * c2 * s3 + PJ5 * c2 * c3) * (1 * -2 * 3)
-    found = next(check for check in wrong_functions(table) if check.name == "S213")
-    assert float(found.power_defect) == pytest.approx(expected, rel=1e-12)
 
 
 def test_misprinted_definition_and_its_contradiction(table):
@@ -228,33 +192,10 @@ def test_a_twin_that_is_none_is_found_out():
     assert {"PG2", "PG3", "PJ16"} <= set(check.different)
 
 
-def test_a_right_print_is_not_called_wrong():
-    table = table_with(*CORRECTED)
-    assert wrong_functions(table) == []
-    assert wrong_definitions(table) == []
-    assert check_independent(table) == {}
-    assert {check.verdict for check in check_solutions(table)} == {"right"}
-
-
 def test_report_without_a_print_has_no_section_on_it():
     page = terms_report(model_of("two-link"), base_of("two-link"))
     assert "print is wrong" not in page
     assert "## All coefficients" in page
-
-
-def test_printed_friction_of_coupled_motors_does_not_take_its_power():
-    coupling = Coupling(
-        ((Fraction(1), Fraction(0)), (Fraction(-1), Fraction(2))),
-        (Fraction(3), Fraction(5)),
-        (Fraction(1), Fraction(1)),
-    )
-    check = check_friction(coupling)
-    # motor speeds 1 and 1: torques 3 and 5 on the motor side, by hand
-    assert check.derived == (3 - 5, 10)
-    assert check.derived_power == check.dissipated == 8
-    assert check.printed == (3, 10) and check.printed_power == 13
-    uncoupled = dataclasses.replace(coupling, motor_from_joint=((1, 0), (0, 2)))
-    assert check_friction(uncoupled).printed == check_friction(uncoupled).derived
 
 
 def test_wrist_friction_as_printed_takes_the_wrong_power(table):
@@ -267,22 +208,13 @@ def test_wrist_friction_as_printed_takes_the_wrong_power(table):
     [
         ("coulomb = [3, 2, 1.2]", "", r"printed, coupling: coulomb is missing; expected motor_fr"),
         ("coulomb = [3, 2, 1.2]", "coulomb = [3, 2]", r"coupling: got 3 rows of 3, 3, 3, 2 coul"),
-        ("coulomb = [3, 2, 1.2]", 'coulomb = [3, 2, "x"]', r"coulomb, entry 3: got 'x'; expected"),
-        ("coulomb = [3, 2, 1.2]", "coulomb = 3", r"coupling, coulomb: got 3; expected a list"),
         ('missing = "PX" ', 'mising = "PX" ', r"\[terms\]: unknown key mising; expected source"),
-        ("count = 96", "count = 96.5", r"printed, count: got 96.5; expected a number"),
-        ('missing = "PX" ', "missing = 3 ", r"missing: got 3; expected text"),
         ("J33 = [1]", "J33 = 1", r"got 1; expected a list"),
         ("J33 = [1]", 'J33 = ["1 +"]', r'monomials, J33: got "1 \+", which cannot be read'),
         ("J33 = [1]", 'J33 = ["c1"]', r'monomials, J33: got "c1"; expected each at most once: 1'),
-        ("J33 = [1]", "J33 = [1, 1]", r'monomials, J33: got "1"; expected each at most once: 1'),
-        ("J33 = [1]", "J33 = [2]", r'monomials, J33: got "2"; expected each'),
-        ("J33 = [1]", 'J33 = ["x"]', r'monomials, J33: got "x"; expected each'),
         ("J33 = [1]", "J34 = [1]", r"monomials, J34: no such function; the functions are g1"),
         ("am = 12", 'am = "12 kg"', r"example, am: got '12 kg'; expected a number such as 12"),
-        ('cm = "21/5"', "cm = [1]", r"twin, cm: got \[1\]; expected a number"),
         ('ct2 = ["-PG2", "cm"]', "ct2 = [1, 2, 3]", r"solutions, ct2: got 3 entries; expected"),
-        ("[terms.twin] ", "[terms.twin.a] ", r"twin, a: got \{.*expected a number"),
     ],
 )
 def test_mistakes_in_terms(old, new, message):
@@ -294,11 +226,9 @@ def test_mistakes_in_terms(old, new, message):
     ("old", "new", "check", "message"),
     [
         ('J33 = "PJ22"', 'J33 = "PJ77"', wrong_functions, r"functions, J33.*where PJ77 is unknown"),
-        ('J33 = "PJ22"', 'J33 = "PJ22 + 1"', wrong_functions, r"J33: got .*expected a sum of coef"),
         ('J33 = "PJ22"', 'J33 = "sin(PJ22)"', wrong_functions, r"J33: got .*expected a polynomial"),
         ('J33 = "PJ22"', 'J77 = "PJ22"', wrong_functions, r"functions: there is no function J77"),
         ('PG2 = "-cm*ct2"', 'PG2 = "-cm*xx"', wrong_definitions, r"PG2.*where xx is unknown"),
-        ('PG2 = "-cm*ct2"', 'PG0 = "-cm*ct2"', wrong_definitions, r"there is no coefficient PG0"),
         ('ct3 = ["-PG3", "cm"]', 'cx3 = "PG3"', check_solutions, r"cx3 is no physical parameter"),
         ('"PS3",', '"PS99",', check_independent, r"independent: there is no coefficient PS99"),
     ],
