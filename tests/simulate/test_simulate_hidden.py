@@ -25,6 +25,7 @@ from modeler.simulation.hidden_draw import complete_effects
 from modeler.simulation.plant import build_plant, machine, steps_per_tick
 from modeler.simulation.rigid import gravity_vector, world_frames
 from modeler.simulation.shafts import settled
+from tests.oracles.complex_step import Oracle
 from tests.robot_texts import TWO_LINK, robot
 
 SHORT = SimulationSettings(
@@ -232,45 +233,23 @@ def test_friction_falls_as_its_joint_warms():
     np.testing.assert_allclose(warm[1:] - warm[0], gained, atol=0.05)
 
 
-def heights(source, name, point, q):
-    """(n, 3) places of a point of a link."""
-    x = ca.SX.sym("x", q.shape[1])
-    frame = world_frames(source, x)[name]
-    place = ca.Function("place", [x], [frame.position + frame.rotation @ ca.SX(point)])
-    return place.map(len(q))(q.T).full().T
-
-
-def slopes(source, name, point, q):
-    """(n, 3, joints) by central differences."""
-    step = 1e-6
-    sides = [
-        (heights(source, name, point, q + s) - heights(source, name, point, q - s)) / (2 * step)
-        for s in step * np.eye(q.shape[1])
-    ]
-    return np.stack(sides, axis=2)
+def slopes(name, point, q):
+    """(n, 3, joints) of the place of a point of a link, and of its turning, by the oracle."""
+    R, _, J, spin = Oracle(ARM).frames(q)[name]
+    return J + np.cross(spin, (R @ point)[:, :, None], axis=1), spin
 
 
 def test_a_payload_weighs_at_rest_and_has_ten_parameters():
     q, v, a = states()
     effect, more = added("payload:mass=2", q, 0 * v, 0 * a)
-    place = [effect.values[k] for k in "xyz"]
-    weight = np.array([0, 0, -9.81 * 2])
-    np.testing.assert_allclose(
-        more, -np.einsum("i,nij->nj", weight, slopes(ARM, "3", place, q)), atol=1e-7
-    )
+    J, turning = slopes("3", [effect.values[k] for k in "xyz"], q)
+    np.testing.assert_allclose(more, 2 * 9.81 * J[:, 2], atol=1e-7)
     _, moving = added("payload:mass=2", q, 0 * v, a)
-    J = slopes(ARM, "3", place, q)
     turned = added("payload:mass=2,radius=0.5", q, 0 * v, a)[1] - moving
-    pushed = 2 * np.einsum("nij,nik,nk->nj", J, J, a)
-    axes = np.zeros((len(q), 3, 3))
-    axes[:, :, 0] = [0, 0, 1]
-    axes[:, :, 1] = axes[:, :, 2] = np.column_stack(
-        [np.sin(q[:, 0]), -np.cos(q[:, 0]), 0 * q[:, 0]]
-    )
-    spin = np.einsum("nij,nik,nk->nj", axes, axes, a)
-    own = 2 * effect.values["radius"] ** 2
-    np.testing.assert_allclose(moving - more, pushed + own * spin, atol=1e-5)
-    np.testing.assert_allclose(turned, (2 * 0.5**2 - own) * spin, atol=1e-7)
+    pushed, spin = (np.einsum("nij,nik,nk->nj", x, x, a) for x in (J, turning))
+    square = effect.values["radius"] ** 2
+    np.testing.assert_allclose(moving - more, 2 * pushed + 2 * square * spin, atol=1e-5)
+    np.testing.assert_allclose(turned, 2 * (0.5**2 - square) * spin, atol=1e-7)
 
 
 def test_a_body_on_a_link_is_not_felt_beyond_it():
@@ -302,7 +281,7 @@ def test_a_force_pushes_in_its_window_only():
     log, p, _ = friction_along(text, [])
     truth = log.truth
     more = truth.tau - torques(plain(), truth.q, truth.qd, truth.qdd)
-    J = slopes(ARM, "3", [p[k] for k in "xyz"], truth.q)
+    J, _ = slopes("3", [p[k] for k in "xyz"], truth.q)
     pushed = -np.einsum("i,nij->nj", [10, -20, 5], J)
     inside, outside = np.abs(log.time - 1.25) < 0.22, np.abs(log.time - 1.25) > 0.28
     np.testing.assert_allclose(more[inside], pushed[inside], atol=1e-5 * np.abs(pushed).max())

@@ -90,10 +90,9 @@ def test_which_letters_are_felt():
     table = table_of("emps")
     assert [(c.name, c.function, c.monomial) for c in table.coefficients] == [("PJ1", "J11", "1")]
     assert table.identifiability.appearing == ("m1",)
-    assert {"Ia1", "Ia2", "Ia3"} <= set(table_of("odd").identifiability.appearing)
-    letters = table_of("general3").identifiability.letters
-    assert {"al1", "al2", "al3"} <= set(letters)
-    assert not any(letter.startswith(("cos", "sin")) for letter in letters)
+    odd = table_of("odd").identifiability
+    assert {"Ia1", "Ia2", "Ia3"} <= set(odd.appearing) and "al" in odd.letters
+    assert not any(letter.startswith(("cos", "sin")) for letter in odd.letters)
     model = derive_model(robot_from_text(LEVER, "lever"))
     lever = coefficient_table(model, base_parameters(model))
     for table, sums in ((table_of("scara"), {"Izz2": 1, "Izz3": 1}), (lever, {"u": 1, "v": -1})):

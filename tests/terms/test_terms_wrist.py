@@ -208,6 +208,10 @@ def test_wrist_friction_as_printed_takes_the_wrong_power(table):
     [
         ("coulomb = [3, 2, 1.2]", "", r"printed, coupling: coulomb is missing; expected motor_fr"),
         ("coulomb = [3, 2, 1.2]", "coulomb = [3, 2]", r"coupling: got 3 rows of 3, 3, 3, 2 coul"),
+        ("coulomb = [3, 2, 1.2]", 'coulomb = [3, 2, "x"]', r"coulomb, entry 3: got 'x'; expected"),
+        ("count = 96", "count = 96.5", r"printed, count: got 96.5; expected a number"),
+        ('missing = "PX" ', "missing = 3 ", r"missing: got 3; expected text"),
+        ('cm = "21/5"', "cm = [1]", r"twin, cm: got \[1\]; expected a number"),
         ('missing = "PX" ', 'mising = "PX" ', r"\[terms\]: unknown key mising; expected source"),
         ("J33 = [1]", "J33 = 1", r"got 1; expected a list"),
         ("J33 = [1]", 'J33 = ["1 +"]', r'monomials, J33: got "1 \+", which cannot be read'),
