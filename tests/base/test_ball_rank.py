@@ -28,7 +28,10 @@ def test_every_built_in_robot_is_certified(name):
     model, base, _ = module(name)
     found = base.proof.certificate
     assert isinstance(found, ModularRank if model.closure is None else BallRank)
-    assert found.rank == base.rank and base.proof.kind == "exact"
+    assert found.rank == base.rank == base.proof.numeric_rank and base.proof.kind == "exact"
+    assert base.proof.agreement < 1e-12  # base torque is standard torque
+    last, first = base.proof.gap
+    assert first < 1e-9 * last
     told = as_json(name, base)["certificate"]
     assert told["exact_rank"] == base.rank
     assert (told["prime"] is None) == (model.closure is not None)

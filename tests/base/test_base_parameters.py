@@ -15,7 +15,6 @@ from modeler.robot.robot import EffectUse
 from tests.base.ranks import seen
 from tests.base.test_hard_tables import model_of
 from tests.modules import module
-from tests.robots import ROBOTS
 
 
 def derive(robot):
@@ -44,16 +43,6 @@ def table(rows, gravity='[0, 0, "-g"]', symbols="", columns=COLUMNS):
         f"[mdh]\ncolumns = {columns}\nrows = {rows}\n",
         "t.toml",
     )
-
-
-@pytest.mark.parametrize("name", ROBOTS)
-def test_base_torque_is_standard_torque(name):
-    base = module(name).base
-    assert base.proof.kind == "exact"
-    assert base.proof.agreement < 1e-12
-    assert base.proof.numeric_rank == base.proof.certificate.rank == base.rank
-    last, first = base.proof.gap
-    assert first < 1e-9 * last
 
 
 WRIST = """

@@ -1,6 +1,7 @@
 """Joints that follow others: all relations, exactly, against papers and other ways to them."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -122,32 +123,7 @@ def test_offset_of_a_slide_along_gravity():
     assert_groups_as(model, EQUATION_18 + "Off1 - g*(M1 + M2 + M3 + M4 + M7)")
 
 
-# Joints 1 and 2 are turned over gears by motors that stand on the base, as on a surgical arm; the
-# tool at 3 slides on a screw that joint 2 turns, so that an angle and a travel go together.
-GEARED = """
-name = "geared"
-gravity = [0, "g*3/5", "-g*4/5"]
-[symbols]
-g = 9.81
-D2 = 0.15
-D3 = 0.4
-[mdh]
-columns = ["j", "a", "sigma", "alpha", "d", "theta", "r"]
-rows = [
-  ["m1", "0", 0, 0, 0, "qm1", 0],
-  ["m2", "0", 0, 0, 0, "qm2", 0],
-  ["1", "0", 0, 0, 0, "1.0186*qm1 + 0.4", 0],
-  ["2", "1", 0, "pi/2", "D2", "qm2/3 - 0.5*qm1 + pi/2", 0],
-  ["3", "2", 1, "pi/2", "D3", 0, "0.012*qm2 + 0.1"],
-]
-[links]
-m1 = []
-m2 = []
-[effects]
-rotor_inertia = ["m1", "m2"]
-viscous = ["m1", "m2"]
-offset = ["m1", "m2"]
-"""
+GEARED = Path(__file__).with_name("geared.toml").read_text(encoding="utf-8")
 
 
 TURN = ("scara", "sr400-tree", "tx40")

@@ -1,5 +1,7 @@
 """Forward dynamics where it is singular, of friction that reads accelerations, and in MuJoCo."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -31,29 +33,7 @@ def test_a_massless_last_link():
         model.evaluate("forward_dynamics", **given)
 
 
-LOADED = """\
-name = "loaded"
-gravity = [0, 0, -9.81]
-
-[mdh]
-columns = ["j", "alpha", "d", "theta", "r"]
-rows = [["1", 0, 0, "q1", 0.3], ["2", "pi/2", 0.2, "q2", 0], ["3", 0, 0.5, "q3", 0.1]]
-
-[effects]
-viscous = "all"
-coulomb = "all"
-rotor_inertia = "all"
-load_friction = [{joint = "2", w = 1}, {joint = "3", w = 0.5}]
-presliding = [{joint = "1", d = 0.01}]
-
-[reference]
-M2 = 4
-MX2 = 1.2
-ZZ2 = 0.6
-M3 = 2
-MX3 = 0.5
-ZZ3 = 0.2
-"""
+LOADED = Path(__file__).with_name("loaded.toml").read_text(encoding="utf-8")
 
 
 def test_friction_that_reads_accelerations():

