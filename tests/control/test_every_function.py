@@ -267,8 +267,11 @@ coulomb = "all"
 """
 
 
+PLATFORM = pytest.param("orthoglide-2003", marks=pytest.mark.rotating)
+
+
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
-@pytest.mark.parametrize("name", ["two-link", "dry", "five-bar"])
+@pytest.mark.parametrize("name", ["two-link", "dry", "five-bar", PLATFORM])
 def test_what_is_not_finite_is_told(folder, name, bad):
     """Wherever it stands: a status and NaN; without a status, no finite number that it enters."""
     made = folder(name)
@@ -276,8 +279,6 @@ def test_what_is_not_finite_is_told(folder, name, bad):
     good = everything(made, s)
     state = made.state(s.q, s.qd)[1] if made.has("state") else None
     for role, function in made.roles.items():
-        if "platform" in role:
-            continue
         for argument in function.inputs:
             value = np.array(good[argument.name], float)
             for place in {0, value.size - 1}:
@@ -298,10 +299,12 @@ def test_what_is_not_finite_is_told(folder, name, bad):
 
 def everything(made: Folder, s: State) -> dict[str, np.ndarray]:
     """All inputs of all functions at a good state."""
-    o = made.oracle
+    o, closure = made.oracle, made.spec.closure
+    x = s.u[list(closure.platform or ())] if closure else s.u[:0]
     return {**s._asdict(), "beta": made.beta, "tau": o.torques(s.u, s.qd, s.qdd)[0],
             "damping": np.array([DAMPING]), "start": home_of(made), "widths": widths(made),
-            "chi": np.array(list(made.chi.values()))}  # fmt: skip
+            "chi": np.array(list(made.chi.values())), "x": x, "xd": 0 * x + 1, "xdd": 0 * x + 1,
+            }  # fmt: skip
 
 
 @pytest.mark.parametrize("factor", [0.0, -1.0])

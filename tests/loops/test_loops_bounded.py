@@ -84,37 +84,6 @@ def test_so_do_those_of_further_robots(name, loop_robots_folder, tmp_path):
     check_bound(generate(of_file(loop_robots_folder / f"{name}.toml")), tmp_path)
 
 
-def statuses(emitted: Emitted) -> dict[str, list[tuple[int, bool]]]:
-    """By function: (status, whether all outputs are NaN) with each input in turn not finite."""
-    functions = Functions(emitted)
-    spec, given = emitted.spec, motion(emitted.spec.robot, 1)
-    given |= {"beta": np.ones((1, len(spec.base))), "chi": np.ones((1, len(spec.standard)))}
-    given["start"] = np.array([spec.closure.home])
-    known = [
-        f for f in (*spec.functions, *(spec.fitted.functions if spec.fitted else ())) if f.status
-    ]
-    found: dict[str, list[tuple[int, bool]]] = {}
-    for f in known:
-        call = getattr(functions._library, f.name)
-        for argument, bad in product(f.inputs, (np.nan, np.inf, -np.inf)):
-            for k in range(argument.shape[0]):
-                rows = {a.name: np.array(given[a.name][0], dtype=float) for a in f.inputs}
-                rows[argument.name][k] = bad
-                out = np.zeros(f.outputs[0].shape)
-                arrays = [a.ctypes.data_as(ctypes.c_void_p) for a in (*rows.values(), out)]
-                found.setdefault(f.name, []).append((call(*arrays), bool(np.isnan(out).all())))
-    return found
-
-
-@pytest.mark.parametrize("name", ["five-bar", *rotating("orthoglide-2003")])
-def test_what_is_not_finite_has_one_status_at_every_place_of_every_input(name):
-    """q, qd, qdd, beta, a posture to start from; of the platform too; with values and without."""
-    found = statuses(with_values(name))
-    assert len(found) >= 15
-    for function, each in found.items():
-        assert set(each) == {(NOT_FINITE, True)}, function
-
-
 def test_a_log_marks_the_samples_that_are_not_finite():
     emitted = module("five-bar").emitted
     library = Functions(emitted)._library
