@@ -34,6 +34,7 @@ def test_no_compiler_warns(name, single, compilers, tmp_path):
             made.command(cc, "-fsyntax-only", *words, "-I.", "-x", language, *sources)
 
 
+@pytest.mark.rotating("long tests of control")
 @pytest.mark.parametrize("name", ["two-link", *(pytest.param(n, marks=ROTATING) for n in MORE)])
 def test_sanitizers_find_nothing(name, tmp_path):
     """In the folder's own check, which calls every function."""

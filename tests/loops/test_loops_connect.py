@@ -215,7 +215,7 @@ def states(loop, count):
     return [loop.closed(goal) for goal in goals], *rng.normal(0, 2, (2, count, n))
 
 
-@pytest.mark.rotating
+@pytest.mark.rotating("loops in MuJoCo")
 @pytest.mark.parametrize("name", NAMES)
 def test_torques_are_those_of_mujocos_equations(name, folder):
     derivation, loop = derivation_of(name, folder), Loop(mjcf(name))
@@ -243,7 +243,7 @@ def basis(m, body):
     m.body_mass[body], m.body_inertia[body] = 0.0, 0.0
 
 
-@pytest.mark.rotating
+@pytest.mark.rotating("loops in MuJoCo")
 @pytest.mark.parametrize("name", NAMES)
 def test_there_are_as_many_base_parameters_as_mujoco_feels(name, folder):
     """tau is linear in each body's values and rotor; columns of one at a time."""

@@ -165,6 +165,7 @@ def test_a_bound_holds_at_run_time_is_told_and_the_next_cycle_goes_on(name, robo
     assert robot.state(q[-1], qd[-1], True, 10**9) == 0
 
 
+@pytest.mark.rotating("long tests of loops")
 def test_the_bound_of_the_whole_library_is_a_macro(tmp_path):
     emitted = module("five-bar").emitted
     library = compiled(emitted, tmp_path, "-DFIVE_BAR_MAX_CLOSURE_EVALUATIONS=9")

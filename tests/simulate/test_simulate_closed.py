@@ -124,6 +124,7 @@ def test_sensors_seeds_and_progress():
     assert all(ideal.truth.parameters[n] != other.truth.parameters[n] for n in drawn)
 
 
+@pytest.mark.rotating("long tests of simulate")
 def test_legs_that_share_parameters_are_alike_and_told_once():
     source = read_robot("orthoglide-2003-similar-legs")
     parameters = plant_parameters(source, motion_limits(source))

@@ -437,6 +437,7 @@ LAWS_IN_LOOPS = {
 }
 
 
+@pytest.mark.rotating("long tests of simulate")
 def test_effects_on_motors_of_robots_with_loops(five_bar):
     """All at once, of which each is larger than the bound by far."""
     source, before = five_bar

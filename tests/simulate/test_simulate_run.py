@@ -276,6 +276,7 @@ def test_friction_too_stiff_for_any_step_is_named():
         simulate(source, SHORT)
 
 
+@pytest.mark.rotating("long tests of simulate")
 def test_stiff_friction_is_still_integrated():
     """Ten times the drawn Coulomb friction; the joint still follows, and nothing rings."""
     limits = motion_limits(robot(ARM))

@@ -43,7 +43,7 @@ def least_share(robot: Robot, q: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize(
-    "name", [*LOOPS, "offset_parallelogram", *rotating("3rpr_passive", "rccc_wide")]
+    "name", [*LOOPS, *rotating("offset_parallelogram", "3rpr_passive", "rccc_wide")]
 )
 def test_half_of_homes_distance_is_kept(name: str, request: pytest.FixtureRequest) -> None:
     elsewhere = name not in LOOPED

@@ -93,6 +93,7 @@ def test_several_roots_are_told_and_none_is_chosen():
         assert values is None or told.value("cJ11") == pytest.approx(truth["cJ11"])
 
 
+@pytest.mark.rotating("long tests of terms")
 def test_known_parameters_are_tested_and_the_test_is_honest():
     """z of consistent known values: root mean square 1; one that is 5 % off is told."""
     system, truth, rng = system_of("wrist"), example(), np.random.default_rng(9)

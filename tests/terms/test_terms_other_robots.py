@@ -116,7 +116,7 @@ def test_letters_that_cannot_be_are_refused(text, message):
         coefficient_table(model, base_parameters(model))
 
 
-@pytest.mark.parametrize("name", ["orthoglide-leg", "geared", *rotating("sr400")])
+@pytest.mark.parametrize("name", ["orthoglide-leg", *rotating("geared", "sr400")])
 def test_expanded_form_of_a_tied_robot_gives_the_torque_of_the_c(name):
     derivation, model = derived(name), compiled(name)
     columns = derivation.base.columns
