@@ -73,10 +73,12 @@ Edit = tuple[str, ...]
 """What is wrong, the old text, the new one, and words of the line."""
 
 
-def edited(text: str, old: str, new: str) -> str:
-    """The text with its first `old` made `new`; `old` must be there."""
-    assert old in text, f"the good file has no {old!r}"
-    return text.replace(old, new, 1)
+def edited(text: str, *edits: str) -> str:
+    """The text with the first of every `old, new` exchanged; each `old` must be there."""
+    for old, new in zip(edits[::2], edits[1::2], strict=True):
+        assert old in text, f"the good file has no {old!r}"
+        text = text.replace(old, new, 1)
+    return text
 
 
 def writes(name: str, content: str | bytes) -> Make:
@@ -100,6 +102,11 @@ def refusals(theme: str, text: str, edits: Iterable[Edit]) -> list[Row]:
     return rows
 
 
+def lists(*tables: str) -> list[Edit]:
+    """Lists of tables where one table must stand."""
+    return [(f"{table} a list", f"[{table}]", f"[[{table}]]", f"[{table}]") for table in tables]
+
+
 def _read(name: str, content: str, workdir: Workdir) -> object:
     return derive(robot_from_text(content, name))
 
@@ -110,47 +117,23 @@ def _file(content: str) -> str:
     return f"{found[1][:20] if found else 'bad'}.toml"
 
 
-def derived(theme: str, text: str, edits: Iterable[Edit]) -> list[Row]:
-    """A row for every edit of a good robot file that must work; its words are in the output."""
-    return [
-        row(
-            f"{theme}: {what}", "works", DERIVE.format("odd.toml"), *words,
-            make=writes("odd.toml", edited(text, old, new)),
-        )
-        for what, old, new, *words in edits
-    ]  # fmt: skip
+def derived(what: str, text: str, edits: Iterable[str], *words: str) -> Row:
+    """A row of a robot file that must work with all these edits; its words are in the output."""
+    make = writes("odd.toml", edited(text, *edits))
+    return row(what, "works", DERIVE.format("odd.toml"), *words, make=make)
 
 
 _NESTED = "[" * 2000 + "]" * 2000
 _DEEP = "sin(" * 200 + "q" + ")" * 200
 
-TEXT = refusals(
-    "toml", SERIAL,
-    [
-        ("unclosed quote", 'title = "Arm', 'title = "Arm\nx', "line 2", "toml"),
-        ("time for a number", "g = 9.81", "g = 07:32:00", "symbols", "time"),
-        ("nested 2000 deep", 'notes = "none"', f"notes = {_NESTED}", "nested"),
-        ("integer of 5000 digits", "g = 9.81", f"g = {'9' * 5000}", "digits", "at most|shorter"),
-    ],
-)  # fmt: skip
-
 FILES = [
-    row("toml: empty file", "refused", "derive bad.toml", "bad.toml", "missing",
-        make=writes("bad.toml", "")),
     row("toml: UTF-16", "refused", "derive bad.toml", "bad.toml", "UTF-8",
         make=writes("bad.toml", SERIAL.encode("utf-16"))),
-    row("toml: random bytes", "refused", "derive bad.toml", "bad.toml",
-        make=writes("bad.toml", bytes(range(256)))),
-    row("toml: a Parquet log", "refused", "derive c.parquet", "c.parquet", "UTF-8|toml"),
-    row("toml: a CSV log", "refused", "derive a.csv", "a.csv", "toml|table"),
     row("toml: a model file", "refused", "derive m.json", "m.json", "toml"),
     row("toml: a SYMORO file", "refused", "derive arm.par", "arm.par", ".par",
         make=writes("arm.par", "(* Robotname = 'arm' *)\nNL = 3\n")),
-    row("toml: a URDF without links", "refused", "derive arm.urdf", "arm.urdf", "no link",
-        make=writes("arm.urdf", "<robot name='arm'/>")),
     row("toml: no such file", "refused", "derive nowhere.toml", "nowhere.toml"),
-    row("toml: built-in misspelt", "refused", "derive wirst", "wirst", "did you mean", "wrist"),
-    row("toml: built-in in capitals", "refused", "derive WRIST", "WRIST", "wrist"),
+    row("toml: built-in in capitals", "refused", "derive WRIST", "WRIST", "did you mean", "wrist"),
     row("toml: empty name", "refused", ("derive", ""), "robot", "empty|got \"\""),
     row("toml: a folder", "refused", "derive .", ". is|.: is", "folder|file"),
     row("toml: a loop of links", "refused", "derive loop.toml", "loop.toml",
@@ -158,109 +141,83 @@ FILES = [
     row("toml: mistake in a file whose name has a line end", "refused",
         ("derive", "two\nlines.toml"), "two lines.toml", "name",
         make=writes("two\nlines.toml", "")),
-    row("toml: byte order mark", "works", "derive bom.toml --no-terms", "arm",
-        make=writes("bom.toml", "\ufeff" + SERIAL)),
-    row("toml: line ends of Windows", "works", "derive crlf.toml --no-terms", "arm",
-        make=writes("crlf.toml", SERIAL.replace("\n", "\r\n"))),
-    row("toml: a link to the file", "works", "derive link.toml --no-terms", "arm",
-        make=lambda w: w.path("link.toml").symlink_to(w.write("real.toml", SERIAL))),
-    row("toml: name of the file with spaces, in Greek", "works",
-        ("derive", "ρομπότ (1).toml", "--no-terms"), "arm",
-        make=writes("ρομπότ (1).toml", SERIAL)),
+    row("toml: byte order mark and line ends of Windows", "works", "derive odd.toml --no-terms",
+        "arm", make=writes("odd.toml", "\ufeff" + SERIAL.replace("\n", "\r\n"))),
+    row("toml: a link to a file in Greek", "works", "derive link.toml --no-terms", "arm",
+        make=lambda w: w.path("link.toml").symlink_to(w.write("ρομπότ (1).toml", SERIAL))),
     row("head: a name of 300 letters for a file of C", "refused", "generate arm.toml --out c",
         "long|at most", make=writes("arm.toml", edited(SERIAL, '"arm"', f'"{"a" * 300}"'))),
     row("head: a title that ends a comment of C", "works", "generate arm.toml --out c",
         make=writes("arm.toml", edited(SERIAL, "Arm with", "*/ #error /* ??/"))),
     row("own effects: equation nested 200 deep", "ends", "derive arm.toml --no-terms", "arm",
         make=writes("arm.toml", edited(SERIAL, "v*exp", f"{_DEEP}*exp"))),
-    row("own effects: equation nested 200 deep, in C", "ends", "generate arm.toml --out c",
-        "arm", make=writes("arm.toml", edited(SERIAL, "v*exp", f"{_DEEP}*exp"))),
 ]  # fmt: skip
 
 TABLES = [
     *refusals(
-        "head", SERIAL,
+        "text", SERIAL,
         [
+            ("unclosed quote", 'title = "Arm', 'title = "Arm\nx', "line 2", "toml"),
+            ("time for a number", "g = 9.81", "g = 07:32:00", "symbols", "time"),
+            ("nested 2000 deep", 'notes = "none"', f"notes = {_NESTED}", "nested"),
+            ("integer of 5000 digits", "g = 9.81", f"g = {'9' * 5000}", "digits", "at most|short"),
             ("title of two lines", '"Arm with most of what a file may say"', '"a\\nb"', "title"),
-            ("gravity nan", '[0, 0, "-g"]', "[0, 0, nan]", "gravity", "entry 3"),
-            ("gravity undeclared", '[0, 0, "-g"]', '[0, 0, "-G"]', "gravity", "G is not", '"g"'),
-            ("symbols a list", "[symbols]", "[terms.x]\n[[symbols]]", "[symbols]", "table"),
             ("gravity 1e300", '[0, 0, "-g"]', "[0, 0, -1e300]", "gravity", "large|1e300|1e+300"),
+            ("symbols a list", "[symbols]", "[terms.x]\n[[symbols]]", "[symbols]", "table"),
+            ("terms a list", "[limits]", "[[terms]]\n[limits]", "[terms]"),
+            *lists("own_effects.eddy_brake", "parameters"),
         ],
     ),
     *refusals(
         "table", SERIAL,
         [
-            ("mu yes", '"1", "0", 1, 0', '"1", "0", "yes", 0', 'row "1"', "mu"),
             ("length 1e200", '0, "D3"', "0, 1e200", 'row "3"', "1e200|1e+200", "large|at most|m"),
             ("length complex", '0, "D3"', '0, "1j"', 'row "3"', "1j"),
             ("tower of powers", '0, "D3"', '0, "9**9**9**9"', 'row "3"', "9**9"),
-            ("power 1e9", '0, "D3"', '0, "2**1000000000"', 'row "3"', "finite|at most"),
             ("sin nested 200 times", '0, "D3"', f'0, "{"sin(" * 200}1{")" * 200}"', 'row "3"'),
             ("parentheses nested 5000", '0, "D3"', f'0, "{"(" * 5000}1{")" * 5000}"', 'row "3"'),
-            ("minus signs 5000", '0, "D3"', f'0, "{"-" * 5000}1"', 'row "3"'),
-            ("function unknown", '0, "D3"', '0, "cot(D3)"', 'row "3"', "cot"),
-            ("function with two arguments", '0, "D3"', '0, "sin(D3, 1)"', 'row "3"', "sin"),
-            ("function as a number", '0, "D3"', '0, "sin"', 'row "3"', "sin"),
         ],
     ),
     *refusals(
         "effects", SERIAL,
         [
-            ("misspelt", "viscous =", "viscus =", "viscus", "viscous"),
             ("shape a text", "vs = 0.1", 'vs = "fast"', "stribeck", "vs"),
-            ("shape a list", "vs = 0.1", "vs = [0.1]", "stribeck", "vs"),
-            ("shape nan", "vs = 0.1", "vs = nan", "stribeck", "vs"),
             ("shape negative", "vs = 0.1", "vs = -0.1", "stribeck", "vs"),
             ("shapes without joint", '{joint = "1", vs', '{vs', "stribeck", "joint"),
             ("ripple twice the same", '{joint = "2", m = 14}', '{joint = "2", m = 7}',
              "motor_ripple"),
             ("no column: payload", 'viscous = "all"', 'payload = "all"', "payload"),
             ("own: load without reference", "v*exp(-((q - c)/w)**2)", "load*c*w", "reference"),
-            ("own: a list", "[own_effects.eddy_brake]", "[[own_effects]]", "own_effects"),
-            ("own: shapes in 10000 combinations", "c = [-1, 0, 1]",
-             f"c = {[k / 100 for k in range(5000)]}", "100"),
         ],
     ),
     *refusals(
         "values", SERIAL,
         [
-            ("unknown parameter", "ZZ1 = 0.5", "ZZ9 = 0.5", "[parameters]", "ZZ9"),
-            ("parameters a list", "[parameters]", "[[parameters]]", "[parameters]"),
-            ("sigma nan", "Fv1 = 2\n", "Fv1 = 2\nuncertainty.Fv1 = nan\n", "], Fv1", "nan"),
             ("sigma true", "Fv1 = 2\n", "Fv1 = 2\nuncertainty = true\n", "uncertainty]"),
-            ("gain nan", "1 = 12.5", "1 = nan", "[drive_gains]", "nan"),
             ("limits inf", "2.5, 3, 10", "inf, 3, 10", "[limits]", "inf"),
             ("limits a number", '["-pi", 2.5, 3, 10]', "3", "[limits]", "got 3"),
-            ("limits undeclared", '["-pi", 2.5', '["-PI", 2.5', "[limits]", "PI"),
             ("reference of an unknown", "[limits]", "[reference]\nZZ77 = 1\n[limits]", "ZZ77"),
             ("reference a text", "[limits]", '[reference]\nZZ1 = "x"\n[limits]', "[reference]"),
-            ("terms a list", "[limits]", "[[terms]]\n[limits]", "[terms]"),
         ],
     ),
     *refusals(
         "loops", CRANK,
         [
             ("rows empty", '[["pin", "tip", "3", "position"]]', "[]", "[loops]"),
-            ("a list", "[loops]", "[[loops]]", "[loops]"),
-            ("no rows", 'rows = [["pin"', 'lines = [["pin"', "[loops]", "lines"),
             ("name twice", '"position"]', '"position"], ["pin", "tip", "3", "position"]', "pin"),
             ("too few motors", '["1", "0", 1', '["1", "0", 0', "actuated"),
             ("too many motors", '["3", "0", 0', '["3", "0", 1', "over-constrained", "pin"),
             ("rigid where it cannot be", '"position"]', '"rigid"]', "over-constrained|pin"),
-            ("home nan", "q2 = -1.86", "q2 = nan", "[home]", "nan"),
-            ("home a list", "[home]", "[[home]]", "[home]"),
             ("home in degrees", "q2 = -1.86", "q2 = -106", "home"),
+            *lists("loops", "home"),
         ],
     ),
     *refusals(
         "legs", PLANAR,
         [
             ("shared a text", 'shared = ["*2{i}"]', 'shared = "*2{i}"', "shared", "list"),
-            ("relation a list", 'q7 = "-q21 + pi/2"', "q7 = [3]", "[relations]"),
-            ("relations a list", "[relations]", "[[relations]]", "[relations]"),
-            ("platform a list", "[platform]", "[[platform]]", "[platform]"),
             ("links a text", 'P = ["M", "MX"]', 'P = "M"', "[links]", "list"),
+            *lists("relations", "platform"),
         ],
     ),
 ]  # fmt: skip
@@ -273,38 +230,18 @@ LEGS = row(
 )  # fmt: skip
 
 WORKS = [
-    *derived(
-        "table", SERIAL,
-        [
-            ("angle to the last digit", '"pi/2", 0, "pi', '1.5707963267948966, 0, "pi'),
-            ("row names as numbers", '["1", "0"', '[1, 0'),
-            ("length in hexadecimal", "0.1", '"0x1"'),
-            ("variable turned round", '"q1", 0]', '"-q1", 0]'),
-            ("function of a symbol", '0, "D3"', '0, "sqrt(D3**2)*cos(0)"'),
-        ],
-    ),
-    *derived(
-        "values", SERIAL,
-        [
-            ("symbol worth zero", "D3 = 0.45", "D3 = 0"),
-            ("symbol worth pi/2", 'tilt = "pi/6"', "tilt = 1.5707963267948966"),
-            ("negative mass", "ZZ1 = 0.5", "M1 = -3"),
-            ("home of a robot without loops", "[limits]", "[home]\nq1 = 0.1\n[limits]"),
-            ("title in Japanese", "Arm with most", "腕", "腕"),
-            ("name with a dash and digits", '"arm"', '"6-arm_2"', "6-arm_2"),
-            ("effect by alias", "viscous =", "back_emf ="),
-            ("effect of no joint", 'coulomb = ["1", "2"]', "coulomb = []"),
-        ],
-    ),
-    *derived(
-        "loops", CRANK,
-        [
-            ("home far away", "q3 = 0.33", "q3 = 1e12", "[home] completed", "6 base"),
-            ("home out of reach", "L = 0.35", "L = 0.01", "[home] completed", "6 base"),
-            ("home with the rod in line with the crank", "q2 = -1.86", "q2 = 0", "6 base"),
-            ("described from the other side", '"tip", "3"', '"3", "tip"', "6 base"),
-        ],
-    ),
+    derived("table: numbers, names and variables in odd ways", SERIAL,
+        ('"pi/2", 0, "pi', '1.5707963267948966, 0, "pi', '["1", "0"', '[1, 0', "0.1", '"0x1"',
+         '"q1", 0]', '"-q1", 0]', '0, "D3"', '0, "sqrt(D3**2)*cos(0)"')),
+    derived("values: of symbols, masses, titles and effects in odd ways", SERIAL,
+        ("D3 = 0.45", "D3 = 0", 'tilt = "pi/6"', "tilt = 1.5707963267948966",
+         "ZZ1 = 0.5", "M1 = -3", "[limits]", "[home]\nq1 = 0.1\n[limits]", "Arm with most", "腕",
+         '"arm"', '"6-arm_2"', "viscous =", "back_emf =", 'coulomb = ["1", "2"]', "coulomb = []"),
+        "腕", "6-arm_2"),
+    *(derived(f"loops: {what}", CRANK, edits, *words, "6 base") for what, edits, *words in (
+        ("home out of reach", ("L = 0.35", "L = 0.01"), "[home] completed"),
+        ("home with the rod in line with the crank", ("q2 = -1.86", "q2 = 0")),
+        ("described from the other side", ('"tip", "3"', '"3", "tip"')))),
 ]  # fmt: skip
 
-ROWS = [*TEXT, *FILES, *TABLES, LEGS, *WORKS]
+ROWS = [*FILES, *TABLES, LEGS, *WORKS]

@@ -28,12 +28,10 @@ _MADE = (
     "fit two-link a.csv --out m.json",
     "fit emps e.csv --out e.json",
     "add m.json offset --joint 1 a.csv --out added.json",
-    "generate two-link --out c_code",
-    "compare m.json b.csv --report page.html",
     "export m.json --to urdf --out good.urdf",
     "export m.json --to mjcf --out good.xml",
 )
-"""The good inputs: two logs to fit and to hold out, models, a generated folder."""
+"""The good inputs: two logs to fit and to hold out, logs of other robots, models."""
 
 
 class Inputs:
