@@ -1,7 +1,7 @@
 """One run as the programs of robot people write it: text of many dialects, sheets, folders."""
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,13 +25,11 @@ class Kind:
         write: into a folder; gives what `modeler fit` is given as LOG.
         words: of `--map`.
         digits: relative, that a value keeps.
-        twin: what the plain file has besides, of the same meaning.
     """
 
     write: Callable[[Path, Table], Path]
     words: tuple[str, ...] = AUTO
     digits: float = 1e-9
-    twin: Mapping[str, Callable[[Table], np.ndarray]] | None = None
 
 
 def rows_of(table: Table, q: float = 1.0, tau: float = 1.0, time: float = 1.0) -> np.ndarray:
@@ -145,7 +143,7 @@ def iso_index(folder: Path, table: Table) -> Path:
 
 def clock_of_day(folder: Path, table: Table) -> Path:
     """Times of a day in America, after noon."""
-    clock = [(1, 59, 58.5 + t) if t < 1.5 else (2, 0, t - 1.5) for t in table["time"]]
+    clock = [(1, 59, 59.8 + t) if t < 0.2 else (2, 0, t - 0.2) for t in table["time"]]
     stamps = [f"5/1/2024 {h}:{m:02d}:{s:012.9f} PM" for h, m, s in clock]
     body = text_of(rows_of(table)[:, 1:], ",").splitlines()
     lines = [f"{s},{line}" for s, line in zip(stamps, body, strict=True)]
@@ -252,11 +250,6 @@ def mcap(folder: Path, table: Table) -> Path:
     return writers.mcap(folder / "run.mcap", table)  # type: ignore[arg-type]
 
 
-def _halves(table: Table) -> np.ndarray:
-    n = len(table["time"])
-    return (np.arange(n) >= n // 2).astype(float)
-
-
 PLACES = ("time=c1", "q<j>=c{n+1}", "tau<j>=c{n+4}")
 KINDS = {
     "German Excel": Kind(german_excel),
@@ -276,6 +269,6 @@ KINDS = {
     "a folder of numpy files": Kind(by_quantity_npy),
     "a folder of quantities": Kind(by_quantity_csv),
     "a folder of joints": Kind(by_joint),
-    "LeRobot": Kind(lerobot, digits=1e-5, twin={"segment": _halves}),
+    "LeRobot": Kind(lerobot, digits=1e-6),
     "a bag": Kind(mcap),
 }

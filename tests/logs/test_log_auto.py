@@ -7,15 +7,14 @@ import shutil
 import numpy as np
 import pytest
 
-from modeler.api import load, read_logs
-from modeler.cli import main
+from modeler.api import read_logs
 from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError, RobotError
 from modeler.estimation import load_model
 from modeler.logs.mapping import map_from_table
 from modeler.robot import robot_from_text
-from tests.logs.programs import german_excel, joined, text_of, written
-from tests.logs.test_log_commands import run, values
+from tests.logs.programs import german_excel, joined
+from tests.logs.test_log_commands import values
 from tests.logs.writers import parquet
 
 TABLES = [
@@ -56,8 +55,7 @@ def degrees(case) -> dict[str, np.ndarray]:
 
 def test_a_unit_by_range_is_believed_where_it_fits(case, tmp_path):
     path = parquet(tmp_path / "a.parquet", degrees(case))
-    assert case.fitted(path, ["auto"]) == pytest.approx(case.beta, rel=1e-6)
-    (log,) = read_logs(case.compiled, [path], ["auto"])
+    log = case.check(path, ["auto"])
     (told,) = [line for line in log.told if "auto" in line]
     assert "q<j> = winkel_{n-1} [deg]" in told and "time = stamp [ms]" in told
     assert not any("auto" in line for line in log.notes)  # which would be doubts
@@ -66,8 +64,7 @@ def test_a_unit_by_range_is_believed_where_it_fits(case, tmp_path):
 def test_what_is_stated_goes_over_the_guess(case, tmp_path):
     table = degrees(case)
     table["winkel_1"] *= -1.0
-    path = parquet(tmp_path / "a.parquet", table)
-    assert case.fitted(path, ["auto", "q2=-winkel_1:deg"]) == pytest.approx(case.beta, rel=1e-6)
+    case.check(parquet(tmp_path / "a.parquet", table), ["auto", "q2=-winkel_1:deg"])
 
 
 def test_every_log_has_its_own_guess(case, tmp_path):
@@ -78,50 +75,29 @@ def test_every_log_has_its_own_guess(case, tmp_path):
     assert other.told[-1].endswith("(of this log; the model keeps that of the first)")
 
 
-EMPS = ("Zeit [ms];Weg [mm];Strom (soll);Kraft [kN]\n", [1e3, 1e3, 1e-3])
-
-
-@pytest.fixture(scope="module")
-def inputs(tmp_path_factory):
-    """Two runs of one machine with names and units of their own."""
-    folder = tmp_path_factory.mktemp("auto")
-    import pyarrow.parquet as pq
-
-    for name, seed in (("a", "1"), ("b", "2")):
-        out = folder / f"{name}.parquet"
-        assert main(["simulate", "emps", "--duration", "8", "--seed", seed, "--noise", "0.5",
-                     "--out", str(out)]) == 0  # fmt: skip
-        table = pq.read_table(out).to_pydict()
-        rows = np.array([table["time"], table["q1"], table["tau1"]]).T * EMPS[1]
-        rows = np.column_stack([rows[:, :2], 0 * rows[:, 0], rows[:, 2]])
-        written(folder / f"{name}.txt", EMPS[0] + text_of(rows, ";", ","), "cp1252")
-    return folder
-
-
 @pytest.mark.rotating("long tests of logs")
-def test_what_is_told_to_be_next_reads_the_log_again(inputs, tmp_path, capsys, monkeypatch):
+def test_what_is_told_to_be_next_reads_the_log_again(slide, tmp_path, run, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name in ("a.txt", "b.txt"):
-        shutil.copy(inputs / name, name)
+        shutil.copy(slide / name, name)
     argv = ["fit", "emps", "a.txt", "--map", "auto", "--out", "m.json"]
-    status, out, err = run(capsys, *argv)
+    status, out, err = run(*argv)
     assert (status, err) == (0, "") and "read with ; between columns, decimal commas" in out
-    assert run(capsys, "fit", "emps", inputs / "a.parquet", "--out", "p.json")[0] == 0
-    assert values(tmp_path / "m.json") == pytest.approx(values(tmp_path / "p.json"), rel=1e-7)
+    assert values(tmp_path / "m.json") == pytest.approx(values(slide / "p.json"), rel=1e-7)
     assert load_model("m.json").mapping["q1"] == "Weg [mm]"
     for _ in range(3):  # fit, then compare and diagnose, then what these say
         following = [shlex.split(line[6:]) for line in out.splitlines() if line[:6] == "next: "]
         assert following
         out = ""
         for words in following:
-            status, more, err = run(capsys, *words[1:])
+            status, more, err = run(*words[1:])
             assert (status, err) == (0, ""), words
             out += more
-    argv = ["add", "m.json", "asymmetric_viscous", inputs / "a.txt", "--out", "better.json"]
-    assert run(capsys, *argv)[0] == 0
+    argv = ["add", "m.json", "asymmetric_viscous", slide / "a.txt", "--out", "better.json"]
+    assert run(*argv)[0] == 0
     assert load_model("better.json").mapping == load_model("m.json").mapping
-    assert run(capsys, "add", "better.json", "undo", inputs / "a.txt", "--out", "u.json")[0] == 0
-    assert run(capsys, "compare", "u.json", inputs / "b.parquet")[0] == 0  # our own names serve
+    assert run("add", "better.json", "undo", slide / "a.txt", "--out", "u.json")[0] == 0
+    assert run("compare", "u.json", slide / "b.parquet")[0] == 0  # our own names serve
 
 
 LOG = """# mine
@@ -136,18 +112,18 @@ time = "t"
 """
 
 
-def test_the_guess_is_written_into_the_robot_file(inputs, tmp_path, capsys, monkeypatch):
+def test_the_guess_is_written_into_the_robot_file(slide, tmp_path, run, monkeypatch):
     monkeypatch.chdir(tmp_path)
     before = builtin_text("emps").replace("[drive_gains]", "[x]").split("[x]")[0] + LOG
     (tmp_path / "emps.toml").write_text(before)
-    argv = ["log", inputs / "a.txt", "--robot", "emps.toml", "--write"]
-    status, out, err = run(capsys, *argv)
+    argv = ["log", slide / "a.txt", "--robot", "emps.toml", "--write"]
+    status, out, err = run(*argv)
     assert (status, err) == (0, "")
     assert "written: [log] in emps.toml in place of its own" in out
     after = (tmp_path / "emps.toml").read_text()
     assert after.startswith(before.partition("[log]")[0]) and "waist" not in after
     assert robot_from_text(after, "emps.toml").drive_gains == {"1": 2.0}
-    assert run(capsys, "fit", "emps.toml", inputs / "a.txt", "--out", "m.json")[0] == 0
+    assert run("fit", "emps.toml", slide / "a.txt", "--out", "m.json")[0] == 0
     assert load_model("m.json").mapping == {}
 
 
@@ -159,32 +135,32 @@ WRITES = [
 
 
 @pytest.mark.parametrize(("words", "line"), WRITES)
-def test_what_cannot_be_written_into_is_one_line(inputs, capsys, words, line):
-    status, _, err = run(capsys, *[word.format(a=inputs / "a.txt") for word in words])
+def test_what_cannot_be_written_into_is_one_line(slide, run, words, line):
+    status, _, err = run(*[word.format(a=slide / "a.txt") for word in words])
     assert status == 1 and line in err and err.count("\n") == 1
 
 
-def test_options_stand_in_the_robot_file(inputs, tmp_path, capsys, monkeypatch):
+def test_options_stand_in_the_robot_file(slide, tmp_path, run, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = builtin_text("emps") + '\n[fit]\nmethod = "ordinary"\ncutoff = 40\ndecimate = 7\n'
     text += '[diagnose]\nwithout = ["asymmetric_viscous", "spring@1"]\n'
     (tmp_path / "emps.toml").write_text(text)
-    log = inputs / "a.parquet"
-    _, out, err = run(capsys, "fit", "emps.toml", log, "--out", "m.json")
+    log = slide / "a.parquet"
+    _, out, err = run("fit", "emps.toml", log, "--out", "m.json")
     said = 'by [fit] of the robot file: method = "ordinary", cutoff = 40, decimate = 7'
     assert said in out + err
     model = load_model("m.json")
     assert model.fit.method == "ordinary"
     assert (model.processing.position_cutoff, model.processing.decimation) == (40, 7)
-    run(capsys, "fit", "emps.toml", log, "--out", "n.json", "--cutoff", "60", "--method=weighted")
+    run("fit", "emps.toml", log, "--out", "n.json", "--cutoff", "60", "--method=weighted")
     model = load_model("n.json")
     assert (model.fit.method, model.processing.position_cutoff) == ("weighted", 60)
     assert model.processing.decimation == 7
     argv = ["fit", "emps", log, "--out", "p.json", "--method", "ordinary", "--cutoff", "40",
             "--decimate", "7"]  # fmt: skip
-    run(capsys, *argv)
+    run(*argv)
     assert values(tmp_path / "m.json") == pytest.approx(values(tmp_path / "p.json"), rel=1e-12)
-    _, out, err = run(capsys, "diagnose", "m.json", log, "--json", "d.json")
+    _, out, err = run("diagnose", "m.json", log, "--json", "d.json")
     assert "by [diagnose] of the robot file" in out + err
     assert "asymmetric_viscous" not in json.dumps(
         json.loads((tmp_path / "d.json").read_text())["effects"]
@@ -217,18 +193,12 @@ def test_a_mistake_in_these_tables_is_one_line(text, line):
     assert "\n" not in str(told.value)
 
 
-def test_words_of_a_mapping_are_told(case):
+def test_what_a_guess_did_not_find_is_not_sent_to_guess_again(case, tmp_path, monkeypatch, run):
+    monkeypatch.chdir(tmp_path)
     with pytest.raises(DataError, match=r"mapping automatic: expected .*, or auto"):
         read_logs(case.compiled, [], ["automatic"])
-    assert load("emps").fit == {}
-
-
-def test_what_a_guess_did_not_find_is_not_sent_to_guess_again(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
     rows = "".join(f"{k / 100:.2f};1;2;3;4\n" for k in range(60))
     (tmp_path / "log.csv").write_text(f"zeit;Drehung_Ist A;Drehung_Ist B;tauA;tauB\n{rows}")
     words = ["fit", "two-link", "log.csv", "--out", "model.json"]
-    assert main(words) == 1
-    assert "or let it be guessed, --map auto" in capsys.readouterr().err
-    assert main([*words, "--map", "auto"]) == 1
-    assert "say which it is, --map q1=COLUMN, or add it" in capsys.readouterr().err
+    assert "or let it be guessed, --map auto" in run(*words)[2]
+    assert "say which it is, --map q1=COLUMN, or add it" in run(*words, "--map", "auto")[2]

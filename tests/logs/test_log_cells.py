@@ -12,6 +12,7 @@ from modeler.core.errors import DataError
 from modeler.logs.blocks import blocks_of
 from modeler.logs.columns import Wanted
 from modeler.logs.guess import role_of
+from modeler.logs.mapping import map_from_words
 from modeler.logs.readers import read_columns
 from modeler.observation.read import source_of
 from tests.logs.test_log_clocks import csv
@@ -20,9 +21,9 @@ from tests.logs.writers import JOINTS, ORDERS, joined
 NAMES = "names=1:waist,2:shoulder,3:elbow"
 
 
-def listed(case, show):
-    q, tau = joined(case.table, "q"), joined(case.table, "tau")
-    rows = zip(case.table["time"].tolist(), q, tau, strict=True)
+def listed(table, show):
+    q, tau = joined(table, "q"), joined(table, "tau")
+    rows = zip(table["time"].tolist(), q, tau, strict=True)
     return "timestamp,joint_positions,joint_torques\n" + "".join(
         f"{t!r},{show(a)},{show(b)}\n" for t, a, b in rows
     )
@@ -38,26 +39,14 @@ SHOWN = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    "how",
-    [
-        *("python", "numpy over lines"),
-        *(
-            pytest.param(how, marks=pytest.mark.rotating)
-            for how in ("json", "numpy", "tuple", "array")
-        ),
-    ],
-)
-def test_lists_in_cells_are_columns(how, case, tmp_path):
+@pytest.mark.parametrize("how", SHOWN)
+def test_lists_in_cells_are_columns(how, short, tmp_path):
     path = tmp_path / "run.csv"
-    path.write_text(listed(case, SHOWN[how]))
+    path.write_text(listed(short.table, SHOWN[how]))
     mapping = ["time=timestamp", "q<j>=joint_positions[{n}]", "tau<j>=joint_torques[{n}]"]
-    (log,) = read_logs(case.compiled, [path], mapping)
-    assert log.q == pytest.approx(joined(case.table, "q"), abs=1e-7)
-    assert log.tau == pytest.approx(joined(case.table, "tau"), abs=1e-6)
+    short.check(path, mapping, 1e-7)
     assert blocks_of(path) is None  # a cell may go over several lines
-    (log,) = read_logs(case.compiled, [path], ["auto"])
-    assert log.tau == pytest.approx(joined(case.table, "tau"), abs=1e-6)
+    short.check(path, ["auto"], 1e-7)
 
 
 def test_names_and_units_in_brackets_are_no_lists(tmp_path):
@@ -67,45 +56,33 @@ def test_names_and_units_in_brackets_are_no_lists(tmp_path):
     assert [name for name, _ in found.columns] == ["t [s]", "q[1]", "q[2]"]
 
 
-def test_structs_are_columns(case, tmp_path):
-    q, tau = joined(case.table, "q").tolist(), joined(case.table, "tau").tolist()
+def test_structs_are_columns(short, tmp_path):
+    q, tau = joined(short.table, "q").tolist(), joined(short.table, "tau").tolist()
     rows = [{"q": a, "effort": {"tau": b}} for a, b in zip(q, tau, strict=True)]
     path = tmp_path / "run.parquet"
-    pq.write_table(pa.table({"t": case.table["time"], "state": rows}), path)
-    mapping = ["time=t", "q<j>=state.q[{n}]", "tau<j>=state.effort.tau[{n}]"]
-    assert case.fitted(path, mapping) == pytest.approx(case.beta, rel=1e-6)
-    assert case.fitted(path, ["auto"]) == pytest.approx(case.beta, rel=1e-6)
+    pq.write_table(pa.table({"t": short.table["time"], "state": rows}), path)
+    short.check(path, ["time=t", "q<j>=state.q[{n}]", "tau<j>=state.effort.tau[{n}]"])
+    short.check(path, ["auto"])
 
 
-def shuffled(case):
-    """Values and names in an order that changes from row to row."""
-    order = np.array([ORDERS[k % 2] for k in range(len(case.table["time"]))])
+def test_names_in_columns_say_which_joint_is_which(short, tmp_path):
+    """Their order changes from row to row: as `rostopic echo -p` writes them, and as lists."""
+    order = np.array([ORDERS[k % 2] for k in range(len(short.table["time"]))])
     names = np.array(JOINTS)[order]
-    return names, *(np.take_along_axis(joined(case.table, own), order, 1) for own in ("q", "tau"))
-
-
-def test_names_in_columns_say_which_joint_is_which(case, tmp_path):
-    """As `rostopic echo -p` writes them, and as lists in Parquet."""
-    names, q, tau = shuffled(case)
-    columns = {"%time": (case.table["time"] * 1e9).astype(int) + 10**18 + 10**17}
+    q, tau = (np.take_along_axis(joined(short.table, own), order, 1) for own in ("q", "tau"))
+    columns = {"%time": (short.table["time"] * 1e9).round().astype(int) + 10**18 + 10**17}
     for field, values in (("name", names), ("position", q), ("effort", tau)):
         columns |= {f"field.{field}{k}": values[:, k] for k in range(3)}
-    rows = zip(*(values.tolist() for values in columns.values()), strict=True)
-    lines = [",".join(columns), *(",".join(map(str, row)) for row in rows)]
-    path = tmp_path / "run.csv"
-    path.write_text("\n".join(lines) + "\n")
-    assert case.fitted(path, ["auto", NAMES]) == pytest.approx(case.beta, rel=1e-5)
-    table = {"time": case.table["time"], "name": names.tolist(), "position": q.tolist(),
+    short.check(csv(tmp_path / "run.csv", columns, show=str), ["auto", NAMES])
+    table = {"time": short.table["time"], "name": names.tolist(), "position": q.tolist(),
              "effort": tau.tolist()}  # fmt: skip
     other = tmp_path / "run.parquet"
-    pq.write_table(pa.table(table), other, row_group_size=501)  # blocks begin with either order
+    pq.write_table(pa.table(table), other, row_group_size=81)  # blocks begin with either order
     mapping = ["q<j>=position[{name}]", "tau<j>=effort[{name}]", NAMES]
-    assert case.fitted(other, mapping) == pytest.approx(case.beta, rel=1e-6)
-    from modeler.logs.mapping import map_from_words
-
-    source = source_of(other, case.compiled.spec, map_from_words(mapping))
-    whole = np.concatenate([log.q for log in source.blocks(501)])
-    assert whole == pytest.approx(joined(case.table, "q"))
+    short.check(other, mapping)
+    source = source_of(other, short.compiled.spec, map_from_words(mapping))
+    whole = np.concatenate([log.q for log in source.blocks(81)])
+    assert whole == pytest.approx(joined(short.table, "q"))
 
 
 COMMANDED = [
@@ -128,61 +105,53 @@ def test_what_is_commanded_is_not_measured():
     assert role_of("state.error.positions[1]") == ""
 
 
-def test_commanded_columns_beside_measured_ones(case, tmp_path):
+def test_commanded_columns_beside_measured_ones(short, tmp_path):
     """As drives of an arm call them; units in names do not make them measured."""
-    table = {"Time": case.table["time"]}
+    run, table = short.table, {"Time": short.table["time"]}
     for k in (1, 2, 3):
-        table |= {f"Position{k}": case.table[f"q{k}"], f"TorqueCur{k}": case.table[f"tau{k}"] * 7.0,
-                  f"Torque{k}": case.table[f"tau{k}"], f"Cur{k}": case.table[f"tau{k}"] * 0.1,
-                  f"PositionCmptd{k}": case.table[f"q{k}"] + 0.1,
-                  f"AccCmptd{k}": 0.0 * case.table["time"],
-                  f"vel_cmd_{k} [deg/s]": case.table[f"q{k}"],
-                  f"error_{k} [deg]": case.table[f"q{k}"]}  # fmt: skip
+        table |= {f"Position{k}": run[f"q{k}"], f"TorqueCur{k}": run[f"tau{k}"] * 7.0,
+                  f"Torque{k}": run[f"tau{k}"], f"Cur{k}": run[f"tau{k}"] * 0.1,
+                  f"PositionCmptd{k}": run[f"q{k}"] + 0.1, f"AccCmptd{k}": 0.0 * run["time"],
+                  f"vel_cmd_{k} [deg/s]": run[f"q{k}"],
+                  f"error_{k} [deg]": run[f"q{k}"]}  # fmt: skip
     path = csv(tmp_path / "run.csv", table)
-    (log,) = read_logs(case.compiled, [path], ["auto"])
+    log = short.check(path, ["auto"])
     assert log.qdd is None and log.qd is None
     assert log.commanded == pytest.approx(log.q + 0.1)
-    assert log.extra["current1"] == pytest.approx(0.1 * case.table["tau1"])
-    assert case.fitted(path, ["auto"]) == pytest.approx(case.beta, rel=1e-6)
+    assert log.extra["current1"] == pytest.approx(0.1 * run["tau1"])
 
 
-def episodes(path, case, lengths, head="data/demo_{}/obs/", times=False):
+def episodes(path, table, lengths, head="data/demo_{}/obs/", times=False):
     h5py = pytest.importorskip("h5py", reason="NOT CHECKED: needs h5py; pip install h5py")
     ends = np.cumsum([0, *lengths])
     with h5py.File(path, "w") as file:
         for k, (a, b) in enumerate(pairwise(ends)):
             group = head.format(k + 8)  # 8, 9, 10: sorted as numbers
-            file[f"{group}joint_pos"] = np.rad2deg(joined(case.table, "q")[a:b])
+            file[f"{group}joint_pos"] = np.rad2deg(joined(table, "q")[a:b])
             file[f"{group}joint_pos"].attrs["units"] = "deg"
-            file[f"{group}joint_effort"] = joined(case.table, "tau")[a:b]
+            file[f"{group}joint_effort"] = joined(table, "tau")[a:b]
             if times:
-                file[f"{group}time"] = case.table["time"][a:b] - case.table["time"][a]
+                file[f"{group}time"] = table["time"][a:b] - table["time"][a]
     return path
 
 
 @pytest.mark.parametrize("times", [False, True])
-def test_episodes_are_segments(times, case, tmp_path):
-    path = episodes(tmp_path / "run.hdf5", case, (600, 500, 700), times=times)
-    step = float(np.median(np.diff(case.table["time"])))
-    rate = [] if times else [f"rate={1.0 / step:g}"]
-    (log,) = read_logs(case.compiled, [path], ["auto", *rate])
-    assert log.q == pytest.approx(joined(case.table, "q")[:1800])
-    assert np.flatnonzero(np.diff(log.segment)).tolist() == [599, 1099]
-    assert log.time == pytest.approx(case.table["time"][:1800] - case.table["time"][0])
+def test_episodes_are_segments(times, short, tmp_path):
+    path = episodes(tmp_path / "run.hdf5", short.table, (130, 100, 170), times=times)
+    rate = [] if times else ["rate=1000"]
+    log = short.check(path, ["auto", *rate])
+    assert np.flatnonzero(np.diff(log.segment)).tolist() == [129, 229]
     assert any(
         "3 episodes, data/demo_8 to 10, one after the other as segments" in t for t in log.told
     )
-    (log,) = read_logs(case.compiled, [path], ["auto", *rate, "topic=data/demo_9"])
-    assert log.q == pytest.approx(joined(case.table, "q")[600:1100])
+    (log,) = read_logs(short.compiled, [path], ["auto", *rate, "topic=data/demo_9"])
+    assert log.q == pytest.approx(joined(short.table, "q")[130:230])
     if not times:
         with pytest.raises(DataError, match=r"no column time; .*mapping rate=HZ"):
-            read_logs(case.compiled, [path], ["auto"])
-
-
-def test_groups_of_joints_are_no_episodes(case, tmp_path):
-    path = episodes(tmp_path / "a.hdf5", case, (300, 300), "joint_{}/")
-    names = [name for name, _ in read_columns(path, Wanted()).columns]
-    assert "joint_8/joint_pos[1]" in names and "joint_9/joint_pos[1]" in names
+            read_logs(short.compiled, [path], ["auto"])
+        path = episodes(tmp_path / "a.hdf5", short.table, (200, 200), "joint_{}/")
+        names = [name for name, _ in read_columns(path, Wanted()).columns]  # which are no episodes
+        assert "joint_8/joint_pos[1]" in names and "joint_9/joint_pos[1]" in names
 
 
 def test_files_of_other_rates_join_by_time(case, tmp_path):

@@ -4,64 +4,19 @@ import json
 import re
 
 import numpy as np
-import pyarrow.parquet as pq
 import pytest
-import scipy.io
 from scipy.signal import butter, sosfilt
 
 from modeler.api import add, compare, undo
-from modeler.cli import main
 from modeler.core.builtin import builtin_text
 from modeler.estimation.model_file import load_model
-from tests.logs.writers import parquet
-
-LOG = """
-[log]
-time = "run.t [ms]"
-"q<j>" = {column = "run.x", unit = "mm", sign = -1}
-"tau<j>" = "run.F [kN]"
-"""
-
-
-def run(capsys, *argv):
-    status = main([str(a) for a in argv])
-    out, err = capsys.readouterr()
-    return status, out, err
-
-
-@pytest.fixture(scope="module")
-def inputs(tmp_path_factory):
-    """Two runs as MAT files and their twins, a robot file with [log], and both models."""
-    folder = tmp_path_factory.mktemp("commands")
-    (folder / "emps.toml").write_text(builtin_text("emps") + LOG)
-    for name, seed in (("a", "1"), ("b", "2")):
-        out = folder / f"{name}.parquet"
-        argv = ["simulate", "emps", "--duration", "8", "--noise", "0.5", "--seed", seed,
-                "--out", str(out)]  # fmt: skip
-        assert main(argv) == 0
-        table = {n: c.to_numpy() for n, c in zip(*_columns(out), strict=True)}
-        other = {"t": table["time"] * 1e3, "x": -1e3 * table["q1"], "F": table["tau1"] * 1e-3}
-        scipy.io.savemat(folder / f"{name}.mat", {"run": other})
-        twin = {"time": other["t"] * 1e-3, "q1": -1.0 * other["x"] * 1e-3, "tau1": other["F"] * 1e3}
-        parquet(out, twin)
-    for robot, log, out in (("emps", "a.parquet", "p"), (folder / "emps.toml", "a.mat", "m")):
-        argv = ["fit", robot, folder / log, "--out", folder / f"{out}.json"]
-        assert main([*map(str, argv)]) == 0
-    return folder
-
-
-def _columns(path):
-    table = pq.read_table(path)
-    return table.column_names, table.columns
+from tests.logs.conftest import MAT
+from tests.rotation import rotating
 
 
 def values(place):
     fit = json.loads(place.read_text())["fit"]
     return np.array([p["value"] for p in fit["parameters"]])
-
-
-def test_the_model_is_that_of_the_twin(inputs):
-    assert values(inputs / "m.json") == pytest.approx(values(inputs / "p.json"), rel=1e-12)
 
 
 COMMANDS = [
@@ -72,13 +27,13 @@ COMMANDS = [
 
 
 @pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words[0])
-def test_the_model_file_carries_the_names(inputs, tmp_path, capsys, words):
+def test_the_model_file_carries_the_names(slide, tmp_path, run, words):
     found = []
     for model, ending in (("m.json", "mat"), ("p.json", "parquet")):
-        places = {"model": inputs / model, "a": inputs / f"a.{ending}", "b": inputs / f"b.{ending}",
+        places = {"model": slide / model, "a": slide / f"a.{ending}", "b": slide / f"b.{ending}",
                   "out": tmp_path / "out.json"}  # fmt: skip
         argv = [word.format(**places) for word in words]
-        status, _, err = run(capsys, *argv, "--json", tmp_path / "r.json")
+        status, _, err = run(*argv, "--json", tmp_path / "r.json")
         assert (status, err) == (0, "")
         found.append(numbers(json.loads((tmp_path / "r.json").read_text())))
     assert found[0] == pytest.approx(found[1], rel=1e-6, abs=1e-9)
@@ -93,35 +48,34 @@ def numbers(value):
     return [float(value)] if isinstance(value, int | float) else []
 
 
-def test_from_python_too(inputs):
-    model = load_model(inputs / "p.json")
+def test_from_python_too(slide):
+    assert values(slide / "m.json") == pytest.approx(values(slide / "p.json"), rel=1e-12)
+    model = load_model(slide / "p.json")
     mapping = {"time": "run.t [ms]", "q1": {"column": "run.x", "unit": "mm", "sign": -1},
                "tau1": "run.F [kN]"}  # fmt: skip
-    found = compare(model, [inputs / "b.mat"], mapping).to_dict()
-    twin = compare(model, [inputs / "b.parquet"]).to_dict()
+    found = compare(model, [slide / "b.mat"], mapping).to_dict()
+    twin = compare(model, [slide / "b.parquet"]).to_dict()
     assert found["relative_error"] == pytest.approx(twin["relative_error"], rel=1e-9)
-    better = add(model, "asymmetric_viscous", [inputs / "a.mat"], mapping=mapping)
-    assert undo(better, [inputs / "a.mat"], mapping).beta == pytest.approx(model.beta, rel=1e-9)
+    better = add(model, "asymmetric_viscous", [slide / "a.mat"], mapping=mapping)
+    assert undo(better, [slide / "a.mat"], mapping).beta == pytest.approx(model.beta, rel=1e-9)
 
 
 MAP = ["--map", "time=run.t:ms", "--map", "q1=-run.x:mm", "--map", "tau<j>=run.F:kN"]
 
 
-def test_map_does_what_log_does(inputs, tmp_path, capsys):
-    status, _, err = run(
-        capsys, "fit", "emps", inputs / "a.mat", *MAP, "--out", tmp_path / "f.json"
-    )
+def test_map_does_what_log_does(slide, tmp_path, run):
+    status, _, err = run("fit", "emps", slide / "a.mat", *MAP, "--out", tmp_path / "f.json")
     assert (status, err) == (0, "")
-    assert values(tmp_path / "f.json") == pytest.approx(values(inputs / "p.json"), rel=1e-12)
-    argv = ["fit", "emps", inputs / "a.mat", "--holdout", inputs / "b.mat", *MAP]
-    status, _, err = run(capsys, *argv, "--method", "weighted,ordinary")
+    assert values(tmp_path / "f.json") == pytest.approx(values(slide / "p.json"), rel=1e-12)
+    argv = ["fit", "emps", slide / "a.mat", "--holdout", slide / "b.mat", *MAP]
+    status, _, err = run(*argv, "--method", "weighted,ordinary")
     assert (status, err) == (0, "")
 
 
-def test_a_mistake_in_log_is_one_line(inputs, tmp_path, capsys):
+def test_a_mistake_in_log_is_one_line(slide, tmp_path, run):
     bad = tmp_path / "bad.toml"
-    bad.write_text(builtin_text("emps") + LOG.replace("mm", "deg"))
-    status, out, err = run(capsys, "fit", bad, inputs / "a.mat", "--out", tmp_path / "f.json")
+    bad.write_text(builtin_text("emps") + MAT.replace("mm", "deg"))
+    status, out, err = run("fit", bad, slide / "a.mat", "--out", tmp_path / "f.json")
     assert (status, out) == (1, "")
     assert (
         'emps: [log], q<j>: got unit "deg", which is an angle; q1 is a position of joint 1, ' in err
@@ -129,14 +83,14 @@ def test_a_mistake_in_log_is_one_line(inputs, tmp_path, capsys):
     assert "which is prismatic: expected a unit such as mm, m, in" in err and err.count("\n") == 1
 
 
-def test_an_output_is_not_named_like_a_log(inputs, tmp_path, capsys):
+def test_an_output_is_not_named_like_a_log(slide, run):
     for ending in ("mat", "h5", "mcap"):
-        status, _, err = run(capsys, "fit", "emps", inputs / "a.mat", "--out", f"x.{ending}")
+        status, _, err = run("fit", "emps", slide / "a.mat", "--out", f"x.{ending}")
         assert status == 1 and "this is a log; expected a name of its own" in err
 
 
-@pytest.mark.parametrize("seed", [11, 12])
-def test_motion_that_a_controller_leaves_is_no_noise(seed, tmp_path, capsys):
+@pytest.mark.parametrize("seed", [11, *rotating(12)])
+def test_motion_that_a_controller_leaves_is_no_noise(seed, tmp_path, run):
     """It may be flat for octaves, and falls faster than the drift of a sensor then."""
     draw, t = np.random.default_rng(seed), np.arange(0.0, 20.0, 0.002)
     tones = 2.0 * np.pi * np.array([0.2, 0.35, 0.6])
@@ -145,6 +99,5 @@ def test_motion_that_a_controller_leaves_is_no_noise(seed, tmp_path, capsys):
     q += 3e-3 * sosfilt(low, draw.normal(size=t.size)) + 2e-6 * draw.normal(size=t.size)
     rows = (f"{a:.3f},{b:.9f},{np.sin(a):.4f}\n" for a, b in zip(t, q, strict=True))
     (tmp_path / "log.csv").write_text("time,q1,tau1\n" + "".join(rows))
-    assert main(["log", str(tmp_path / "log.csv")]) == 0
-    [size] = re.findall(r"joint q1 ([\d.]+) mrad above \d+ Hz", capsys.readouterr().out)
+    [size] = re.findall(r"joint q1 ([\d.]+) mrad above \d+ Hz", run("log", tmp_path / "log.csv")[1])
     assert float(size) == pytest.approx(0.002, rel=0.2)

@@ -1,4 +1,6 @@
-"""Every format gives the fit of its Parquet twin, whatever its names and units are."""
+"""Every format gives the numbers of the run, whatever its names and units are."""
+
+import json
 
 import numpy as np
 import pytest
@@ -22,76 +24,66 @@ FORMATS = {
 }
 
 
-@pytest.fixture(params=FORMATS)
-def twin(request, case, tmp_path):
-    """A file of each format, and its mapping."""
-    write, name, mapping = FORMATS[request.param]
-    return write(tmp_path / name, case.table), mapping
+@pytest.mark.parametrize("name", FORMATS)
+def test_every_format_gives_the_numbers_of_the_run_and_the_rows_of_a_window(name, short, tmp_path):
+    write, file, mapping = FORMATS[name]
+    path = write(tmp_path / file, short.table)
+    short.check(path, mapping, 1e-14)
+    (log,) = read_logs(short.compiled, [f"{path}@0.0995:0.3005"], mapping)
+    rows = (short.table["time"] > 0.0999) & (short.table["time"] < 0.3001)
+    assert log.q[:, 2] == pytest.approx(short.table["q3"][rows], rel=1e-14)
 
 
-def test_every_format_gives_the_fit_of_its_twin_and_the_same_rows_of_a_window(case, twin):
-    path, mapping = twin
-    assert case.fitted(path, mapping) == pytest.approx(case.beta, rel=1e-12, abs=1e-12)
-    (log,) = read_logs(case.compiled, [f"{path}@1:2.5"], mapping)
-    rows = (case.table["time"] > 0.9999) & (case.table["time"] < 2.4999)
-    assert log.rows == rows.sum()
-    assert log.q[:, 2] == pytest.approx(case.table["q3"][rows], rel=1e-14)
-
-
-def test_an_array_may_be_chosen_by_its_group(case, tmp_path):
-    path = writers.mat(tmp_path / "run.mat", case.table)
-    (log,) = read_logs(case.compiled, [path], {**MAPPING, "topic": "data"})
-    assert log.rows == len(case.table["time"])
+def test_an_array_may_be_chosen_by_its_group_and_what_is_no_column_is_told(short, tmp_path):
+    path = writers.mat(tmp_path / "run.mat", short.table)
+    short.check(path, {**MAPPING, "topic": "data"})
     with pytest.raises(DataError, match="topic other: no group of that name; the groups are data"):
-        read_logs(case.compiled, [path], {**MAPPING, "topic": "other"})
-
-
-def test_what_is_no_column_is_told(case, tmp_path):
-    path = writers.mat(tmp_path / "run.mat", case.table)
-    (log,) = read_logs(case.compiled, [path], under("data.", MAPPING))
+        read_logs(short.compiled, [path], {**MAPPING, "topic": "other"})
+    log = short.check(path, under("data.", MAPPING))
     assert "pose (4 x 4) left out: no columns of" in " ".join(log.told)
 
 
-def test_units_that_a_file_states_are_used_and_told(case, tmp_path):
-    path = writers.hdf5(tmp_path / "run.h5", case.table)
-    mapping = under("arm/", MAPPING) | {"q<j>": "arm/pos[{n}]"}
-    (log,) = read_logs(case.compiled, [path], mapping)
-    assert log.q[:, 0] == pytest.approx(case.table["q1"], rel=1e-14)
+def test_units_that_a_file_states_are_used_and_told(short, tmp_path):
+    path = writers.hdf5(tmp_path / "run.h5", short.table)
+    log = short.check(path, under("arm/", MAPPING) | {"q<j>": "arm/pos[{n}]"}, 1e-14)
     assert "by the units that the file states: q1 in deg, q3 in deg" in log.told
 
 
-def test_other_topics_hold_their_last_message(case, tmp_path):
-    path = writers.mcap(tmp_path / "run.mcap", case.table)
+def test_other_topics_hold_their_last_message(short, tmp_path):
+    path = writers.mcap(tmp_path / "run.mcap", short.table)
     mapping = ROS | {"temperature1": "motor/heat.temperature"}
-    table = LogTable(path, map_from_table(mapping, "mapping"), case.compiled.spec.joints)
+    table = LogTable(path, map_from_table(mapping, "mapping"), short.compiled.spec.joints)
     heat = table.measured("temperature1")
     assert np.isnan(heat[:50]).all()
     assert heat[50:150] == pytest.approx(np.full(100, 70.0))  # row 50 has its stamp
-    (log,) = read_logs(case.compiled, [path], mapping)
+    log = short.check(path, mapping)
     joined = [line for line in log.told if line.startswith("/motor/heat joined to that clock")]
     assert len(joined) == 1 and "at most 0.099 s old" in joined[0]
     assert any(line.startswith("rows are the messages of /joint_states") for line in log.told)
     assert log.notes == ()
 
 
-def test_of_several_topics_one_is_chosen(case, tmp_path):
-    path = writers.bag(tmp_path / "run", case.table, extra_topic="/other/joint_states")
+def test_of_several_topics_one_is_chosen(short, tmp_path, run):
+    path = writers.bag(tmp_path / "run", short.table, extra_topic="/other/joint_states")
     with pytest.raises(DataError, match=r"2 topics may hold the motion: .*mapping topic=/"):
-        read_logs(case.compiled, [path], ROS)
-    (log,) = read_logs(case.compiled, [path], {**ROS, "topic": "/joint_states"})
-    assert log.tau[:, 0] == pytest.approx(case.table["tau1"], rel=1e-14)
+        read_logs(short.compiled, [path], ROS)
+    short.check(path, {**ROS, "topic": "/joint_states"}, 1e-14)
     with pytest.raises(DataError, match="topic /x: no messages of it; the topics are /"):
-        read_logs(case.compiled, [path], {**ROS, "topic": "/x"})
+        read_logs(short.compiled, [path], {**ROS, "topic": "/x"})
+    status, out, _ = run("log", path, "--json", tmp_path / "log.json")  # which chooses none
+    raw = json.loads((tmp_path / "log.json").read_text())
+    assert status == 0
+    assert [s["name"] for s in raw["streams"]] == ["/joint_states", "/other/joint_states"]
+    assert [s["clock"] for s in raw["streams"]] == [True, False]
+    assert "/joint_states  sensor_msgs/msg/JointState, 400 messages, the clock" in out
+    assert '"q<j>" = "joint_states.position[{name}]"' in out
+    assert 'names = {1 = "waist", 2 = "shoulder", 3 = "elbow"}' in out
 
 
-def test_messages_of_some_joints_do_not_break_the_others(case, tmp_path):
+def test_messages_of_some_joints_do_not_break_the_others(short, tmp_path):
     """A gripper often speaks on the topic of its arm."""
-    path = tmp_path / "run"
-    writers.bag(path, case.table, gripper=True)
-    (log,) = read_logs(case.compiled, [path], ROS)
-    assert log.rows == len(case.table["time"]) and not log.missing
-    assert log.q[:, 1] == pytest.approx(case.table["q2"], rel=1e-14)
-    assert "joint_states.position[finger]" in log.extra
+    log = short.check(writers.bag(tmp_path / "run", short.table, gripper=True), ROS, 1e-14)
+    assert not log.missing and "joint_states.position[finger]" in log.extra
     assert np.isfinite(log.extra["joint_states.position[finger]"][20:]).all()
 
 
@@ -109,16 +101,16 @@ def test_objects_of_matlab_are_told(tmp_path, monkeypatch):
     assert table.notes[0].startswith("ts left out: an object that only MATLAB reads; of a times")
 
 
-def test_structure_with_time_of_simulink(case, tmp_path):
+def test_structure_with_time_of_simulink(short, tmp_path):
     import scipy.io
 
-    signals = {"values": case.table.other["pos"], "dimensions": 3.0, "label": "q"}
+    signals = {"values": short.table.other["pos"], "dimensions": 3.0, "label": "q"}
     scipy.io.savemat(
-        tmp_path / "run.mat", {"out": {"time": case.table["time"], "signals": signals}}
+        tmp_path / "run.mat", {"out": {"time": short.table["time"], "signals": signals}}
     )
     table = LogTable(tmp_path / "run.mat")
-    assert table.numbers("out.signals.values[2]") == pytest.approx(case.table.other["pos"][:, 1])
-    assert table.numbers("out.time") == pytest.approx(case.table["time"])
+    assert table.numbers("out.signals.values[2]") == pytest.approx(short.table.other["pos"][:, 1])
+    assert table.numbers("out.time") == pytest.approx(short.table["time"])
 
 
 def test_units_that_are_not_understood_are_told(tmp_path):
