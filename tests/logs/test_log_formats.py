@@ -19,7 +19,7 @@ FORMATS = {
     "npz": (writers.npz, "run.npz", MAPPING),
     "mcap": (writers.mcap, "run.mcap", ROS),
     "bag": (writers.bag, "run", ROS),
-    "bag, mcap": (lambda path, table: writers.bag(path, table, "mcap"), "run", ROS),
+    "bag, mcap": (lambda path, table: writers.bag(path, table, "MCAP"), "run", ROS),
     "bag 1": (writers.bag1, "run.bag", ROS),
 }
 

@@ -1,4 +1,4 @@
-"""`modeler log`: what is told of a log that somebody has spoilt in a known way."""
+"""`modeler log`: what is told of a log that somebody has spoilt in a known way; no doubt else."""
 
 import json
 import tomllib
@@ -6,41 +6,58 @@ import tomllib
 import numpy as np
 import pytest
 
-from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.logs.inspect import inspect_log
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LogMap, map_from_table
 from modeler.report.log import log_pictures
 from modeler.simulation import SimulationSettings
-from tests.logs import writers
 from tests.logs.writers import parquet
 
 
 @pytest.fixture
-def table(case):
-    """Positions and speeds in degrees, torques, a current in mA."""
-    t = case.table["time"]
-    found = {"time": t}
+def plain(case):
+    """Time, positions, their speeds and torques in our names and SI units."""
+    found = {"time": case.table["time"]}
     for j in "123":
-        found[f"pos_{j}"] = 4.0 * np.rad2deg(case.table[f"q{j}"])
-    for j in "123":
-        found[f"vel_{j}"] = np.gradient(found[f"pos_{j}"], t)
-    for j in "123":
-        found[f"tau_{j}"] = case.table[f"tau{j}"]
+        found[f"q{j}"] = case.table[f"q{j}"]
+        found[f"qd{j}"] = np.gradient(found[f"q{j}"], found["time"])
+        found[f"tau{j}"] = case.table[f"tau{j}"]
     return found
 
 
-def seen(capsys, tmp_path, table, *words):
-    path = parquet(tmp_path / "run.parquet", table)
-    status = main(["log", str(path), *map(str, words), "--json", str(tmp_path / "log.json")])
-    out, err = capsys.readouterr()
-    assert (status, err) == (0, "")
-    return json.loads((tmp_path / "log.json").read_text()), out
+@pytest.fixture
+def table(plain):
+    """Four times as far: positions and speeds in degrees, torques."""
+    found = {"time": plain["time"]}
+    for own, name, factor in (("q", "pos", 4.0), ("qd", "vel", 4.0), ("tau", "tau", None)):
+        for j in "123":
+            values = plain[f"{own}{j}"]
+            found[f"{name}_{j}"] = values.copy() if factor is None else factor * np.rad2deg(values)
+    return found
 
 
-def test_what_is_in_a_log(capsys, tmp_path, table):
-    raw, out = seen(capsys, tmp_path, table)
+@pytest.fixture
+def inspected(tmp_path):
+    """What is found in a table."""
+    return lambda table: inspect_log(LogTable(parquet(tmp_path / "run.parquet", table)), LogMap())
+
+
+@pytest.fixture
+def told(run, tmp_path):
+    """What the command tells of a table: as JSON, and on stdout."""
+
+    def told(table, *words):
+        path = parquet(tmp_path / "run.parquet", table)
+        status, out, err = run("log", path, *words, "--json", tmp_path / "log.json")
+        assert (status, err) == (0, "")
+        return json.loads((tmp_path / "log.json").read_text()), out
+
+    return told
+
+
+def test_what_is_in_a_log_and_the_suggestion_serves_as_a_mapping(told, tmp_path, table):
+    raw, out = told(table)
     assert raw["log"] == "run.parquet" and raw["rows"] == len(table["time"])
     assert raw["clock"]["rate"] == pytest.approx(1000.0)
     assert raw["clock"]["duration"] == pytest.approx(2.499)
@@ -49,46 +66,42 @@ def test_what_is_in_a_log(capsys, tmp_path, table):
     assert first["low"] == pytest.approx(table["pos_1"].min())
     assert (first["unit"], first["guessed"]) == ("deg", True)
     assert "even, no gaps, no time twice" in out
+    assert raw["doubts"] == ["pos_* looks like deg, by its range; say so in [log] or with --map"]
     assert raw["suggested"].splitlines()[1:] == [
         '"q<j>" = "pos_{j} [deg]"  # by its range',
         '"qd<j>" = "vel_{j}"',
         '"tau<j>" = "tau_{j}"',
     ]
-
-
-def test_the_suggestion_serves_as_a_mapping(capsys, tmp_path, table):
-    raw, _ = seen(capsys, tmp_path, table)
     (tmp_path / "map.toml").write_text(raw["suggested"])
-    raw, _ = seen(capsys, tmp_path, table, "--map", tmp_path / "map.toml", "--robot", "demo-arm")
+    raw, _ = told(table, "--map", tmp_path / "map.toml", "--robot", "demo-arm")
     names = [channel["name"] for channel in raw["channels"]]
     assert "pos_2 (q2)" in names and "tau_3 (tau3)" in names
     assert raw["suggested"] == ""
 
 
-def doubts(capsys, tmp_path, table, *words):
-    return seen(capsys, tmp_path, table, *words)[0]["doubts"]
-
-
-def test_gaps_repeats_and_steps_back(capsys, tmp_path, table):
+def test_gaps_repeats_and_steps_back(inspected, table):
     kept = np.delete(np.arange(len(table["time"])), np.r_[100:103, 2000])
-    gone = {name: values[kept] for name, values in table.items()}
-    raw, _ = seen(capsys, tmp_path, gone)
-    assert (raw["clock"]["gaps"], raw["clock"]["lost"]) == (2, 4)
-    assert raw["clock"]["largest"] == pytest.approx(0.004)
-    assert raw["clock"]["at"] == pytest.approx(0.099)
+    clock = inspected({name: values[kept] for name, values in table.items()}).clock
+    assert (clock.gaps, clock.lost) == (2, 4)
+    assert (clock.largest, clock.at) == pytest.approx((0.004, 0.099))
     table["time"] = table["time"].copy()
     table["time"][50] = table["time"][49]
     table["time"][70:] -= 0.5
-    told = "\n".join(doubts(capsys, tmp_path, table))
-    assert "time goes back in 1 rows" in told and "time repeats itself in 1 rows" in told
+    doubts = "\n".join(inspected(table).doubts)
+    assert "time goes back in 1 rows" in doubts and "time repeats itself in 1 rows" in doubts
 
 
-def test_jitter(capsys, tmp_path, table):
-    rng = np.random.default_rng(1)
-    table["time"] = table["time"] + 1e-4 * rng.standard_normal(len(table["time"]))
-    raw, _ = seen(capsys, tmp_path, table)
-    assert raw["clock"]["jitter"] == pytest.approx(0.1 * np.sqrt(2.0), rel=0.1)
-    assert any("is uneven" in doubt for doubt in raw["doubts"])
+def test_jitter_and_a_clock_that_ticks(inspected, table, plain):
+    """Steps of 10 and 12 ms of a clock of 2 ms are as even as that clock can say."""
+    rng, n = np.random.default_rng(1), len(table["time"])
+    table["time"] = table["time"] + 1e-4 * rng.standard_normal(n)
+    found = inspected(table)
+    assert found.clock.jitter == pytest.approx(0.1 * np.sqrt(2.0), rel=0.1)
+    assert any("is uneven" in doubt for doubt in found.doubts)
+    plain["time"] = np.cumsum(np.where(np.arange(n) % 3 == 0, 0.012, 0.010))
+    found = inspected({k: v for k, v in plain.items() if not k.startswith("qd")})
+    assert found.doubts == () and found.clock.jitter > 0.05
+    assert found.clock.tick == pytest.approx(0.002)
 
 
 SPOILT = [
@@ -108,23 +121,18 @@ SPOILT = [
 
 
 @pytest.mark.parametrize(("name", "change", "words"), SPOILT)
-def test_doubts_by_what_was_spoilt(capsys, tmp_path, table, name, change, words):
-    before = doubts(capsys, tmp_path, table)
-    assert before == ["pos_* looks like deg, by its range; say so in [log] or with --map"]
+def test_doubts_by_what_was_spoilt(inspected, table, name, change, words):
     table[name] = change(table)
-    told = "\n".join(doubts(capsys, tmp_path, table))
-    assert words in told
+    assert words in "\n".join(inspected(table).doubts)
 
 
-def test_resolution_limits_and_missing_values(capsys, tmp_path, table):
+def test_resolution_limits_and_missing_values(inspected, table):
     step = 0.5
     table["pos_1"] = step * np.round(table["pos_1"] / step)
     top = np.quantile(table["tau_2"], 0.9)
     table["tau_2"] = np.minimum(table["tau_2"], top)
-    table["tau_3"] = table["tau_3"].copy()
     table["tau_3"][40:47] = np.nan
-    raw, _ = seen(capsys, tmp_path, table)
-    by = {channel["name"]: channel for channel in raw["channels"]}
+    by = {channel["name"]: channel for channel in inspected(table).to_json()["channels"]}
     assert by["pos_1"]["resolution"] == pytest.approx(step) and by["tau_1"]["resolution"] is None
     encoder = 4.0 * 360.0 / SimulationSettings().encoder_counts  # deg
     assert by["pos_2"]["resolution"] == pytest.approx(encoder, rel=1e-6)
@@ -133,56 +141,78 @@ def test_resolution_limits_and_missing_values(capsys, tmp_path, table):
     assert by["tau_3"]["missing"] == 7 and by["tau_1"]["limits"] == by["tau_3"]["limits"] == []
 
 
-MAP = ["--map", "q<j>=pos_{j}:deg", "--map", "qd<j>=vel_{j}:deg/s", "--map", "tau<j>=tau_{j}"]
+def test_a_robot_tells_more(told, plain):
+    assert told(plain, "--robot", "demo-arm")[0]["doubts"] == []
+    plain["tau2"] = -plain["tau2"]
+    doubts = "\n".join(told(plain, "--robot", "demo-arm")[0]["doubts"])
+    assert "joint 2" in doubts and "sign" in doubts
+    del plain["tau3"]
+    doubts = told(plain, "--robot", "demo-arm")[0]["doubts"]
+    assert any("as a log of demo-arm it cannot be fitted: " in line for line in doubts)
 
 
-def test_a_robot_tells_more(capsys, tmp_path, table):
-    for j in "123":
-        for what in ("pos", "vel"):
-            table[f"{what}_{j}"] = table[f"{what}_{j}"] / 4.0
-    assert doubts(capsys, tmp_path, table, *MAP, "--robot", "demo-arm") == []
-    table["tau_2"] = -table["tau_2"]
-    told = "\n".join(doubts(capsys, tmp_path, table, *MAP, "--robot", "demo-arm"))
-    assert "joint 2" in told and "sign" in told
+def test_a_guess_that_fits_worse_is_dropped(told, inspected, plain):
+    """Without speeds a far way looks like degrees; the fit of the log as it stands clears it."""
+    table = {name: v for name, v in plain.items() if not name.startswith("qd")}
+    table["q1"] = table["q1"] + 4.0 * np.pi  # joint 1 turns about the vertical: gravity is blind
+    assert "q1 looks like deg" in "\n".join(inspected(table).doubts)
+    raw, _ = told(table, "--robot", "demo-arm")
+    assert raw["doubts"] == [] and raw["suggested"] == ""
 
 
-def test_a_log_that_lacks_what_the_robot_needs(capsys, tmp_path, table):
-    del table["tau_3"]
-    told = doubts(capsys, tmp_path, table, "--robot", "demo-arm")
-    assert any("as a log of demo-arm it cannot be fitted: " in line for line in told)
+def test_a_joint_that_turns_on_is_in_rad_if_its_speed_agrees(inspected, plain):
+    """12 rad is no degree where the speed is its derivative: units of both agree, and it turns."""
+    factor = 4.0 / np.ptp(plain["q1"])
+    plain["q1"], plain["qd1"] = factor * plain["q1"] + 9.0, factor * plain["qd1"]
+    found = inspected(plain)
+    assert found.doubts == () and found.suggested == ""
 
 
-def test_topics_are_listed_without_choosing(case, capsys, tmp_path):
-    path = writers.bag(tmp_path / "run", case.table, extra_topic="/other/joint_states")
-    assert main(["log", str(path), "--json", str(tmp_path / "log.json")]) == 0
-    out = capsys.readouterr().out
-    raw = json.loads((tmp_path / "log.json").read_text())
-    assert [s["name"] for s in raw["streams"]] == ["/joint_states", "/other/joint_states"]
-    assert [s["clock"] for s in raw["streams"]] == [True, False]
-    assert "/joint_states  sensor_msgs/msg/JointState, 2500 messages, the clock" in out
-    assert '"q<j>" = "joint_states.position[{name}]"' in out
-    assert 'names = {1 = "waist", 2 = "shoulder", 3 = "elbow"}' in out
+@pytest.mark.parametrize(("own", "unit"), [("q", "deg"), ("tau", "mN m")])
+def test_only_the_joint_of_another_unit_is_named(inspected, plain, own, unit):
+    table = {name: v for name, v in plain.items() if not name.startswith("qd")}
+    table[f"{own}2"] = table[f"{own}2"] * (np.rad2deg(4.0) if own == "q" else 1e3)
+    found = inspected(table)
+    assert [line.split(" looks")[0] for line in found.doubts] == [f"{own}2"]
+    assert tomllib.loads(found.suggested)["log"] == {f"{own}2": f"{own}2 [{unit}]"}
+
+
+def test_a_joint_at_rest_is_no_doubt(inspected, plain):
+    rng = np.random.default_rng(4)
+    n = len(plain["time"])
+    plain["q2"] = 1.0 + 1e-4 * rng.integers(-1, 2, n)
+    plain["qd2"] = 1e-4 * np.round(10.0 * rng.standard_normal(n))
+    plain["q3"], plain["qd3"] = 0.5 + 1e-4 * rng.integers(0, 2, n), np.zeros(n)
+    assert inspected(plain).doubts == ()
+
+
+def test_speeds_of_some_joints_are_checked(inspected, plain):
+    del plain["qd1"]
+    plain["qd3"] = -plain["qd3"]
+    assert inspected(plain).doubts == ("qd3 has the other sign of the derivative of q3",)
+
+
+def test_what_is_not_recognised_is_a_doubt(inspected, plain):
+    found = inspected({"time": plain["time"], "foo": plain["q1"], 'b"ar': plain["tau1"]})
+    assert "no columns look like positions or torques" in found.doubts[0]
+    assert '"foo"' in found.suggested and '# "q<j>"' in found.suggested
+    map_from_table(tomllib.loads(found.suggested)["log"], "suggested")
 
 
 @pytest.mark.rotating("long tests of logs")
-def test_page_pictures_and_windows(capsys, tmp_path, table):
+def test_page_pictures_and_windows(run, tmp_path, table):
+    table["<img src=x>_1"] = table["tau_1"]
     path = parquet(tmp_path / "run.parquet", table)
-    argv = ["log", f"{path}@1:2", "--report", tmp_path / "page.html", "--picture", tmp_path / "p"]
-    assert main([*map(str, argv)]) == 0
-    out = capsys.readouterr().out
+    words = ["log", f"{path}@1:2", "--report", tmp_path / "page.html", "--picture", tmp_path / "p"]
+    status, out, _ = run(*words)
+    assert status == 0
     assert out.startswith("run.parquet: 1000 rows") and "written: " in out
     page = (tmp_path / "page.html").read_text()
     assert "What is in run.parquet" in page and "pos_*" in page and len(page) < 1_000_000
+    assert "<img src=x>" not in page
     assert {p.name for p in (tmp_path / "p").iterdir()} >= {"clock.png", "clock.csv"}
-    status = main(["log", f"{path}@90:91"])
-    assert status == 1 and "fewer than two rows from 90 to 91 s" in capsys.readouterr().err
-
-
-def test_a_name_with_markup_stays_text(capsys, tmp_path, table):
-    table["<img src=x>_1"] = table["tau_1"]
-    path = parquet(tmp_path / "run.parquet", table)
-    assert main(["log", str(path), "--report", str(tmp_path / "page.html")]) == 0
-    assert "<img src=x>" not in (tmp_path / "page.html").read_text()
+    status, _, err = run("log", f"{path}@90:91")
+    assert status == 1 and "fewer than two rows from 90 to 91 s" in err
 
 
 NAMES = ("time", "t [ms]", "q1", "qd1", "pos_1", "pos[2]", "i_1", "x", "temp", 'a"b', "x\\y", "{j}")

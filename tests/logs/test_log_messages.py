@@ -10,22 +10,23 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.logs.columns import Wanted
 from modeler.logs.readers import read_columns
-from tests.logs.writers import JOINTS, joined, stamps, states
+from tests.logs.writers import (
+    FIELDS,
+    HEADER,
+    JOINTS,
+    KIND,
+    LINE,
+    joined,
+    serialized,
+    stamps,
+    states,
+)
 
 pytest.importorskip("rosbags", reason="NOT CHECKED: needs rosbags; pip install rosbags")
 writer_of = pytest.importorskip("mcap.writer", reason="NOT CHECKED: needs mcap; pip install mcap")
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore  # noqa: E402
 
-JOINT_STATE = (
-    "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n"
-    "float64[] effort\n"
-)
-LINE = "=" * 80
-HEADER = {
-    "ros1": f"{LINE}\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n",
-    "cdr": f"{LINE}\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n"
-    f"{LINE}\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n",
-}
+ROS1_HEADER = f"{writers.LINE}\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
 MAPPING = ["auto", "names=1:waist,2:shoulder,3:elbow"]
 
 
@@ -45,33 +46,21 @@ def written(path, profile, messages, encoding="json", form="jsonschema", kind="J
     return path
 
 
-def serialized(case, encoding):
-    store = get_typestore(Stores.ROS1_NOETIC if encoding == "ros1" else Stores.ROS2_HUMBLE)
-    kind, types = "sensor_msgs/msg/JointState", store.types
-    for stamp, names, q, tau in states(case.table):
-        time = types["builtin_interfaces/msg/Time"](sec=stamp // 10**9, nanosec=stamp % 10**9)
-        seq = {"seq": 7} if encoding == "ros1" else {}
-        header = types["std_msgs/msg/Header"](stamp=time, frame_id="", **seq)
-        message = types[kind](
-            header=header, name=names, position=q, velocity=np.zeros(0), effort=tau
-        )
-        write = store.serialize_ros1 if encoding == "ros1" else store.serialize_cdr
-        yield "/joint_states", stamp + 50_000, bytes(write(message, kind))
-
-
 @pytest.mark.parametrize(
     ("profile", "encoding", "packing"),
     [("ros1", "ros1", "LZ4"), ("", "cdr", "ZSTD"), ("ros2", "cdr", "NONE")],
 )
 def test_messages_of_every_profile(profile, encoding, packing, short, tmp_path):
-    form, kind = {
-        "ros1": ("ros1msg", "sensor_msgs/JointState"),
-        "cdr": ("ros2msg", "sensor_msgs/msg/JointState"),
+    messages = (
+        ("/joint_states", stamp + 50_000, data)
+        for stamp, data in serialized(short.table, encoding == "ros1")
+    )
+    form, kind, header = {
+        "ros1": ("ros1msg", "sensor_msgs/JointState", ROS1_HEADER),
+        "cdr": ("ros2msg", writers.KIND, writers.HEADER),
     }[encoding]
-    path = written(
-        tmp_path / "run.mcap", profile, serialized(short, encoding), encoding, form, kind,
-        (JOINT_STATE + HEADER[encoding]).encode(), packing,
-    )  # fmt: skip
+    path = written(tmp_path / "run.mcap", profile, messages, encoding, form, kind,
+                   (writers.FIELDS + header).encode(), packing)  # fmt: skip
     assert "by their headers" in read_columns(path, Wanted()).notes[0]
     short.check(path, MAPPING)
 

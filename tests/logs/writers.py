@@ -1,7 +1,8 @@
 """Logs as other people's programs write them."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -132,8 +133,9 @@ def mcap(path: Path, table: Run) -> Path:
     writer_of = pytest.importorskip("mcap_ros2.writer", reason=reason)
     with path.open("wb") as file:
         writer = writer_of.Writer(file)
-        joint = writer.register_msgdef("sensor_msgs/msg/JointState", _JOINT_STATE)
-        heat = writer.register_msgdef("sensor_msgs/msg/Temperature", _TEMPERATURE)
+        joint = writer.register_msgdef(KIND, FIELDS + HEADER)
+        fields = "std_msgs/Header header\nfloat64 temperature\nfloat64 variance\n"
+        heat = writer.register_msgdef("sensor_msgs/msg/Temperature", fields + HEADER)
         text = writer.register_msgdef("std_msgs/msg/String", "string data")
         writer.write_message("/rosout", text, {"data": "hello"}, START)
         for k, (stamp, names, q, tau) in enumerate(states(table)):
@@ -148,40 +150,45 @@ def mcap(path: Path, table: Run) -> Path:
     return path
 
 
-def bag(
-    path: Path, table: Run, storage: str = "sqlite3", extra_topic: str = "", gripper: bool = False
-) -> Path:
-    """A ROS 2 bag as a folder.
+def serialized(table: Run, ros1: bool = False, gripper: bool = False) -> Iterator[tuple]:
+    """(stamp, bytes) of every message of joint states; with a gripper, those of it between them."""
+    reason = "NOT CHECKED: needs rosbags; pip install rosbags"
+    typesys = pytest.importorskip("rosbags.typesys", reason=reason)
+    store = typesys.get_typestore(store_of(ros1))
+    types, write = store.types, store.serialize_ros1 if ros1 else store.serialize_cdr
 
-    With another robot's joint states if a topic is given for them; with those of a gripper between
-    those of the arm.
-    """
+    def message(stamp: int, names: list[str], q: np.ndarray, tau: np.ndarray) -> bytes:
+        time = types["builtin_interfaces/msg/Time"](**_stamp(stamp))
+        seq = {"seq": 7} if ros1 else {}
+        header = types["std_msgs/msg/Header"](stamp=time, frame_id="", **seq)
+        joints = types[KIND](
+            header=header, name=names, position=q, velocity=np.zeros(0), effort=tau
+        )  # fmt: skip
+        return bytes(write(joints, KIND))
+
+    for k, (stamp, names, q, tau) in enumerate(states(table)):
+        if gripper and k % 7 == 3:
+            one, early = np.full(1, 0.01 * k), stamp - 300_000
+            yield early, message(early, ["finger"], one, one)
+        yield stamp, message(stamp, names, q, tau)
+
+
+def store_of(ros1: bool) -> Any:
+    """The types of a version of ROS."""
+    from rosbags.typesys import Stores
+
+    return Stores.ROS1_NOETIC if ros1 else Stores.ROS2_HUMBLE
+
+
+def bag(
+    path: Path, table: Run, storage: str = "SQLITE3", extra_topic: str = "", gripper: bool = False
+) -> Path:
+    """A ROS 2 bag as a folder; with another robot's joint states if a topic is given for them."""
     reason = "NOT CHECKED: needs rosbags; pip install rosbags"
     rosbag2 = pytest.importorskip("rosbags.rosbag2", reason=reason)
-    from rosbags.typesys import Stores, get_typestore
-
-    store = get_typestore(Stores.ROS2_HUMBLE)
-    kind = "sensor_msgs/msg/JointState"
-    JointState = store.types[kind]
-    plugin = rosbag2.StoragePlugin.MCAP if storage == "mcap" else rosbag2.StoragePlugin.SQLITE3
+    plugin = rosbag2.StoragePlugin[storage]
     with rosbag2.Writer(path, version=9, storage_plugin=plugin) as writer:
-        topics = ["/joint_states", *([extra_topic] if extra_topic else [])]
-        connections = [writer.add_connection(topic, kind, typestore=store) for topic in topics]
-        for k, (stamp, names, q, tau) in enumerate(states(table)):
-            if gripper and k % 7 == 3:
-                one, finger = np.full(1, 0.01 * k), ["finger"]
-                header = _header(store, stamp - 300_000)
-                message = JointState(
-                    header=header, name=finger, position=one, velocity=one, effort=one
-                )
-                data = store.serialize_cdr(message, kind)
-                writer.write(connections[0], stamp - 250_000, data)
-            message = JointState(
-                header=_header(store, stamp), name=names, position=q, velocity=np.zeros(0),
-                effort=tau,
-            )  # fmt: skip
-            for connection in connections:
-                writer.write(connection, stamp + 50_000, store.serialize_cdr(message, kind))
+        _write(writer, serialized(table, False, gripper), store_of(False), extra_topic)
     return path
 
 
@@ -189,46 +196,39 @@ def bag1(path: Path, table: Run) -> Path:
     """A bag of ROS 1."""
     reason = "NOT CHECKED: needs rosbags; pip install rosbags"
     rosbag1 = pytest.importorskip("rosbags.rosbag1", reason=reason)
-    from rosbags.typesys import Stores, get_typestore
-
-    store = get_typestore(Stores.ROS1_NOETIC)
-    kind = "sensor_msgs/msg/JointState"
     with rosbag1.Writer(path) as writer:
-        connection = writer.add_connection("/joint_states", kind, typestore=store)
-        for k, (stamp, names, q, tau) in enumerate(states(table)):
-            message = store.types[kind](
-                header=_header(store, stamp, seq=k), name=names, position=q, velocity=np.zeros(0),
-                effort=tau,
-            )  # fmt: skip
-            writer.write(connection, stamp + 50_000, store.serialize_ros1(message, kind))
+        _write(writer, serialized(table, True), store_of(True))
     return path
 
 
-def _header(store, stamp: int, **more):
-    time = store.types["builtin_interfaces/msg/Time"](**_stamp(stamp, "nanosec"))
-    return store.types["std_msgs/msg/Header"](stamp=time, frame_id="", **more)
+def _write(writer: Any, messages: Iterable[tuple], store: Any, extra_topic: str = "") -> None:
+    from rosbags.typesys import get_typestore
+
+    topics = ["/joint_states", *([extra_topic] if extra_topic else [])]
+    channels = [writer.add_connection(t, KIND, typestore=get_typestore(store)) for t in topics]
+    for stamp, data in messages:
+        for channel in channels:
+            writer.write(channel, stamp + 50_000, data)
 
 
-def _stamp(stamp: int, part: str = "nanosec") -> dict[str, int]:
-    return {"sec": stamp // 10**9, part: stamp % 10**9}
+def _stamp(stamp: int) -> dict[str, int]:
+    return {"sec": stamp // 10**9, "nanosec": stamp % 10**9}
 
 
-_HEADER = """================================================================================
+KIND = "sensor_msgs/msg/JointState"
+LINE = "=" * 80
+HEADER = f"""{LINE}
 MSG: std_msgs/Header
 builtin_interfaces/Time stamp
 string frame_id
-================================================================================
+{LINE}
 MSG: builtin_interfaces/Time
 int32 sec
 uint32 nanosec
 """
-_JOINT_STATE = f"""std_msgs/Header header
+FIELDS = """std_msgs/Header header
 string[] name
 float64[] position
 float64[] velocity
 float64[] effort
-{_HEADER}"""
-_TEMPERATURE = f"""std_msgs/Header header
-float64 temperature
-float64 variance
-{_HEADER}"""
+"""
