@@ -10,17 +10,8 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.logs.columns import Wanted
 from modeler.logs.readers import read_columns
-from tests.logs.writers import (
-    FIELDS,
-    HEADER,
-    JOINTS,
-    KIND,
-    LINE,
-    joined,
-    serialized,
-    stamps,
-    states,
-)
+from tests.logs import writers
+from tests.logs.writers import JOINTS, joined, serialized, stamps, states
 
 pytest.importorskip("rosbags", reason="NOT CHECKED: needs rosbags; pip install rosbags")
 writer_of = pytest.importorskip("mcap.writer", reason="NOT CHECKED: needs mcap; pip install mcap")
