@@ -6,7 +6,6 @@ import itertools
 import json
 import os
 import re
-import shlex
 import signal
 import subprocess
 import sys
@@ -156,9 +155,7 @@ def within(seconds: float) -> Iterator[None]:
 
 def _in_a_process(words: tuple[str, ...], how: Process, workdir: Workdir) -> Result:
     env = {**os.environ, "HOME": str(workdir.home), "TMPDIR": str(workdir.temporary)}
-    env["MPLCONFIGDIR"] = str(
-        workdir.inputs.folder / "matplotlib"
-    )  # its list of fonts takes seconds
+    env["MPLCONFIGDIR"] = str(workdir.inputs.folder / "matplotlib")  # a list of fonts takes seconds
     for name, value in how.env.items():
         if value is None:
             env.pop(name, None)
@@ -166,9 +163,8 @@ def _in_a_process(words: tuple[str, ...], how: Process, workdir: Workdir) -> Res
             env[name] = value.replace("WORKDIR", str(workdir.work))
     if how.anew:
         env["PYTHONPATH"] = str(ROOT)
-        command = shlex.join([sys.executable, "-m", "modeler", *words])
         done = subprocess.run(
-            ["/bin/sh", "-c", f"{command} {how.redirect}"], cwd=workdir.work, env=env, check=False,
+            [sys.executable, "-m", "modeler", *words], cwd=workdir.work, env=env, check=False,
             capture_output=True, text=True, errors="replace", timeout=how.seconds,
         )  # fmt: skip
     else:

@@ -39,14 +39,12 @@ class Process:
 
     Attributes:
         env: variables that are set; None: taken away.
-        redirect: shell text after the command, such as "<&-".
         file_limit: largest file in bytes that it may write, as on a disk that is full.
         seconds: in which it must end.
         slow: takes many seconds.
     """
 
     env: Mapping[str, str | None] = field(default_factory=dict)
-    redirect: str = ""
     file_limit: int | None = None
     seconds: float = 60.0
     slow: bool = False
@@ -54,7 +52,7 @@ class Process:
     @property
     def anew(self) -> bool:
         """Whether Python itself must start: it, not the program, reads what is set."""
-        return bool(self.redirect) or any(n.startswith(("PYTHON", "L")) for n in self.env)
+        return any(name.startswith("PYTHON") for name in self.env)
 
 
 @dataclass(frozen=True)

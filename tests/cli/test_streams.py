@@ -77,6 +77,7 @@ def test_what_is_only_told_at_the_end_is_told(monkeypatch, capsys) -> None:
         ("robots >&-", 0, ""),
         ("robots no-such-robot >&-", 1, "modeler: "),
         ("robots no-such-robot 2>&-", 1, ""),
+        ("robots no-such-robot <&-", 1, "modeler: "),
         ("effects | head -1", 0, ""),
     ],
 )

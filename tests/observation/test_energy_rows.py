@@ -4,7 +4,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
 from modeler.estimation.energy_fit import energy_rows, kinetic_columns, weights
@@ -12,10 +11,11 @@ from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
 from tests.modules import compiled
+from tests.observation.motions import exact_log, some_beta
 from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating
 
-SWING = {"sr400-tree": 0.4, "five-bar": 0.15, "wrist": 0.8}
+SWING = {"sr400-tree": 0.4, "five-bar": 0.15, "wrist": 0.8, "two-link": 1.0}
 BROAD = Processing(derivatives="log", position_cutoff=0.0, parallel_cutoff=10.0)
 
 
@@ -59,7 +59,7 @@ def test_work_of_inertia_is_a_difference_of_energies(name):
 def test_the_energies_are_those_of_a_textbook():
     """Planar arm with two links: kinetic and potential energy written out by hand."""
     spec = compiled("two-link").spec
-    log = two_link_log()
+    log = log_of("two-link", 200.0, 2.0)
     rows = energy_rows(compiled("two-link"), observe(compiled("two-link"), [log], BROAD), 0.2)
     at = np.searchsorted(log.time, rows.time - 1e-9)
     for name in ("ZZ2", "MX2", "MY2"):
@@ -67,14 +67,6 @@ def test_the_energies_are_those_of_a_textbook():
         energy = textbook(name, log.q, log.qd, spec)
         change = energy[at[:, 1]] - energy[at[:, 0]]
         np.testing.assert_allclose(rows.W[:, column], change, atol=3e-6 * np.abs(change).max())
-
-
-def two_link_log():
-    t = np.arange(401) / 200.0
-    angle = t[:, None] * 2 * np.pi * np.array([0.9, 1.4]) + np.array([0.3, 1.0])
-    w = 2 * np.pi * np.array([0.9, 1.4])
-    q, qd, qdd = np.sin(angle), w * np.cos(angle), -(w**2) * np.sin(angle)
-    return Log("two-link", ("1", "2"), t, q, np.ones_like(q), qd, qdd)
 
 
 def textbook(name, q, qd, spec):

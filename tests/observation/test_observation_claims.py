@@ -11,6 +11,7 @@ from modeler.numerics.noise import lattice_step
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
+from tests.observation.motions import fourier, noisy_torque
 from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating
 
@@ -20,21 +21,14 @@ STEP = 2e-3
 
 def motion(seconds=12.0, step=STEP, seed=0):
     """Time, positions, speeds and accelerations of two joints."""
-    random, t = np.random.default_rng(seed), np.arange(0.0, seconds, step)
-    w = 2 * np.pi * random.uniform(0.1, 0.7, (3, 2))
-    size, phase = random.uniform(0.2, 0.5, (3, 2)), random.uniform(0.0, 6.0, (3, 2))
-    angle = t[:, None, None] * w + phase
-    q, qd = (size * np.sin(angle)).sum(1), (size * w * np.cos(angle)).sum(1)
-    return t, q, qd, -(size * w**2 * np.sin(angle)).sum(1)
+    t = np.arange(0.0, seconds, step)
+    return fourier(np.random.default_rng(seed), t, 2, 0.7, (0.2, 0.5))
 
 
 def recorded(seed=0, **more):
     """A log of the planar arm with an encoder and 1 % of noise, and its parameters."""
-    arm, random = planar_arm(), np.random.default_rng([seed, 1])
     t, q, qd, qdd = motion(seed=seed)
-    beta = random.uniform(0.5, 2.0, len(arm.spec.base))
-    tau = arm.base_regressor(q, qd, qdd) @ beta
-    tau += 0.01 * np.sqrt(np.mean(tau**2, axis=0)) * random.normal(size=tau.shape)
+    tau, beta = noisy_torque(np.random.default_rng([seed, 1]), planar_arm(), q, qd, qdd, 0.01)
     return Log("run", ("1", "2"), t, np.round(q / COUNTS) * COUNTS, tau, **more), beta
 
 

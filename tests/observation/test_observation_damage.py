@@ -15,6 +15,7 @@ from modeler.observation.observe import observe
 from modeler.observation.outliers import damages, defects
 from modeler.observation.read import read_log
 from modeler.observation.settings import Processing
+from tests.observation.motions import fourier, noisy_torque, root_mean_square
 from tests.oracles.numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from tests.rotation import rotating
 
@@ -38,16 +39,8 @@ def drawn(random, name, rate=None, noise=None):
     joints = len(arm.rows)
     rate = rate or random.choice([100, 200, 500, 1000, 2000])
     t = np.arange(int(6.0 * rate)) / rate
-    w = 2 * np.pi * random.uniform(0.1, 0.9, (3, joints))
-    size = random.uniform(0.2, 0.8, (3, joints)) / np.arange(1, 4)[:, None]
-    angle = t[:, None, None] * w + random.uniform(0.0, 6.0, (3, joints))
-    q = (size * np.sin(angle)).sum(1)
-    qd = (size * w * np.cos(angle)).sum(1)
-    qdd = -(size * w**2 * np.sin(angle)).sum(1)
-    beta = random.uniform(0.5, 2.0, len(arm.spec.base))
-    tau = arm.base_regressor(q, qd, qdd) @ beta
-    noise = 10 ** random.uniform(-3.0, -1.0) if noise is None else noise
-    tau = tau + noise * np.sqrt(np.mean(tau**2, axis=0)) * random.normal(size=tau.shape)
+    t, q, qd, qdd = fourier(random, t, joints, 0.9, (0.2, 0.8), falling=True)
+    tau, beta = noisy_torque(random, arm, q, qd, qdd, noise)
     counts = 2 * np.pi / 10 ** random.uniform(3.5, 6.0)
     measured = np.round((q + 0.3 * counts * random.normal(size=q.shape)) / counts) * counts
     return Log("run", tuple(j.name for j in arm.spec.joints), t, measured, tau), beta
@@ -226,14 +219,10 @@ def test_the_report_names_the_defect_and_the_rest_stays_usable(defect):
     raw = observe(model, [log], Processing(keep_damaged=True))
     assert "all values are used as logged" in "\n".join(raw.report.lines())
     clean, _ = drawn(np.random.default_rng(3), "planar", 1000, 1e-3)
-    honest = rms(observe(model, [clean]), beta)
-    assert rms(seen, beta) < 2.0 * honest
-    assert rms(raw, beta) > 2.0 * rms(seen, beta) or defect == "glitch"
+    honest = root_mean_square(observe(model, [clean]), beta)
+    assert root_mean_square(seen, beta) < 2.0 * honest
+    assert root_mean_square(raw, beta) > 2.0 * root_mean_square(seen, beta) or defect == "glitch"
     assert seen.used.mean() > 0.9 * observe(model, [clean]).used.mean()
-
-
-def rms(seen, beta):
-    return float(np.sqrt(np.mean((seen.W @ beta - seen.y) ** 2)))
 
 
 def test_a_new_zero_is_joined_to_the_longest_stretch():

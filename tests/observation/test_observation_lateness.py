@@ -12,25 +12,17 @@ from modeler.observation.prepare import without_speeds
 from modeler.observation.read import read_log
 from modeler.observation.segments import Piece, split
 from modeler.observation.settings import Processing
+from tests.observation.motions import fourier, root_mean_square
 from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating
 
 ARM = planar_arm()
 
 
-def motion(random, rate, joints=2, seconds=12.0):
-    """Time, q, qd, qdd of a Fourier motion."""
-    t = np.arange(int(seconds * rate)) / rate
-    w = 2 * np.pi * random.uniform(0.2, 1.2, (3, joints))
-    size = random.uniform(0.2, 0.8, (3, joints)) / np.arange(1, 4)[:, None]
-    angle = t[:, None, None] * w + random.uniform(0.0, 6.0, (3, joints))
-    return (t, (size * np.sin(angle)).sum(1), (size * w * np.cos(angle)).sum(1),
-            -(size * w**2 * np.sin(angle)).sum(1))  # fmt: skip
-
-
 def drawn(random, rate, lags, joints=2):
     """A log whose velocities come late by `lags`, s, and the parameters of its torques."""
-    t, q, qd, qdd = motion(random, rate, joints)
+    t = np.arange(int(12.0 * rate)) / rate
+    t, q, qd, qdd = fourier(random, t, joints, 1.2, (0.2, 0.8), slowest=0.2, falling=True)
     beta = random.uniform(0.5, 2.0, len(ARM.spec.base))
     tau = ARM.base_regressor(q, qd, qdd) @ beta if joints == 2 else 1.0 + q
     noisy = qd + 0.01 * np.std(qd, axis=0) * random.normal(size=qd.shape)
@@ -82,10 +74,6 @@ def test_a_joint_that_reads_the_speed_backwards_is_not_called_late():
     assert consistency(wrong, pieces, 5.0, refuse=False).late == ()
 
 
-def rms(seen, beta):
-    return float(np.sqrt(np.mean((seen.W @ beta - seen.y) ** 2)))
-
-
 @pytest.mark.parametrize("lags", [(0.0, 0.04), (0.03, 0.03)])
 def test_late_velocities_are_not_used_where_they_do_harm(lags):
     """Positions are differentiated; with --derivatives log they are used all the same, and told."""
@@ -98,7 +86,7 @@ def test_late_velocities_are_not_used_where_they_do_harm(lags):
     kept = observe(ARM, [log], Processing(derivatives="log"))
     (note,) = (note for note in kept.report.logs[0].notes if "lags behind" in note)
     assert "used as logged; fit with --derivatives position to avoid it" in note
-    assert rms(kept, beta) > 5.0 * rms(seen, beta)
+    assert root_mean_square(kept, beta) > 5.0 * root_mean_square(seen, beta)
 
 
 def test_a_small_delay_does_no_harm_and_the_velocities_are_used():

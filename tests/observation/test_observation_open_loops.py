@@ -4,7 +4,6 @@ import json
 
 import numpy as np
 import pytest
-from test_observation_rows import some_beta
 
 from modeler.cli import main
 from modeler.observation.log import Log
@@ -13,6 +12,7 @@ from modeler.observation.observe import observe
 from modeler.observation.prepare import nearest_closed
 from modeler.observation.settings import Processing
 from tests.modules import compiled
+from tests.observation.motions import some_beta
 from tests.rotation import ROTATING
 
 OUTWARD = np.array(

@@ -13,26 +13,9 @@ from modeler.observation.low_speed import shafts
 from modeler.observation.motion import low_pass
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
+from tests.observation.motions import exact_log, motion, some_beta
 from tests.oracles.numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from tests.rotation import rotating
-
-
-def motion(joints, seconds=20.0, rate=200, seed=0, harmonics=3):
-    """Sums of sines and their exact derivatives; (time, q, qd, qdd)."""
-    random = np.random.default_rng(seed)
-    t = np.arange(int(seconds * rate)) / rate
-    w = 2 * np.pi * random.uniform(0.1, 0.5, (harmonics, joints))
-    a, p = random.uniform(0.3, 1.0, w.shape), random.uniform(0, 6, w.shape)
-    angle = t[:, None, None] * w + p
-    return (t, (a * np.sin(angle)).sum(1), (a * w * np.cos(angle)).sum(1),
-            -(a * w**2 * np.sin(angle)).sum(1))  # fmt: skip
-
-
-def exact_log(model, beta, name="run", logged=True, **kw):
-    t, q, qd, qdd = motion(len(model.spec.joints), **kw)
-    tau = model.base_regressor(q, qd, qdd) @ beta
-    names = tuple(joint.name for joint in model.spec.joints)
-    return Log(name, names, t, q, tau, qd if logged else None, qdd if logged else None)
 
 
 def row_filter(whole, step, cutoff, every):
@@ -40,10 +23,6 @@ def row_filter(whole, step, cutoff, every):
     inside = np.flatnonzero(whole)
     centres = inside[(len(inside) - 1) % every // 2 :: every]
     return filter_at(centres, len(whole), step, cutoff)
-
-
-def some_beta(model, seed=5):
-    return np.random.default_rng(seed).uniform(0.5, 2.0, len(model.spec.base))
 
 
 @pytest.mark.parametrize("cutoff", [0.0, 3.0])
