@@ -12,7 +12,7 @@ from modeler.core.errors import DataError
 from modeler.validation.comparison import REGIONS, WINDOW, compare
 from modeler.validation.models import Contest, contest
 from modeler.validation.prediction import JointInfo, Prediction
-from modeler.validation.verdict import joint_verdict
+from modeler.validation.verdict import headline, joint_verdict, verdict
 
 
 def by_hand() -> Prediction:
@@ -85,7 +85,7 @@ def test_masked_rows_do_not_count() -> None:
 
 
 def test_joints_that_cannot_be_judged_are_named() -> None:
-    p = prediction()
+    p = prediction(lambda q, qd, qdd, tau, t: 2.0 * qd)
     used = p.used.copy()
     used[:, 0] = False
     measured = p.measured.copy()
@@ -93,6 +93,10 @@ def test_joints_that_cannot_be_judged_are_named() -> None:
     found = compare(dataclasses.replace(p, used=used, measured=measured))
     assert [item.joint.name for item in found.joints] == ["2"]
     assert dict(found.unjudged)["1"] == "no sample counts (all masked)"
+    assert headline(found).endswith("(joint 2).")
+    assert "Joint 1 is not judged: no sample counts (all masked)." in verdict(found)
+    nothing = compare(dataclasses.replace(p, measured=np.zeros_like(measured)))
+    assert headline(nothing) == "three: no joint could be judged."
     assert "measured torque is zero" in found.summary()
 
 

@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from modeler.core.errors import DataError
-from modeler.diagnosis.diagnosis import diagnose
 from modeler.observation.log import Log
 from modeler.observation.motion import travel_since_reversal
 from modeler.observation.settings import Processing
@@ -155,26 +153,6 @@ def test_the_full_rate_is_that_of_the_rows(machine: Machine) -> None:
         there = np.interp(p.time[rows], p.full.time, np.nan_to_num(p.full.filtered[:, joint]))
         close = np.abs(there - e) < 1e-6 * np.abs(e).max()
         assert close.mean() > 0.9  # rows at the edge of a masked stretch may differ
-
-
-@pytest.mark.parametrize("cutoff", [200.0, 350.0])
-def test_a_cutoff_above_nyquist_is_refused(machine: Machine, cutoff: float) -> None:
-    log = machine.log("a.csv", wandering(np.arange(0.0, 10.0, 1.0 / RATE)), 2)
-    refused = rf"a.csv: .*position_cutoff\) of {cutoff:g} Hz .* 400 Hz; expected less than"
-    refused += " its Nyquist"
-    with pytest.raises(DataError, match=refused):
-        observe(machine.compiled, [log], Processing(position_cutoff=cutoff))
-    observe(machine.compiled, [log], Processing(position_cutoff=199.0))
-
-
-def test_a_slow_log_of_another_day_is_refused_alike(machine: Machine) -> None:
-    """The model was fitted with a position filter of 60 Hz."""
-    slow = machine.log("slow.csv", wandering(np.arange(0.0, 10.0, 0.01)), 2)
-    refused = r"slow.csv: .*60 Hz .* 100 Hz; expected less than its Nyquist frequency of 50 Hz"
-    with pytest.raises(DataError, match=refused):
-        machine.compared(slow)
-    with pytest.raises(DataError, match=refused):
-        diagnose(machine.model, machine.compiled, [slow])
 
 
 def test_an_automatic_cutoff_suits_the_slowest_log(machine: Machine) -> None:

@@ -27,7 +27,7 @@ from modeler.report.figure_page import Numbers, drawn, keys, picture_csv, write_
 from modeler.report.page import page_text, write_page
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.pictures import binned_means, overlay_picture
-from modeler.validation.prediction import JointInfo, Prediction
+from modeler.validation.prediction import Prediction
 from modeler.validation.time_picture import masked_spans, time_picture
 from tests.captions import assert_named, colours_drawn, colours_said
 
@@ -91,7 +91,13 @@ def unpacked(page: str) -> list[np.ndarray]:
     return arrays
 
 
-def test_page_is_one_file_that_loads_nothing(page: str) -> None:
+def test_page_is_one_file_that_loads_nothing_and_says_the_verdict_first(page: str) -> None:
+    head = page.partition("<table")[0]
+    for text in ("How good?", "Where does it fail?", "still have structure?", "Joint 2",
+                 "function of velocity", 'class="noise"', 'class="pattern"'):  # fmt: skip
+        assert text in head
+    for text in ("20 Hz &lt;both sides&gt;.", "one.parquet, two.parquet", "6000 of 6000 count"):
+        assert text in page
     assert still_open(page) == []
     loads = re.findall(r'\b(?:src|href|action)="([^"]*)"', outside_scripts(page))
     assert loads and all(target.startswith("#") for target in loads)
@@ -103,20 +109,6 @@ def test_page_is_one_file_that_loads_nothing(page: str) -> None:
     assert "http" not in ours
     assert "@import" not in page.partition("<script>")[0]
     assert 'id="plotly"' in page and 400_000 < len(page) < 800_000  # plotly.js is inside, packed
-
-
-def test_page_says_the_verdict_first(page: str) -> None:
-    head = page.partition("<table")[0]
-    for text in ("How good?", "Where does it fail?", "still have structure?", "Joint 2"):
-        assert text in head
-    assert "repeatable function of velocity" in head
-    assert 'class="noise"' in head and 'class="pattern"' in head
-
-
-def test_page_escapes_text_and_tells_provenance(page: str) -> None:
-    assert "Filter: 20 Hz &lt;both sides&gt;." in page
-    assert "one.parquet, two.parquet" in page
-    assert "6000 of 6000 count" in page
 
 
 def test_page_has_every_picture_and_its_numbers(page: str, comparison: Comparison) -> None:
@@ -260,22 +252,8 @@ def test_binned_means_cover_the_truth() -> None:
     assert 0.9 < inside / bins < 0.985
 
 
-def test_the_page_of_six_noisy_joints_stays_small() -> None:
-    """White noise compresses least: no robot of six joints has a larger page than this one."""
-    three = prediction(rows=8000)
-    names = ("q", "qd", "qdd", "measured", "predicted", "used")
-    twice = {name: np.hstack([getattr(three, name)] * 2) for name in names}
-    noise = np.random.default_rng(1).normal(size=twice["measured"].shape)
-    joints = tuple(JointInfo(str(k), "rad", "N m") for k in range(1, 7))
-    six = dataclasses.replace(
-        three, joints=joints, **{**twice, "measured": twice["measured"] + noise}
-    )
-    page = page_text(comparison_page(compare(six)))
-    assert len(figures(page)) == 1 + 2 * 6
-    assert len(page.encode()) < 1_000_000
-
-
-def masked() -> Prediction:
+@pytest.fixture(scope="module")
+def made() -> Prediction:
     """Every reason on joint 1, a gap in the first log, and a band."""
     whole = prediction(lambda q, qd, qdd, tau, t: 0.5 * qd, rows=4800)
     masks = np.full(whole.used.shape, -1, dtype=np.int8)
@@ -291,11 +269,6 @@ def masked() -> Prediction:
     return dataclasses.replace(
         whole, masks=masks, used=used, segment=segment, time=time, sigma=sigma
     )
-
-
-@pytest.fixture(scope="module")
-def made() -> Prediction:
-    return masked()
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from known_defects import judged_alone, prediction
+from known_defects import Defect, judged_alone, prediction
 
 from modeler.numerics.spectra import lap
 from modeler.validation.comparison import compare, scale
@@ -74,24 +74,21 @@ def check(p: Prediction, method: str, known: float, tolerance: float) -> None:
         assert found.floor == pytest.approx(NOISE**2 / total, abs=tolerance / total)
 
 
-@pytest.mark.parametrize("known", [KNOWN, *rotating(0.0)])
-def test_laps_in_one_log(known: float) -> None:
-    """Standard error of the mean product of 5 laps: NOISE^2 / sqrt(10 pairs of 628 rows)."""
-    time = np.arange(0.0, 5 * PERIOD, STEP)
-    p = measured([(time + 3.3, motion(time, PERIOD))], known, 1)
+@pytest.mark.parametrize(
+    ("laps", "period", "start", "known", "seed"),
+    [(5, PERIOD, 3.3, KNOWN, 1), (25, 4.123, 0.0, KNOWN, 2), *rotating((5, PERIOD, 3.3, 0.0, 1))],
+)
+def test_laps_in_one_log(laps: int, period: float, start: float, known: float, seed: int) -> None:
+    """Standard error of the mean product of 5 laps: NOISE^2 / sqrt(10 pairs of 628 rows).
+
+    Of 25 laps, an error of the period of one step would shift the last by half a second.
+    """
+    time = np.arange(0.0, laps * period, STEP)
+    p = measured([(time + start, motion(time, period))], known, seed)
     (found,) = repetitions(p)
     assert found.kind == "laps"
-    assert found.periods[0] == pytest.approx(PERIOD, abs=0.002)
+    assert found.periods[0] == pytest.approx(period, abs=2e-3 if laps == 5 else 2e-4)
     check(p, "laps", known, 0.03)
-
-
-def test_a_long_row_of_laps_stays_in_step() -> None:
-    """25 laps: an error of the period of one step would shift the last lap by half a second."""
-    time = np.arange(0.0, 25 * 4.123, STEP)
-    p = measured([(time, motion(time, 4.123))], KNOWN, 2)
-    (found,) = repetitions(p)
-    assert found.periods[0] == pytest.approx(4.123, abs=2e-4)
-    check(p, "laps", KNOWN, 0.03)
 
 
 @pytest.mark.parametrize("known", [KNOWN, *rotating(0.0)])
@@ -116,22 +113,20 @@ def test_logs_of_other_motion_do_not_repeat() -> None:
     check(p, "smooth", 0.0, 0.01)
 
 
-def test_without_repetition_smooth_functions_tell() -> None:
-    """0.5 qd is missing: its variance is known, and a function of the motion."""
-    p = prediction(lambda q, qd, qdd, tau, t: 0.5 * qd, seed=3)
+@pytest.mark.parametrize(
+    ("defect", "tolerance"),
+    [(lambda q, qd, qdd, tau, t: 0.5 * qd, 0.1),
+     (lambda q, qd, qdd, tau, t: np.full(t.size, 1.0), 0.05)],
+)  # fmt: skip
+def test_without_repetition_smooth_functions_tell(defect: Defect, tolerance: float) -> None:
+    """0.5 qd is missing, or an offset: their mean squares are known."""
+    p = prediction(defect, seed=3)
     found = compare(p).joints[1].shares
     assert found is not None and found.method == "smooth" and found.sigma is None
     total = float(np.var(p.measured[:, 1]))
-    known = float(np.mean((0.5 * p.qd[:, 1]) ** 2))
-    assert found.systematic == pytest.approx(known / total, rel=0.1)
+    known = float(np.mean(defect(*(x[:, 1] for x in (p.q, p.qd, p.qdd, p.predicted)), p.time) ** 2))
+    assert found.systematic == pytest.approx(known / total, rel=tolerance)
     assert found.floor == pytest.approx(0.25 / total, rel=0.15)
-
-
-def test_an_offset_is_repeatable() -> None:
-    p = prediction(lambda q, qd, qdd, tau, t: np.full(t.size, 1.0), seed=3)
-    found = compare(p).joints[1].shares
-    assert found is not None
-    assert found.systematic == pytest.approx(1.0 / float(np.var(p.measured[:, 1])), rel=0.05)
 
 
 def test_what_returns_is_told_and_noise_is_not() -> None:
@@ -169,7 +164,9 @@ def test_masked_rows_and_few_rows() -> None:
     check(dataclasses.replace(p, used=np.repeat(used[:, :1], 2, axis=1)), "laps", KNOWN, 0.05)
     few = np.zeros_like(p.used)
     few[::120] = True
-    assert all(item.shares is None for item in compare(dataclasses.replace(p, used=few)).joints)
+    flat = np.full_like(p.measured, 2.0)
+    for none in (dataclasses.replace(p, used=few), dataclasses.replace(p, measured=flat)):
+        assert all(item.shares is None for item in compare(none).joints)
 
 
 def test_a_held_joint_may_wobble() -> None:
@@ -186,12 +183,6 @@ def test_no_lap_in_a_motion_that_wanders() -> None:
     assert lap(time, wandering(time)) == 0.0
     assert lap(time, np.zeros((time.size, 2))) == 0.0
     assert lap(time[:5], wandering(time[:5])) == 0.0
-
-
-def test_a_constant_torque_has_no_shares() -> None:
-    p = prediction(rows=600)
-    flat = dataclasses.replace(p, measured=np.full_like(p.measured, 2.0))
-    assert all(item.shares is None for item in compare(flat).joints)
 
 
 @pytest.mark.parametrize(("factor", "words"), [

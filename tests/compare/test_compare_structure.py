@@ -19,11 +19,9 @@ from modeler.validation.comparison import JointComparison, compare
 from modeler.validation.prediction import FullRate, JointInfo, Motor, Prediction
 from modeler.validation.verdict import (
     best_pattern,
-    headline,
     joint_verdict,
     kind_of_residual,
     looks_like_noise,
-    verdict,
 )
 from tests.rotation import rotating
 
@@ -143,34 +141,20 @@ def test_long_logs_are_looked_at_sparsely_and_alike() -> None:
     assert found is not None and found[0].id == "velocity"
 
 
-def test_an_offset_is_named() -> None:
-    item = second_joint(lambda q, qd, qdd, tau, t: np.full(t.size, -0.7))
-    assert "off by -0.7" in joint_verdict(item)
-    assert not looks_like_noise(item)
-
-
-def test_too_few_samples_are_admitted() -> None:
-    item = second_joint(None, rows=150)
-    assert item.structure is None
-    assert "too few samples (150) to tell" in joint_verdict(item)
-    assert kind_of_residual(item) == "other"
-
-
-def test_a_perfect_prediction_is_said_so() -> None:
-    item = second_joint(None, noise=0.0)
-    assert "agree to rounding" in joint_verdict(item)
-    assert item.relative_error == 0.0
-
-
-def test_headline_and_unjudged() -> None:
-    p = prediction(lambda q, qd, qdd, tau, t: 2.0 * qd)
-    used = p.used.copy()
-    used[:, 0] = False
-    found = compare(dataclasses.replace(p, used=used))
-    assert headline(found).endswith("(joint 2).")
-    assert verdict(found)[-1] == "Joint 1 is not judged: no sample counts (all masked)."
-    zero = dataclasses.replace(p, measured=np.zeros_like(p.measured))
-    assert headline(compare(zero)) == "three: no joint could be judged."
+@pytest.mark.parametrize(
+    ("defect", "noise", "rows", "words"),
+    [
+        (lambda q, qd, qdd, tau, t: np.full(t.size, -0.7), NOISE, 6000, "off by -0.7"),
+        (None, NOISE, 150, "too few samples (150) to tell"),
+        (None, 0.0, 6000, "agree to rounding"),
+    ],
+)  # fmt: skip
+def test_what_else_is_said_of_a_residual(defect, noise: float, rows: int, words: str) -> None:
+    item = second_joint(defect, noise, rows)
+    assert words in joint_verdict(item)
+    assert (item.structure is None) == (rows == 150)
+    if noise:
+        assert not looks_like_noise(item)
 
 
 def test_share_is_that_of_unseen_blocks() -> None:
@@ -199,15 +183,6 @@ def test_a_joint_that_never_moves() -> None:
 )
 def test_percent(share: float, text: str) -> None:
     assert percent(share) == text
-
-
-def test_travel_of_a_sine() -> None:
-    """q = sin t turns at odd multiples of pi/2, at 1 and -1 in turn."""
-    t = np.linspace(0.0, 4 * np.pi, 4001)
-    found = travel_since_reversal(np.sin(t))
-    turned = np.floor((t + np.pi / 2) / np.pi)  # turning points passed
-    last = np.where(turned == 0, 0.0, np.sin((turned - 0.5) * np.pi))
-    np.testing.assert_allclose(found, np.abs(np.sin(t) - last), atol=1e-5)
 
 
 def test_travel_ignores_the_noise_of_the_encoder() -> None:
