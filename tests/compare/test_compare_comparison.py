@@ -93,7 +93,7 @@ def test_joints_that_cannot_be_judged_are_named() -> None:
     found = compare(dataclasses.replace(p, used=used, measured=measured))
     assert [item.joint.name for item in found.joints] == ["2"]
     assert dict(found.unjudged)["1"] == "no sample counts (all masked)"
-    assert headline(found).endswith("(joint 2).")
+    assert headline(compare(dataclasses.replace(p, used=used))).endswith("(joint 2).")
     assert "Joint 1 is not judged: no sample counts (all masked)." in verdict(found)
     nothing = compare(dataclasses.replace(p, measured=np.zeros_like(measured)))
     assert headline(nothing) == "three: no joint could be judged."

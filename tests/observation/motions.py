@@ -1,8 +1,12 @@
 """Motions in closed form, and logs of models whose torques they make exactly."""
 
+import dataclasses
+
 import numpy as np
 
+from modeler.core.manifest import JointSpec
 from modeler.observation.log import Log
+from tests.oracles.numpy_model import rotor
 
 
 def fourier(random, t, joints, fastest, size, slowest=0.1, falling=False):
@@ -43,3 +47,25 @@ def noisy_torque(random, model, q, qd, qdd, noise=None):
 def root_mean_square(seen, beta):
     """Of what parameters leave."""
     return float(np.sqrt(np.mean((seen.W @ beta - seen.y) ** 2)))
+
+
+def write(path, log, **more):
+    """The log as a CSV file, and columns besides."""
+    columns = {"time": log.time}
+    for name in ("q", "qd", "qdd", "tau"):
+        values = getattr(log, name)
+        if values is not None:
+            columns |= {f"{name}{j}": x for j, x in zip(log.joints, values.T, strict=True)}
+    columns |= more
+    table = np.column_stack(list(columns.values()))
+    np.savetxt(path, table, delimiter=",", header=",".join(columns), comments="", fmt="%.12g")
+    return str(path)
+
+
+def manifest_of(names, slides=()):
+    """A manifest for a log of which only the columns are known."""
+    joints = tuple(
+        JointSpec(n, "prismatic" if n in slides else "revolute", "m" if n in slides else "rad",
+                  "N m", True, 1.0) for n in names
+    )  # fmt: skip
+    return dataclasses.replace(rotor().spec, joints=joints)

@@ -11,7 +11,7 @@ from modeler.numerics.noise import lattice_step
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.settings import Processing
-from tests.observation.motions import fourier, noisy_torque
+from tests.observation.motions import fourier, noisy_torque, write
 from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating
 
@@ -170,21 +170,10 @@ def test_a_lattice_is_found_below_single_precision_and_no_rounding_is_one():
     assert lattice_step(0.3 * t) == 0.0
 
 
-def written(place, log, **more):
-    columns = {"time": log.time}
-    for name in ("q", "qd", "tau"):
-        values = getattr(log, name)
-        columns |= {} if values is None else {f"{name}{j + 1}": x for j, x in enumerate(values.T)}
-    columns |= more
-    table = np.column_stack(list(columns.values()))
-    np.savetxt(place, table, delimiter=",", header=",".join(columns), comments="", fmt="%.12g")
-    return str(place)
-
-
 def test_one_line_lists_what_never_changes_and_stands_last(tmp_path, capsys):
     log, _ = recorded(5)
     log = dataclasses.replace(log, qd=-motion(seed=5)[2])
-    place = written(tmp_path / "a.csv", log, spare1=0.0 * log.time, spare2=0.0 * log.time)
+    place = write(tmp_path / "a.csv", log, spare1=0.0 * log.time, spare2=0.0 * log.time)
     assert main(["log", place]) == 0
     doubts = [x for x in capsys.readouterr().out.splitlines() if x.startswith("doubt: ")]
     assert doubts[-1] == "doubt: spare1, spare2 never change: are they connected?"
@@ -197,7 +186,7 @@ def test_table_and_noise_line_of_an_uneven_log_agree_on_the_step(tmp_path, capsy
     rows = rows[rows < log.rows]
     log = dataclasses.replace(log, time=log.time[rows], q=log.q[rows], tau=log.tau[rows])
     log = dataclasses.replace(log, q=np.float32(log.q).astype(float))
-    assert main(["log", written(tmp_path / "a.csv", log)]) == 0
+    assert main(["log", write(tmp_path / "a.csv", log)]) == 0
     text = capsys.readouterr().out
     assert f"in steps of {1e3 * COUNTS:.3g} mrad" in text and f" {COUNTS:.3g} " in text
     assert "rows lost" not in text or "gap" in text
@@ -205,7 +194,7 @@ def test_table_and_noise_line_of_an_uneven_log_agree_on_the_step(tmp_path, capsy
 
 def test_positions_without_noise_are_planned_filtered_or_simulated(tmp_path, capsys):
     t, q, qd, _ = motion(seed=7)
-    assert main(["log", written(tmp_path / "a.csv", Log("a", ("1", "2"), t, q, qd))]) == 0
+    assert main(["log", write(tmp_path / "a.csv", Log("a", ("1", "2"), t, q, qd))]) == 0
     text = capsys.readouterr().out
     assert "joints q1, q2 have no measurement noise: they are planned, filtered or simul" in text
     assert "noise of the positions" not in text
@@ -217,5 +206,5 @@ def test_coarse_speeds_and_coarse_positions_belong_together(tmp_path, capsys, co
     q = np.round(0.1 * log.q / 4e-4) * 4e-4
     speeds = np.round(0.1 * motion(seed=8)[2] / (0.1 * coarse)) * 0.1 * coarse
     log = dataclasses.replace(log, q=q, qd=speeds)
-    assert main(["log", written(tmp_path / "a.csv", log)]) == 0
+    assert main(["log", write(tmp_path / "a.csv", log)]) == 0
     assert "is not the derivative" not in capsys.readouterr().out

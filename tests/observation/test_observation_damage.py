@@ -9,13 +9,12 @@ import pyarrow.parquet as pq
 import pytest
 from rough_joint import KINDS, rough_log
 
-from modeler.core.manifest import JointSpec
 from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.outliers import damages, defects
 from modeler.observation.read import read_log
 from modeler.observation.settings import Processing
-from tests.observation.motions import fourier, noisy_torque, root_mean_square
+from tests.observation.motions import fourier, manifest_of, noisy_torque, root_mean_square
 from tests.oracles.numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from tests.rotation import rotating
 
@@ -255,16 +254,6 @@ def test_spikes_of_logged_velocities_are_left_out():
     assert (found.column, found.unit, found.times) == ("qd1", "rad/s", (2.0,))
 
 
-def manifest_of(names, folder):
-    """A manifest for a log of which only the columns are known."""
-    slides = {"emps": {"1"}, "dvrk_psm": {"3"}}.get(folder, set())
-    joints = tuple(
-        JointSpec(n, "prismatic" if n in slides else "revolute", "m" if n in slides else "rad",
-                  "N m", True, 1.0) for n in names
-    )  # fmt: skip
-    return dataclasses.replace(rotor().spec, joints=joints)
-
-
 @pytest.mark.measured
 @pytest.mark.parametrize(
     "folder",
@@ -284,6 +273,7 @@ def test_nothing_is_found_in_measured_logs(measured_folder, folder):
     assert logs
     for path in logs:
         columns = pq.read_schema(path).names
-        spec = manifest_of([str(j) for j in range(1, 10) if f"q{j}" in columns], folder)
+        names = [str(j) for j in range(1, 10) if f"q{j}" in columns]
+        spec = manifest_of(names, {"emps": "1", "dvrk_psm": "3"}.get(folder, ""))
         found = repaired(read_log(path, spec), spec)[1]
         assert [one.kind for one in found] == ["repeated"] * (folder == "panda"), path.name

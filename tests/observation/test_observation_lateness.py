@@ -10,9 +10,9 @@ from modeler.observation.log import Log
 from modeler.observation.observe import observe
 from modeler.observation.prepare import without_speeds
 from modeler.observation.read import read_log
-from modeler.observation.segments import Piece, split
+from modeler.observation.segments import split
 from modeler.observation.settings import Processing
-from tests.observation.motions import fourier, root_mean_square
+from tests.observation.motions import fourier, manifest_of, root_mean_square
 from tests.oracles.numpy_model import planar_arm
 from tests.rotation import rotating
 
@@ -104,14 +104,9 @@ def test_a_small_delay_does_no_harm_and_the_velocities_are_used():
 )
 def test_only_the_panda_filters_its_velocities(measured_folder, folder, joints):
     """5 ms in all joints, which its controller's filter makes; told, and small enough to use."""
-    own = [
-        dataclasses.replace(ARM.spec.joints[0], name=str(j + 1), drive_gain=1.0)
-        for j in range(joints)
-    ]
+    spec = manifest_of([str(j + 1) for j in range(joints)])
     for path in sorted((measured_folder / folder).glob("*.parquet")):
-        late = consistency_of(
-            read_log(path, dataclasses.replace(ARM.spec, joints=tuple(own))), 10.0
-        ).late
+        late = consistency_of(read_log(path, spec), 10.0).late
         if folder == "panda":
             (one,) = late
             assert one.column == "qd" and 0.004 < one.seconds < 0.007 and one.share < 0.02
@@ -119,21 +114,11 @@ def test_only_the_panda_filters_its_velocities(measured_folder, folder, joints):
             assert late == (), path.name
 
 
-TIME = np.arange(2000) * 0.002
-CUTOFF = 50.0  # Hz
-
-
-def piece(position_noise, velocity_noise, seed=1):
-    draw = np.random.default_rng(seed).normal
-    q, qd = np.sin(2.0 * TIME), 2.0 * np.cos(2.0 * TIME)
-    both = [q + position_noise * draw(size=len(q)), qd + velocity_noise * draw(size=len(q))]
-    flags = np.zeros(len(TIME), dtype=bool)
-    return Piece(
-        run=0, time=TIME, step=0.002, q=both[0][:, None], tau=np.zeros((len(TIME), 1)),
-        qd=both[1][:, None], qdd=None, extra={}, valid=np.ones((len(TIME), 1), dtype=bool),
-        bridged=flags, contradicted=flags, clipped=np.zeros((len(TIME), 1), dtype=bool),
-        resampled=False,
-    )  # fmt: skip
+def piece(position_noise, velocity_noise):
+    t, draw = np.arange(2000) * 0.002, np.random.default_rng(1).normal
+    q = np.sin(2.0 * t) + position_noise * draw(size=len(t))
+    qd = 2.0 * np.cos(2.0 * t) + velocity_noise * draw(size=len(t))
+    return split(Log("run", ("1",), t, q[:, None], 1.0 + q[:, None], qd[:, None]), 0, True)[0][0]
 
 
 @pytest.mark.parametrize(
@@ -142,11 +127,6 @@ def piece(position_noise, velocity_noise, seed=1):
 )
 def test_the_position_is_differentiated_where_that_is_clearly_quieter(position, velocity, taken):
     """Noise s_q of the position is 2 pi f s_q / sqrt 3 = 181 s_q on the velocity."""
-    assert quieter([piece(position, velocity)], CUTOFF) is taken
-
-
-def test_without_logged_velocities_there_is_no_choice():
-    pieces = tuple(map(without_speeds, [piece(1e-6, 1e-2)]))
-    assert pieces[0].qd is None
-    assert not quieter(pieces, CUTOFF)
-    assert not quieter([], CUTOFF)
+    one = piece(position, velocity)
+    assert quieter([one], 50.0) is taken
+    assert not quieter([without_speeds(one)], 50.0) and not quieter([], 50.0)

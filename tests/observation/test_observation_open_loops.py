@@ -1,5 +1,6 @@
 """Samples with which loops cannot be closed: told, and left out of what is fitted and judged."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -12,12 +13,11 @@ from modeler.observation.observe import observe
 from modeler.observation.prepare import nearest_closed
 from modeler.observation.settings import Processing
 from tests.modules import compiled
-from tests.observation.motions import some_beta
+from tests.observation.motions import some_beta, write
 from tests.rotation import ROTATING
 
-OUTWARD = np.array(
-    [-1.0, 1.0]
-)  # the arms of the five-bar part until both distal ones are stretched
+OUTWARD = np.array([-1.0, 1.0])
+"""The arms of the five-bar part until both distal ones are stretched."""
 
 
 def motion(reach, seconds=12.0):
@@ -29,18 +29,6 @@ def motion(reach, seconds=12.0):
         for k in range(3)
     )
     return t, home() + q, qd, qdd
-
-
-def beyond():
-    """A log of positions that are all too far apart."""
-    log, _ = log_of(0.9)
-    t = log.time[:, None]
-    q, qd, qdd = (
-        np.sin(4.4 * t + 0.5 * k * np.pi) * 0.5 * 4.4**k * OUTWARD
-        + (home() + 2.0 * OUTWARD) * (not k)
-        for k in range(3)
-    )
-    return Log(log.name, log.joints, log.time, q, log.tau, qd, qdd)
 
 
 def home():
@@ -59,17 +47,6 @@ def log_of(reach, noise=0.0):
     tau[there] = phi @ some_beta(model)
     tau += np.random.default_rng(1).normal(scale=noise, size=tau.shape)
     return Log("run", ("11", "12"), t, q, tau, qd, qdd), ~there
-
-
-def written(path, log):
-    """The log as a file."""
-    columns = [log.time, *log.q.T, *log.qd.T, *log.qdd.T, *log.tau.T]
-    names = [
-        "time",
-        *(f"{name}{joint}" for name in ("q", "qd", "qdd", "tau") for joint in (11, 12)),
-    ]
-    np.savetxt(path, np.column_stack(columns), delimiter=",", header=",".join(names), comments="")
-    return path
 
 
 def test_the_fit_does_without_the_samples_that_cannot_close():
@@ -107,7 +84,7 @@ def test_the_nearest_posture_that_closes_stands_in():
 @pytest.mark.parametrize("further", [False, pytest.param(True, marks=ROTATING)])
 def test_fit_compare_diagnose_and_free_run_go_through(further, tmp_path, capsys):
     log, open_ = log_of(0.955, noise=0.3)
-    data, model = str(written(tmp_path / "run.csv", log)), str(tmp_path / "model.json")
+    data, model = write(tmp_path / "run.csv", log), str(tmp_path / "model.json")
     told = f"cannot be closed at {open_.sum()} of {len(log.time)} samples"
     assert main(["fit", "five-bar", data, "--out", model]) == 0
     assert told in capsys.readouterr().out
@@ -122,7 +99,9 @@ def test_fit_compare_diagnose_and_free_run_go_through(further, tmp_path, capsys)
 
 @pytest.mark.rotating("long tests of observation")
 def test_all_samples_open_is_one_line(tmp_path, capsys):
-    data = str(written(tmp_path / "run.csv", beyond()))
+    log, _ = log_of(0.5)
+    apart = dataclasses.replace(log, q=log.q + 2.0 * OUTWARD)
+    data = write(tmp_path / "run.csv", apart)
     assert main(["fit", "five-bar", data, "--out", str(tmp_path / "model.json")]) == 1
     said = capsys.readouterr().err.strip()
     assert ": run.csv: the loops of five-bar cannot be closed at" in said

@@ -3,14 +3,13 @@
 import dataclasses
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 
 from modeler.core.errors import DataError
 from modeler.observation.chunk import window
 from modeler.observation.log import shared_rows
 from modeler.observation.read import read_log
+from tests.logs.writers import parquet
 from tests.oracles.numpy_model import planar_arm, slider
 from tests.rotation import rotating
 
@@ -27,12 +26,15 @@ def columns(n=50, joints=2):
 def write(path, table):
     table = {name: np.asarray(values) for name, values in table.items()}
     if path.suffix == ".parquet":
-        pq.write_table(pa.table(table), path)
-    else:
-        lines = [",".join(table)]
-        lines += [",".join(str(v) for v in row) for row in zip(*table.values(), strict=True)]
-        path.write_text("\n".join(lines) + "\n")
+        return parquet(path, table)
+    path.write_text("\n".join(csv_lines(table)) + "\n")
     return path
+
+
+def csv_lines(table, comma=",", quote=""):
+    """Header and rows; as many spreadsheets and loggers write them."""
+    rows = [comma.join(str(v) for v in row) for row in zip(*table.values(), strict=True)]
+    return [comma.join(f"{quote}{name}{quote}" for name in table), *rows]
 
 
 @pytest.fixture
@@ -197,12 +199,6 @@ def test_csv_of_other_habits_says_what_to_change(tmp_path, spec, case):
     with pytest.raises(DataError, match=words) as error:
         read_log(path, spec)
     assert str(error.value).startswith(f"{path}: ")
-
-
-def csv_lines(table, comma=",", quote=""):
-    """Header and rows; as many spreadsheets and loggers write them."""
-    rows = [comma.join(str(v) for v in row) for row in zip(*table.values(), strict=True)]
-    return [comma.join(f"{quote}{name}{quote}" for name in table), *rows]
 
 
 @pytest.mark.parametrize(

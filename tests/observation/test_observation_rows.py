@@ -232,20 +232,6 @@ def test_the_cause_of_no_rows_is_named():
         observe(arm, [slow], dataclasses.replace(fitted, position_cutoff=0.0))
 
 
-def test_report_tells_gaps_jitter_and_losses():
-    model = slider()
-    log = exact_log(model, some_beta(model), logged=False)
-    t = log.time + np.random.default_rng(1).uniform(-1e-3, 1e-3, len(log.time))
-    t[2000:] += 1.0
-    q = log.q.copy()
-    q[100] = np.nan
-    changed = dataclasses.replace(log, time=t, q=q, notes=("a remark",))
-    text = "\n".join(observe(model, [changed]).report.lines())
-    for words in ("2 pieces, 1 gaps up to 1", "2 of 2 pieces resampled", "q1: 1 rows without",
-                  "a remark", "motion band", "% of the samples masked below"):  # fmt: skip
-        assert words in text
-
-
 @pytest.mark.parametrize(
     ("chosen", "told"),
     [

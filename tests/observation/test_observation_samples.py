@@ -149,16 +149,6 @@ def test_a_piece_that_is_all_edge_is_left_out():
     assert segment_of(split(log_of(time), 0, False)[0][0], Processing(position_cutoff=30.0)) is None
 
 
-def test_saturated_samples_count_only_on_request():
-    time = np.arange(1000) * 1e-3
-    tau = np.clip(2.0 * np.sin(W0 * time), -1.0, 1.0)[:, None]
-    piece = split(log_of(time, tau=tau), 0, False)[0][0]
-    left = segment_of(piece, Processing(position_cutoff=50.0))
-    kept = segment_of(piece, Processing(position_cutoff=50.0, keep_saturated=True))
-    assert piece.clipped.sum() > 100
-    assert kept.valid.sum() - left.valid.sum() == (piece.clipped[:, 0] & left.whole).sum()
-
-
 def noise_in(*pieces):
     joints = [
         JointSpec(name, "revolute", "rad", "N m", True, None)
@@ -173,15 +163,6 @@ def band_of(piece):
 
 def cutoffs_of(processing, *pieces):
     return choose_cutoffs(processing, pieces, noise_in(*pieces))
-
-
-@pytest.mark.parametrize("noise", [0.0, 1e-5, 1e-3])
-def test_the_motion_band_is_that_of_the_fastest_joint_and_noise_does_not_move_it(noise):
-    time = np.arange(20000) * 1e-3
-    q = np.column_stack([np.sin(2 * np.pi * 0.3 * time), 0.2 * np.sin(2 * np.pi * 3.0 * time)])
-    q = q + np.random.default_rng(2).normal(0.0, noise, q.shape)
-    log = Log("a", ("1", "2"), time, q, q)
-    assert band_of(split(log, 0, False)[0][0]) == pytest.approx(3.0, abs=0.15)
 
 
 def rings_of(log):
@@ -210,22 +191,16 @@ def test_what_rings_far_above_the_motion_is_no_motion(share):
     assert band_of(piece) == pytest.approx(3.0, abs=0.15)
 
 
-@pytest.mark.parametrize(("share", "hertz"), [(0.001, 93.0), (0.5, 20.0)])
-def test_little_energy_or_a_frequency_near_the_motion_is_no_ringing(share, hertz):
-    assert rings_of(ringing_log(share, hertz)) == []
-
-
-def test_a_robot_that_only_shakes_moves():
+def test_what_is_no_ringing():
+    """Little energy, a frequency near the motion, a robot that only shakes, or stands."""
+    for share, hertz in ((0.001, 93.0), (0.5, 20.0)):
+        assert rings_of(ringing_log(share, hertz)) == []
     time = np.arange(20000) * 1e-3
     log = log_of(time, np.sin(2 * np.pi * 60.0 * time)[:, None])
     piece = split(log, 0, False)[0][0]
     assert rings_of(log) == []
     assert band_of(piece) == pytest.approx(60.0, abs=0.5)
-
-
-def test_a_log_that_stands_still_has_no_band():
-    time = np.arange(1000) * 1e-3
-    still = log_of(time, np.full((1000, 1), 0.4))
+    still = log_of(time, np.full((len(time), 1), 0.4))
     assert band_of(split(still, 0, False)[0][0]) == 0.0
 
 
@@ -338,10 +313,6 @@ def test_processing_survives_json_and_refuses_nonsense():
     assert processing_from_json(full.to_json()) == full
     assert processing_from_json(Processing().to_json()) == Processing()
     for bad, words in (
-        ({"position_cutoff": -1.0}, "position_cutoff is -1.0; expected"),
-        ({"parallel_cutoff": float("nan")}, "parallel_cutoff is nan"),
-        ({"decimation": 0}, "decimation is 0; expected a whole number"),
-        ({"low_speed": 1.5}, "low_speed is 1.5; expected a fraction"),
         ({"derivatives": "best"}, 'derivatives is "best"; expected auto, log, position'),
         ({"cutoff": 1.0}, "processing has no setting cutoff"),
         ({"position_cutoff": "fast"}, "position_cutoff is fast; expected a number"),
