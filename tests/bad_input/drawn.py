@@ -8,28 +8,25 @@ import json
 import random
 import tempfile
 import tomllib
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
-import pytest
 
 from modeler.core.builtin import builtin_names, builtin_text
 from modeler.robot.read import read_robot
 from tests.bad_input.judge import clear, inside, run_here, within
 from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes, edited_structure, toml_text
-from tests.bad_input.robot_files import CRANK, SERIAL
 from tests.bad_input.workdir import Inputs, Workdir, csv_text
-from tests.logs import writers
 from tests.robot.par_files import par_of
+from tests.robot.texts import ARM, OWN_EFFECTS
+from tests.robot_texts import CRANK
 
 SAMPLES = 400
 LOG = "fit two-link bad{} --out f.json"
-MAP = {"time": "t [ms]", "q<j>": "pos[{n}] [deg]", "tau<j>": "load[{n}] [mN m]"}
 PAR = par_of(read_robot("two-link"), False).encode()
-ROBOTS = (*([SERIAL, CRANK] * 8), *map(builtin_text, builtin_names()))
+ROBOTS = (*([ARM, OWN_EFFECTS, CRANK] * 6), *map(builtin_text, builtin_names()))
 KINDS = (
     pa.float32(), pa.int64(), pa.int8(), pa.string(), pa.bool_(), pa.binary(), pa.null(),
     pa.timestamp("ns"), pa.list_(pa.float64()), pa.dictionary(pa.int32(), pa.string()),
@@ -52,13 +49,12 @@ class Drawer:
 
     def __init__(self, inputs: Inputs, seed: int) -> None:
         self.inputs, self.random = inputs, random.Random(seed)
-        self._good: dict[str, bytes] = {}
 
     def draw(self) -> tuple[str, str, dict[str, bytes], str]:
         """Format, what was done, the files, the command."""
         kind = self.random.choice(
-            ["toml", "toml", "par", "csv", "csv", "parquet", "json", "xlsx", "listed", "urdf",
-             "urdf", "mjcf", "model", "model", "map", "motion", "command", "command"]
+            ["toml", "toml", "par", "csv", "csv", "parquet", "urdf", "urdf", "mjcf", "model",
+             "model", "map", "motion", "command", "command"]
         )  # fmt: skip
         return getattr(self, f"_{kind}")()
 
@@ -158,29 +154,6 @@ class Drawer:
             content, told = self._bytes(content)
         return "log Parquet", told, {"bad.parquet": content}, LOG.format(".parquet")
 
-    def _other(
-        self, kind: str, ending: str, write: Callable, mapping: dict
-    ) -> tuple[str, str, dict[str, bytes], str]:
-        """A file of another program's format, its bytes spoilt."""
-        if kind not in self._good:
-            table = {n: v[:SAMPLES] for n, v in self.inputs.log("d.csv").items()}
-            with tempfile.TemporaryDirectory() as folder:
-                path = write(Path(folder) / f"good{ending}", writers.Run(table))
-                self._good[kind] = path.read_bytes()
-        content, told = self._bytes(self._good[kind])
-        files = {f"bad{ending}": content, "map.toml": toml_text({"log": mapping}).encode()}
-        return f"log {kind}", told, files, f"fit demo-arm bad{ending} --map map.toml --out f.json"
-
-    def _json(self):
-        return self._other("MCAP of JSON", ".mcap", _json_mcap, writers.ROS)
-
-    def _xlsx(self):
-        return self._other("spreadsheet", ".xlsx", _xlsx, MAP)
-
-    def _listed(self):
-        mapping = {"time": "stamp", "q<j>": "q[{n}]", "tau<j>": "tau[{n}]"}
-        return self._other("CSV of stamps and lists", ".csv", _listed_csv, mapping)
-
     def _urdf(self) -> tuple[str, str, dict[str, bytes], str]:
         content, told = self._bytes(self._made("good.urdf"))
         return "URDF", told, {"bad.urdf": content}, "convert bad.urdf --out x.toml"
@@ -237,41 +210,6 @@ class Drawer:
                 words[at], words[other] = words[other], words[at]
         files = {"x.par": PAR}
         return "command line", "words", files, " ".join(words)
-
-
-def _json_mcap(path: Path, run: writers.Run) -> Path:
-    reason = "NOT CHECKED: needs mcap; pip install mcap"
-    writer_of = pytest.importorskip("mcap.writer", reason=reason)
-    with path.open("wb") as file:
-        writer = writer_of.Writer(file)
-        writer.start("")
-        schema = writer.register_schema("JointState", "jsonschema", b"{}")
-        channel = writer.register_channel("joint_states", "json", schema)
-        for stamp, names, q, tau in writers.states(run):
-            message = {"name": names, "position": [*q], "effort": [*tau]}
-            writer.add_message(channel, stamp, json.dumps(message).encode(), stamp)
-        writer.finish()
-    return path
-
-
-def _xlsx(path: Path, run: writers.Run) -> Path:
-    openpyxl = pytest.importorskip("openpyxl", reason="NOT CHECKED: needs openpyxl")
-    book = openpyxl.Workbook()
-    book.active.append(["t", *(f"pos[{k}]" for k in (1, 2, 3)), *(f"load[{k}]" for k in (1, 2, 3))])
-    for row in np.column_stack([run.other[name] for name in ("t", "pos", "load")]):
-        book.active.append(row.tolist())
-    book.save(path)
-    return path
-
-
-def _listed_csv(path: Path, run: writers.Run) -> Path:
-    """Seconds and nanoseconds, lists in quotes and in brackets."""
-    rows = zip(writers.stamps(run), *(writers.joined(run, n) for n in ("q", "tau")), strict=True)
-    lines = [
-        f'{t // 10**9},{t % 10**9},"{q.tolist()}",{np.array2string(tau)}' for t, q, tau in rows
-    ]
-    path.write_text("stamp.sec,stamp.nanosec,q,tau\n" + "\n".join(lines) + "\n")
-    return path
 
 
 def _cast(values: pa.Array, kind: pa.DataType) -> pa.Array:

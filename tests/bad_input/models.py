@@ -4,6 +4,7 @@ import json
 from collections.abc import Callable
 from typing import Any
 
+from modeler.api import compile_model, derive, fit, generate, load, observe
 from tests.bad_input.row import Outcome, Row, row
 from tests.bad_input.workdir import Workdir
 
@@ -40,10 +41,18 @@ def text(change: Callable[[str], str | bytes]) -> Callable[[Raw], str | bytes]:
     return lambda raw: change(json.dumps(raw, indent=1))
 
 
+def mixed_up(workdir: Workdir) -> object:
+    """A fit to an observation of another robot."""
+    derivation = derive(load("two-link"))
+    other = compile_model(generate(derive(load("emps"))))
+    return fit(derivation, generate(derivation), observe(other, [workdir.inputs.folder / "e.csv"]))
+
+
 CHANGED = "changed|damaged|checksum"
 
 DAMAGED = [
     model("cut off", "refused", text(lambda t: t[: len(t) // 2]), "bad.json", "cut off"),
+    row("model: of an observation of another robot", "refused", mixed_up, "two-link|emps"),
     row("model: a log", "refused", "compare a.csv b.csv", "a.csv", "not a model file"),
     row("model: none", "refused", "compare nowhere.json b.csv", "nowhere.json"),
     row("model: a built-in robot", "told", "compare two-link b.csv", "values that the robot file"),

@@ -4,24 +4,14 @@ from collections.abc import Iterator
 
 import pytest
 
-from tests.bad_input import (
-    command_lines,
-    environment,
-    log_signals,
-    log_texts,
-    models,
-    python_api,
-    robot_files,
-)
+from tests.bad_input import command_lines, environment, log_signals, log_texts, models, robot_files
 from tests.bad_input.drawn import run_mutants
 from tests.bad_input.judge import disturbed, ending, faults
 from tests.bad_input.row import Result, Row, row as made
 from tests.bad_input.workdir import Inputs, Workdir
 from tests.rotation import ROTATING
 
-THEMES = (
-    robot_files, log_texts, log_signals, models, command_lines, environment, python_api,
-)  # fmt: skip
+THEMES = (robot_files, log_texts, log_signals, models, command_lines, environment)
 ROWS: tuple[Row, ...] = tuple(row for theme in THEMES for row in theme.ROWS)
 
 

@@ -123,15 +123,6 @@ def rtde(folder: Path, table: Table) -> Path:
     return written(folder / "robot_data.csv", " ".join(names) + "\n" + text_of(rows, " "))
 
 
-def franka(folder: Path, table: Table) -> Path:
-    """As `franka::logToCSV` names them."""
-    names = ["time", *(f"state.q[{j}]" for j in range(3)), *(f"state.q_d[{j}]" for j in range(3)),
-             *(f"state.tau_J[{j}]" for j in range(3))]  # fmt: skip
-    rows = rows_of(table, time=1e3)
-    rows = np.column_stack([rows[:, :4], np.round(rows[:, 1:4], 3), rows[:, 4:]])
-    return written(folder / "log.csv", ",".join(names) + "\n" + text_of(rows, ","))
-
-
 def iso_index(folder: Path, table: Table) -> Path:
     """A frame with an index of times, by `to_csv`."""
     nanoseconds = np.round(table["time"] * 1e9).astype("int64") + START
@@ -149,15 +140,6 @@ def clock_of_day(folder: Path, table: Table) -> Path:
     lines = [f"{s},{line}" for s, line in zip(stamps, body, strict=True)]
     head = "Clock,pos1,pos2,pos3,torque1,torque2,torque3"
     return written(folder / "run.log", "\n".join([head, *lines]) + "\n")
-
-
-def epoch(folder: Path, table: Table) -> Path:
-    """Nanoseconds since 1970, which no float holds."""
-    stamps = np.round(table["time"] * 1e9).astype("int64") + START
-    body = text_of(rows_of(table)[:, 1:], ",").splitlines()
-    lines = [f"{s},{line}" for s, line in zip(stamps, body, strict=True)]
-    head = "stamp,position_1,position_2,position_3,effort_1,effort_2,effort_3"
-    return written(folder / "run.csv", "\n".join([head, *lines]) + "\n")
 
 
 def timestamps(folder: Path, table: Table) -> Path:
@@ -193,13 +175,6 @@ def by_quantity_mat(folder: Path, table: Table) -> Path:
         ("tau", joined(table, "tau")),
     ):
         scipy.io.savemat(folder / f"{name}.mat", {name: value})
-    return folder
-
-
-def by_quantity_npy(folder: Path, table: Table) -> Path:
-    np.save(folder / "time.npy", table["time"])
-    np.save(folder / "positions.npy", joined(table, "q"))
-    np.save(folder / "torques.npy", joined(table, "tau"))
     return folder
 
 
@@ -259,14 +234,11 @@ KINDS = {
     "TwinCAT Scope": Kind(twincat),
     "a recorder without time": Kind(instrument),
     "RTDE of Universal Robots": Kind(rtde),
-    "libfranka": Kind(franka),
     "pandas with an ISO index": Kind(iso_index),
     "times of the day": Kind(clock_of_day),
-    "epoch nanoseconds": Kind(epoch),
     "Parquet with timestamps": Kind(timestamps),
     "a workbook": Kind(sheet),
     "a folder of MAT files": Kind(by_quantity_mat),
-    "a folder of numpy files": Kind(by_quantity_npy),
     "a folder of quantities": Kind(by_quantity_csv),
     "a folder of joints": Kind(by_joint),
     "LeRobot": Kind(lerobot, digits=1e-6),

@@ -9,7 +9,8 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.logs.log_table import LogTable
 from tests.logs import writers
-from tests.logs.writers import Run
+from tests.logs.programs import sheet
+from tests.logs.writers import Run, json_states
 
 WRITTEN = {
     "mat": (writers.mat, "run.mat", ""),
@@ -21,6 +22,8 @@ WRITTEN = {
     "bag's metadata": (writers.bag, "run", "metadata.yaml"),
     "bag, mcap": (lambda path, table: writers.bag(path, table, "MCAP"), "run", "run.mcap"),
     "bag 1": (writers.bag1, "run.bag", ""),
+    "workbook": (lambda path, table: sheet(path.parent, table), "run.xlsx", ""),
+    "JSON": (lambda path, table: writers.mcap_of(path, "", json_states(table)), "run.mcap", ""),
 }
 MUTANTS = 20
 

@@ -11,30 +11,14 @@ from modeler.core.errors import DataError
 from modeler.logs.columns import Wanted
 from modeler.logs.readers import read_columns
 from tests.logs import writers
-from tests.logs.writers import JOINTS, joined, serialized, stamps, states
+from tests.logs.writers import JOINTS, joined, json_states, mcap_of, serialized, stamps, states
 
 pytest.importorskip("rosbags", reason="NOT CHECKED: needs rosbags; pip install rosbags")
-writer_of = pytest.importorskip("mcap.writer", reason="NOT CHECKED: needs mcap; pip install mcap")
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore  # noqa: E402
+pytest.importorskip("mcap.writer", reason="NOT CHECKED: needs mcap; pip install mcap")
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 ROS1_HEADER = f"{writers.LINE}\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"
 MAPPING = ["auto", "names=1:waist,2:shoulder,3:elbow"]
-
-
-def written(path, profile, messages, encoding="json", form="jsonschema", kind="JointStates",
-            definition=b"{}", compression="LZ4"):  # fmt: skip
-    """Messages as (topic, ns, bytes); the library of the format writes them."""
-    with path.open("wb") as file:
-        writer = writer_of.Writer(file, compression=writer_of.CompressionType[compression])
-        writer.start(profile)
-        schema = writer.register_schema(kind, form, definition)
-        channels = {}
-        for topic, stamp, data in messages:
-            if topic not in channels:
-                channels[topic] = writer.register_channel(topic, encoding, schema)
-            writer.add_message(channels[topic], stamp, data, stamp)
-        writer.finish()
-    return path
 
 
 @pytest.mark.parametrize(
@@ -50,7 +34,7 @@ def test_messages_of_every_profile(profile, encoding, packing, short, tmp_path):
         "ros1": ("ros1msg", "sensor_msgs/JointState", ROS1_HEADER),
         "cdr": ("ros2msg", writers.KIND, writers.HEADER),
     }[encoding]
-    path = written(tmp_path / "run.mcap", profile, messages, encoding, form, kind,
+    path = mcap_of(tmp_path / "run.mcap", profile, messages, encoding, form, kind,
                    (writers.FIELDS + header).encode(), packing)  # fmt: skip
     assert "by their headers" in read_columns(path, Wanted()).notes[0]
     short.check(path, MAPPING)
@@ -58,27 +42,24 @@ def test_messages_of_every_profile(profile, encoding, packing, short, tmp_path):
 
 def test_messages_as_objects_of_json(short, tmp_path):
     """By lists, by an object for each joint; what is missing is null."""
-    by_list, by_joint = [], []
+    by_joint = []
     for stamp, names, q, tau in states(short.table):
-        header = {"stamp": {"sec": stamp // 10**9, "nsec": stamp % 10**9}}
-        message = {"header": header, "name": names, "position": [*q], "effort": [*tau]}
-        by_list.append(("/js", stamp + 9, json.dumps(message).encode()))
         joints = [
             {"name": n, "position": a, "effort": b} for n, a, b in zip(names, q, tau, strict=True)
         ]
-        message = {"timestamp": header["stamp"], "joints": joints}
+        message = {"timestamp": {"sec": stamp // 10**9, "nsec": stamp % 10**9}, "joints": joints}
         by_joint.append(("/js", stamp + 9, json.dumps(message).encode()))
-    for messages in (by_list, by_joint):
-        path = written(tmp_path / "run.mcap", "", messages)
+    for messages in (json_states(short.table), by_joint):
+        path = mcap_of(tmp_path / "run.mcap", "", messages)
         short.check(path, MAPPING)
     nulls = [("/js", 10**9 + k, b'{"name":["a","b"],"position":[1,null]}') for k in range(12)]
-    columns = dict(read_columns(written(tmp_path / "n.mcap", "", nulls), Wanted()).columns)
+    columns = dict(read_columns(mcap_of(tmp_path / "n.mcap", "", nulls), Wanted()).columns)
     assert math.isnan(columns["js.position[b]"].numbers()[0])
 
 
 def test_an_encoding_that_is_not_read_is_named(tmp_path):
     messages = [("/js", 10**9 + k, b"\x0a\x01a") for k in range(20)]
-    path = written(tmp_path / "run.mcap", "", messages, "protobuf", "protobuf")
+    path = mcap_of(tmp_path / "run.mcap", "", messages, "protobuf", "protobuf")
     with pytest.raises(
         DataError, match=r"its messages are protobuf JointStates; expected ROS 1, ROS 2 \(cdr\)"
     ):
@@ -199,5 +180,5 @@ def test_headers_that_stand_still_are_no_clock(tmp_path):
         ("/js", 10**9 + k * 10**6, json.dumps({"header": header, "q": k}).encode())
         for k in range(30)
     ]
-    found = read_columns(written(tmp_path / "run.mcap", "", messages), Wanted())
+    found = read_columns(mcap_of(tmp_path / "run.mcap", "", messages), Wanted())
     assert dict(found.columns)["time"].numbers()[-1] == pytest.approx(0.029)

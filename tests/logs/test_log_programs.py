@@ -28,7 +28,7 @@ TOLD = {
     "times of the day": "read with Clock counted from the first row",
     "a workbook": "read with sheet data, 1 line before the names, units in line 3",
     "a folder of joints": "joint1.tsv and 2 more: read with tabs between columns",
-    "a folder of numpy files": "one motion in 3 files: positions.npy, time.npy, torques.npy",
+    "a folder of MAT files": "one motion in 3 files: q.mat, t.mat, tau.mat",
     "LeRobot": "time is that of the frames at 1000 Hz, as info.json says; every episode is a "
     "segment",
 }  # fmt: skip

@@ -317,9 +317,12 @@ def test_processing_survives_json_and_refuses_nonsense():
         ({"cutoff": 1.0}, "processing has no setting cutoff"),
         ({"position_cutoff": "fast"}, "position_cutoff is fast; expected a number"),
         ({"speed_floors": [1]}, "expected numbers"),
+        ({"delay": float("nan")}, "delay is nan; expected less than 1 s"),
     ):
         with pytest.raises(DataError, match=words):
             processing_from_json(bad)
+    with pytest.raises(DataError, match=r"speed_floors is .*expected a speed by joint"):
+        Processing(speed_floors=(0.1,))
 
 
 JOINT = JointSpec("1", "revolute", "rad", "N m", True, None)
