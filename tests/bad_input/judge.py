@@ -12,7 +12,7 @@ import sys
 import tempfile
 import traceback
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 import pyarrow.parquet as pq
@@ -75,42 +75,33 @@ def _run(row: Row, workdir: Workdir) -> Result:
         assert isinstance(row.run, tuple)
         return _in_a_process(row.run, row.process, workdir)
     with inside(workdir), within(SECONDS):
-        if isinstance(row.run, tuple):
-            return run_here(row.run, workdir)
-        return _called(row, workdir)
+        return run_here(row.run, workdir)
 
 
-def run_here(words: tuple[str, ...], workdir: Workdir) -> Result:
-    """Run a command in this process."""
+def run_here(run: tuple[str, ...] | Callable[[Workdir], object], workdir: Workdir) -> Result:
+    """Run a command, or a call, in this process."""
     out, err = io.StringIO(), io.StringIO()
     status, broke = -1, ""
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         try:
-            status = main(list(words))
+            if isinstance(run, tuple):
+                status = main(list(run))
+            else:
+                run(workdir)
+                status = 0
+        except ModelerError as error:
+            status = 1
+            print(f"modeler: {error}", file=sys.stderr)
         except SystemExit as stop:
             status = stop.code if isinstance(stop.code, int) else -1
         except TooLong:
             broke = f"hang: no answer within {SECONDS:g} s"
         except BaseException as error:
-            broke = _told(error)
+            broke = _traceback(error)
     return Result(status, out.getvalue(), err.getvalue(), broke, workdir)
 
 
-def _called(row: Row, workdir: Workdir) -> Result:
-    status, err, broke = 0, "", ""
-    try:
-        assert callable(row.run)
-        row.run(workdir)
-    except ModelerError as error:
-        status, err = 1, f"modeler: {error}\n"
-    except TooLong:
-        broke = f"hang: no answer within {SECONDS:g} s"
-    except Exception as error:
-        broke = _told(error)
-    return Result(status, "", err, broke, workdir)
-
-
-def _told(error: BaseException) -> str:
+def _traceback(error: BaseException) -> str:
     frames = traceback.extract_tb(error.__traceback__)
     place = next((f for f in reversed(frames) if "modeler" in f.filename), frames[-1])
     said = str(error).splitlines()

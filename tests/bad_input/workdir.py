@@ -150,12 +150,11 @@ def read_csv(path: Path) -> Table:
     return {name: table[name].copy() for name in table.dtype.names}
 
 
-def csv_text(table: Mapping[str, Any], separator: str = ",", end: str = "\n") -> str:
+def csv_text(table: Mapping[str, Any]) -> str:
     """Columns as CSV; NaN is an empty entry."""
-    lines = [separator.join(table)]
     columns = [_cells(values) for values in table.values()]
-    lines += [separator.join(cells) for cells in zip(*columns, strict=True)]
-    return end.join(lines) + end
+    lines = [",".join(table), *(",".join(cells) for cells in zip(*columns, strict=True))]
+    return "\n".join(lines) + "\n"
 
 
 def _cells(values: Any) -> list[str]:

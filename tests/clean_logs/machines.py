@@ -33,17 +33,13 @@ class Truth:
         ways: of recording.
         rate: of the rows, Hz.
         held: channel -> seconds after which it is refreshed.
-        gaps: rows where one begins.
         steps: channel -> resolution, in its unit.
-        moving: joints that move, numbered from 1.
     """
 
     ways: tuple[str, ...]
     rate: float = 1000.0
     held: dict[str, float] = field(default_factory=dict)
-    gaps: list[float] = field(default_factory=list)
     steps: dict[str, float] = field(default_factory=dict)
-    moving: list[int] = field(default_factory=list)
 
 
 def make_machine(seed: int, folder: Path, ways: tuple[str, ...] | None = None) -> Truth:
@@ -69,7 +65,6 @@ def make_machine(seed: int, folder: Path, ways: tuple[str, ...] | None = None) -
     text = robot_text(f"clean{seed}", plant, {name: list(range(n)) for name in BASE})
     (folder / "robot.toml").write_text(text, encoding="utf-8")
     truth = Truth(ways, rate=float(rng.choice([200, 250, 500, 1000])))
-    truth.moving = [j + 1 for j in range(n) if np.ptp(paths[0][:, j]) > 0]
     choices = int(rng.integers(1 << 30))
     for name, path, run in zip(("train", "holdout"), paths, whole, strict=True):
         torque = run.torque[::STEPS] + rng.normal(size=path.shape) * noise
@@ -167,7 +162,7 @@ def _recorded(
     if "held" in truth.ways:
         _hold(columns, truth, own, n)
     if "gaps" in truth.ways:
-        columns = _with_gaps(columns, truth, rng)
+        columns = _with_gaps(columns, rng)
     return columns
 
 
@@ -189,13 +184,10 @@ def _hold(columns: dict[str, np.ndarray], truth: Truth, rng: np.random.Generator
         truth.held[str(name)] = rows / truth.rate
 
 
-def _with_gaps(
-    columns: dict[str, np.ndarray], truth: Truth, rng: np.random.Generator
-) -> dict[str, np.ndarray]:
+def _with_gaps(columns: dict[str, np.ndarray], rng: np.random.Generator) -> dict[str, np.ndarray]:
     time = columns["time"]
     keep = np.ones(len(time), bool)
     for start in rng.uniform(1, time[-1] - 2, int(rng.integers(3, 8))):
         lasts = float(rng.choice([0.03, 0.15, 0.4]))
         keep &= ~((time >= start) & (time < start + lasts))
-        truth.gaps.append(float(start))
     return {name: values[keep] for name, values in columns.items()}

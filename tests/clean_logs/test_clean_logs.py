@@ -1,6 +1,5 @@
 """Nothing that is printed of a machine without a fault is wrong."""
 
-import numpy as np
 import pytest
 
 from tests.clean_logs.judge import find_wrong_lines, print_all
@@ -45,10 +44,3 @@ def test_no_line_is_wrong(seed, tmp_path):
 def test_the_judge_sees_a_wrong_line(line):
     truth = Truth(("gaps", "held"), steps={"q1": 6.28e-6})
     assert find_wrong_lines([line], truth) == [line]
-
-
-def test_the_same_seed_is_the_same_machine(tmp_path):
-    for name in ("a", "b"):
-        make_machine(3, tmp_path / name, ("gaps", "uneven"))
-    one, two = (np.fromfile(tmp_path / x / "train.parquet", np.uint8) for x in ("a", "b"))
-    assert np.array_equal(one, two)

@@ -242,6 +242,12 @@ def test_friction_that_changes_with_temperature() -> None:
     assert sum(title.startswith("Temperature") for title in titles) == 3
     heat = all_pictures(found)[0].panels[2][0].series[0]
     assert "temperature" in heat.columns
+    part = np.where(p.run[:, None] == 1, np.nan, p.temperature)  # one log lacks it
+    found = compare(dataclasses.replace(p, temperature=part))
+    share = found.joints[1].structure
+    assert share is not None and np.isnan(share.share("temperature"))
+    assert "temperature" not in found.to_json()["joints"]["1"]["structure"]["shares"]
+    assert "temperature [" not in page_text(comparison_page(found))
 
 
 def test_friction_of_one_temperature_is_no_function_of_it() -> None:
@@ -250,18 +256,6 @@ def test_friction_of_one_temperature_is_no_function_of_it() -> None:
     share = compare(p).joints[1].structure
     assert share is not None
     assert share.share("direction") > 0.7 and share.share("temperature") < 0.02
-
-
-def test_no_temperature_where_a_log_lacks_it() -> None:
-    p = with_temperature(prediction(rows=1500), 0.0)
-    assert p.temperature is not None
-    part = p.temperature.copy()
-    part[p.run == 1] = np.nan
-    found = compare(dataclasses.replace(p, temperature=part))
-    share = found.joints[1].structure
-    assert share is not None and np.isnan(share.share("temperature"))
-    assert "temperature" not in found.to_json()["joints"]["1"]["structure"]["shares"]
-    assert "temperature [" not in page_text(comparison_page(found))
 
 
 def at_full_rate(p: Prediction, joint: int, waves: float, amplitude: float) -> Prediction:

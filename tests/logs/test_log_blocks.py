@@ -12,10 +12,9 @@ import pyarrow.parquet
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.logs.blocks import _Text, arrow_columns, blocks_of
+from modeler.logs.blocks import _Text, arrow_columns
 from modeler.logs.mapping import map_from_table
 from modeler.observation.chunk import read_part, window
-from modeler.observation.log import finger, fingerprint, fingerprint_of
 from modeler.observation.read import joined, read_log, source_of
 
 SIZE = 150
@@ -57,23 +56,6 @@ def values(columns, name):
     return found.numbers()
 
 
-@pytest.mark.parametrize("ending", [".parquet", ".csv"])
-def test_blocks_are_the_rows_of_the_file(ending, tmp_path):
-    x = np.arange(1730.0)
-    path = written(tmp_path / f"run{ending}", {"time": x, "q1": np.sin(x), "text": ["a"] * 1730})
-    blocks = blocks_of(path)
-    assert blocks.rows == pytest.approx(1730, rel=0.2)
-    found = list(blocks.blocks(SIZE, ["q1"]))
-    assert [name for name, _ in found[0].columns] == ["q1"] and len(found) > 8
-    np.testing.assert_array_equal(np.concatenate([values(b, "q1") for b in found]), np.sin(x))
-    window = blocks.window(0.5, 100)
-    time = values(window, "time")
-    np.testing.assert_array_equal(np.diff(time), 1.0)
-    assert len(time) == pytest.approx(100, abs=12) and 0.4 * 1730 < time[0] < 0.6 * 1730
-    assert len(values(blocks.window(0.99, 100), "time")) == pytest.approx(100, abs=12)
-    assert blocks_of(tmp_path / "run.mat") is None
-
-
 def log_columns(compiled, rows=3000, seed=1):
     random = np.random.default_rng(seed)
     names = [joint.name for joint in compiled.spec.joints]
@@ -109,17 +91,6 @@ def test_a_source_gives_the_log_that_is_read_whole(ending, tmp_path, case):
     assert log.missing["tau1"] == 4
     slow, true = log.extra["temperature"], whole.extra["temperature"]
     assert np.abs(slow - true).max() < 7.1  # a block without a value keeps the last
-
-
-def test_the_fingerprint_of_a_long_log_is_that_of_its_blocks(monkeypatch):
-    random = np.random.default_rng(2)
-    time, q = np.arange(900.0), random.normal(size=(900, 2))
-    assert fingerprint(time, q) != fingerprint(time + 1.0, q)
-    short = fingerprint(time, q)
-    monkeypatch.setattr("modeler.observation.log.LONG", 500)
-    monkeypatch.setattr("modeler.observation.log.FINGER", 256)
-    parts = [finger(time[k : k + 256], q[k : k + 256]) for k in range(0, 900, 256)]
-    assert fingerprint(time, q) == fingerprint_of(parts) != short
 
 
 @pytest.mark.parametrize("ending", [".parquet", ".csv"])

@@ -122,12 +122,16 @@ def test_a_missing_torque_costs_its_windows_only(arm):
     np.testing.assert_allclose(rows.W @ beta, rows.y, atol=2e-4 * np.abs(rows.y).max())
 
 
-def test_an_empty_channel_leaves_no_window(arm):
+def test_an_empty_channel_or_a_robot_that_stands_leaves_no_window(arm):
     model, _, log = arm
     tau = np.column_stack([log.tau[:, 0], np.full(log.rows, np.nan)])
     seen = observe(model, [dataclasses.replace(log, tau=tau)])
     with pytest.raises(DataError, match=r"run: no window .* joint 2 has 0 % .*--model torque"):
         energy_rows(model, seen)
+    still = dataclasses.replace(log, q=0.0 * log.q + 0.3, qd=0.0 * log.qd, qdd=0.0 * log.qdd)
+    smooth = planar_arm(friction=False)
+    with pytest.raises(DataError, match=r"run: the motors do no work in any window: no joint"):
+        energy_rows(smooth, observe(smooth, [still]))
 
 
 @pytest.mark.parametrize(
@@ -143,13 +147,3 @@ def test_windows_that_cannot_be(arm, window, told):
     model, _, log = arm
     with pytest.raises(DataError, match=told):
         energy_rows(model, observe(model, [log]), window)
-
-
-def test_a_robot_that_stands_does_no_work(arm):
-    log = arm[2]
-    still = dataclasses.replace(
-        log, q=log.q * 0.0 + 0.3, qd=log.qd * 0.0, qdd=log.qdd * 0.0, tau=log.tau
-    )
-    seen = observe(planar_arm(friction=False), [still])
-    with pytest.raises(DataError, match=r"run: the motors do no work in any window: no joint"):
-        energy_rows(planar_arm(friction=False), seen)

@@ -180,18 +180,6 @@ def test_one_line_lists_what_never_changes_and_stands_last(tmp_path, capsys):
     assert "qd1 has the other sign" in doubts[0] and len(doubts) == 3
 
 
-def test_table_and_noise_line_of_an_uneven_log_agree_on_the_step(tmp_path, capsys):
-    log, _ = recorded(6)
-    rows = np.cumsum(np.random.default_rng(6).choice([7, 15, 15, 16, 31, 45], 300))
-    rows = rows[rows < log.rows]
-    log = dataclasses.replace(log, time=log.time[rows], q=log.q[rows], tau=log.tau[rows])
-    log = dataclasses.replace(log, q=np.float32(log.q).astype(float))
-    assert main(["log", write(tmp_path / "a.csv", log)]) == 0
-    text = capsys.readouterr().out
-    assert f"in steps of {1e3 * COUNTS:.3g} mrad" in text and f" {COUNTS:.3g} " in text
-    assert "rows lost" not in text or "gap" in text
-
-
 def test_positions_without_noise_are_planned_filtered_or_simulated(tmp_path, capsys):
     t, q, qd, _ = motion(seed=7)
     assert main(["log", write(tmp_path / "a.csv", Log("a", ("1", "2"), t, q, qd))]) == 0
