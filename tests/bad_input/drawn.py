@@ -15,17 +15,14 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from modeler.core.builtin import builtin_names, builtin_text
-from modeler.robot.read import read_robot
 from tests.bad_input.judge import clear, inside, run_here, within
 from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes, edited_structure, toml_text
 from tests.bad_input.workdir import Inputs, Workdir, csv_text
-from tests.robot.par_files import par_of
 from tests.robot.texts import ARM, OWN_EFFECTS
 from tests.robot_texts import CRANK
 
 SAMPLES = 400
 LOG = "fit two-link bad{} --out f.json"
-PAR = par_of(read_robot("two-link"), False).encode()
 ROBOTS = (*([ARM, OWN_EFFECTS, CRANK] * 6), *map(builtin_text, builtin_names()))
 KINDS = (
     pa.float32(), pa.int64(), pa.int8(), pa.string(), pa.bool_(), pa.binary(), pa.null(),
@@ -44,19 +41,32 @@ WORDS = (*NUMBERS, '"', "[", "]", "{", "}", "=", ",", "\n", "#", "q1", "sin(", "
          "[mdh]", "rows", "\0", "é", "\\", "true", "'", "time", "tau1", ";", "rad")  # fmt: skip
 
 
+AS_BYTES = {"par": "x.par", "urdf": "good.urdf", "mjcf": "good.xml"}
+"""Formats of robots of which the bytes are spoilt: the good file."""
+
+Mutant = tuple[str, str, dict[str, bytes], str]
+"""Format, what was done, the files, the command."""
+
+
 class Drawer:
     """Draws mutants; the same ones for the same seed."""
 
     def __init__(self, inputs: Inputs, seed: int) -> None:
         self.inputs, self.random = inputs, random.Random(seed)
 
-    def draw(self) -> tuple[str, str, dict[str, bytes], str]:
-        """Format, what was done, the files, the command."""
+    def draw(self) -> Mutant:
+        """The next one."""
         kind = self.random.choice(
             ["toml", "toml", "par", "csv", "csv", "parquet", "urdf", "urdf", "mjcf", "model",
              "model", "map", "motion", "command", "command"]
         )  # fmt: skip
-        return getattr(self, f"_{kind}")()
+        return getattr(self, f"_{kind}")() if kind not in AS_BYTES else self._as_bytes(kind)
+
+    def _as_bytes(self, kind: str) -> Mutant:
+        name = AS_BYTES[kind]
+        content, told = self._bytes(self._made(name))
+        bad = f"bad{Path(name).suffix}"
+        return kind, told, {bad: content}, f"convert {bad} --out x.toml"
 
     def _made(self, name: str) -> bytes:
         return (self.inputs.folder / name).read_bytes()
@@ -83,7 +93,7 @@ class Drawer:
         edited_structure(raw, made)
         return " ".join(f"{kind} {str(value)[:20]!r}" for _, kind, value in made)
 
-    def _toml(self) -> tuple[str, str, dict[str, bytes], str]:
+    def _toml(self) -> Mutant:
         text = self.random.choice(ROBOTS)
         command = "derive bad.toml --no-terms --json d.json"
         if self.random.random() < 0.5:
@@ -93,10 +103,6 @@ class Drawer:
             told = self._structure(document)
             content = toml_text(document).encode(errors="replace")
         return "robot TOML", told, {"bad.toml": content}, command
-
-    def _par(self) -> tuple[str, str, dict[str, bytes], str]:
-        content, told = self._bytes(PAR)
-        return "SYMORO .par", told, {"bad.par": content}, "convert bad.par --out x.toml"
 
     def _columns(self) -> tuple[dict[str, np.ndarray], str]:
         """A log whose columns are exchanged, spoilt, gone, short."""
@@ -131,7 +137,7 @@ class Drawer:
                 break
         return table, ", ".join(told)
 
-    def _csv(self) -> tuple[str, str, dict[str, bytes], str]:
+    def _csv(self) -> Mutant:
         if self.random.random() < 0.5:
             table, told = self._columns()
             content = csv_text(table).encode()
@@ -140,7 +146,7 @@ class Drawer:
             content, told = self._bytes(csv_text(short).encode())
         return "log CSV", told, {"bad.csv": content}, LOG.format(".csv")
 
-    def _parquet(self) -> tuple[str, str, dict[str, bytes], str]:
+    def _parquet(self) -> Mutant:
         columns, told = self._columns()
         table = {name: pa.array(values) for name, values in columns.items()}
         if self.random.random() < 0.4:
@@ -154,15 +160,7 @@ class Drawer:
             content, told = self._bytes(content)
         return "log Parquet", told, {"bad.parquet": content}, LOG.format(".parquet")
 
-    def _urdf(self) -> tuple[str, str, dict[str, bytes], str]:
-        content, told = self._bytes(self._made("good.urdf"))
-        return "URDF", told, {"bad.urdf": content}, "convert bad.urdf --out x.toml"
-
-    def _mjcf(self) -> tuple[str, str, dict[str, bytes], str]:
-        content, told = self._bytes(self._made("good.xml"))
-        return "MJCF", told, {"bad.xml": content}, "convert bad.xml --out x.toml"
-
-    def _model(self) -> tuple[str, str, dict[str, bytes], str]:
+    def _model(self) -> Mutant:
         if self.random.random() < 0.5:
             content, told = self._bytes(self._made("m.json"))
         else:
@@ -171,7 +169,7 @@ class Drawer:
             content = json.dumps(raw).encode(errors="replace")
         return "model JSON", told, {"bad.json": content}, "compare bad.json b.csv --json c.json"
 
-    def _map(self) -> tuple[str, str, dict[str, bytes], str]:
+    def _map(self) -> Mutant:
         good = {"log": {"time": "time [s]", "q<j>": {"column": "q{j}", "unit": "rad", "sign": 1},
                         "tau<j>": {"column": "tau{n}", "scale": 1.0, "offset": 0.0}}}  # fmt: skip
         if self.random.random() < 0.5:
@@ -181,12 +179,12 @@ class Drawer:
             content = toml_text(good).encode(errors="replace")
         return "map", told, {"bad.toml": content}, "fit two-link a.csv --map bad.toml --out f.json"
 
-    def _motion(self) -> tuple[str, str, dict[str, bytes], str]:
+    def _motion(self) -> Mutant:
         kind, told, files, _ = self._csv() if self.random.random() < 0.6 else self._parquet()
         (name,) = files
         return f"motion {kind[4:]}", told, files, f"simulate two-link --motion {name} --out s.csv"
 
-    def _command(self) -> tuple[str, str, dict[str, bytes], str]:
+    def _command(self) -> Mutant:
         pick = self.random
         words = pick.choice(COMMANDS).split()
         odd = ["", "0", "-1", "nan", "1e9", "q9", "--out", "--joint", "no.csv", "a.csv", "é", "-",
@@ -208,8 +206,7 @@ class Drawer:
             else:
                 other = pick.randrange(len(words))
                 words[at], words[other] = words[other], words[at]
-        files = {"x.par": PAR}
-        return "command line", "words", files, " ".join(words)
+        return "command line", "words", {}, " ".join(words)
 
 
 def _cast(values: pa.Array, kind: pa.DataType) -> pa.Array:

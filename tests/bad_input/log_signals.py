@@ -135,7 +135,6 @@ HELD = [
     for what, edit, words in (
         ("torque of the other sign", put(tau2=lambda v: -v), ("joint 2", "sign")),
         ("torques exchanged", _exchanged(("tau1", "tau2")), ("exchanged|swapped",)),
-        ("time in ms", put(time=lambda v: 1000 * v), ("second|Hz",)),
         ("a turn too much", put(q1=at(HALF, SAMPLES, lambda v: v + 2 * np.pi)), ("q1",
             "jump|turn|wrap|leap")),
         ("a spike of 0.5 rad", put(q1=at(700, 701, lambda v: v + 0.5)), ("q1", "spike|jump|leap")),

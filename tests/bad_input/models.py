@@ -66,8 +66,6 @@ EDITED = [
     model("sources that climb out of the folder", "refused",
           set_at("sources", to=lambda s: {**s, "../../evil.c": "int x;"}), "bad.json",
           run=COMPARE + " --run-embedded-c"),
-    model("saved anew with line ends of Windows", "works",
-          text(lambda t: t.replace("\n", "\r\n"))),
     model("history edited, then undone", "refused",
           set_at("history", 0, "robot_text", to=lambda t: t.replace("0.40", "0.9")), CHANGED,
           run="add bad.json undo a.csv --out n.json", of="added.json"),

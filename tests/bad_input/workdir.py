@@ -14,7 +14,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from modeler.cli import main
+from modeler.robot.read import read_robot
 from tests.forked import Forks
+from tests.robot.par_files import par_of
 
 Table = dict[str, Any]
 """Columns of a log by name: arrays or lists."""
@@ -46,6 +48,7 @@ class Inputs:
                 assert main(command.split()) == 0, command
         finally:
             os.chdir(here)
+        (folder / "x.par").write_text(par_of(read_robot("two-link"), False))
         self._logs: dict[str, Table] = {}
         self._forks: Forks | None = None
 

@@ -116,7 +116,7 @@ def test_logs_of_other_motion_do_not_repeat() -> None:
 @pytest.mark.parametrize(
     ("defect", "tolerance"),
     [(lambda q, qd, qdd, tau, t: 0.5 * qd, 0.1),
-     (lambda q, qd, qdd, tau, t: np.full(t.size, 1.0), 0.05)],
+     *rotating((lambda q, qd, qdd, tau, t: np.full(t.size, 1.0), 0.05))],
 )  # fmt: skip
 def test_without_repetition_smooth_functions_tell(defect: Defect, tolerance: float) -> None:
     """0.5 qd is missing, or an offset: their mean squares are known."""

@@ -200,19 +200,14 @@ def test_travel_by_hand() -> None:
     np.testing.assert_array_equal(travel_since_reversal(np.ones(3)), np.zeros(3))
 
 
-def with_travel(p: Prediction) -> Prediction:
-    parts = [np.column_stack([travel_since_reversal(q) for q in p.q[p.run == run].T])
-             for run in (0, 1)]  # fmt: skip
-    return dataclasses.replace(p, travel=np.concatenate(parts))
-
-
 def test_what_follows_the_travel_is_named() -> None:
-    p = with_travel(prediction(seed=5))
-    assert p.travel is not None
+    p = prediction(seed=5)
+    travel = [travel_since_reversal(p.q[p.run == run, 1]) for run in (0, 1)]
+    p = dataclasses.replace(p, travel=np.repeat(np.concatenate(travel)[:, None], 3, axis=1))
     extra = 2.0 * np.exp(-p.travel[:, 1] / 0.3) * np.sign(p.qd[:, 1])
     measured = p.measured.copy()
     measured[:, 1] += extra
-    item = compare(dataclasses.replace(p, measured=measured)).joints[1]
+    (item,) = compare(judged_alone(dataclasses.replace(p, measured=measured))).joints
     found = best_pattern(item)
     assert found is not None and found[0].id == "travel"
     known = float(np.var(extra))
@@ -253,7 +248,7 @@ def test_friction_that_changes_with_temperature() -> None:
 def test_friction_of_one_temperature_is_no_function_of_it() -> None:
     """Missing Coulomb friction: the direction explains it, and temperature adds nothing."""
     p = with_temperature(prediction(lambda q, qd, qdd, tau, t: np.sign(qd), seed=5), 0.0)
-    share = compare(p).joints[1].structure
+    share = compare(judged_alone(p)).joints[0].structure
     assert share is not None
     assert share.share("direction") > 0.7 and share.share("temperature") < 0.02
 
@@ -307,14 +302,14 @@ def coupled(motors: tuple[Motor, ...]) -> Prediction:
 
 
 def test_the_speed_of_a_motor_is_told_from_that_of_a_joint() -> None:
-    item = compare(coupled((Motor("2+3", (0.0, 1.0, 2.0)),))).joints[1]
+    (item,) = compare(judged_alone(coupled((Motor("2+3", (0.0, 1.0, 2.0)),)))).joints
     assert "follows the velocity of the motor that turns with joints 2 and 3" in joint_verdict(item)
     assert item.structure is not None
     assert dict(item.structure.motors)["2+3"] == pytest.approx(4.0 / 4.25, abs=0.06)
 
 
 def test_without_a_coupling_the_other_joint_is_named_and_where_to_write_one() -> None:
-    text = joint_verdict(compare(coupled(())).joints[1])
+    text = joint_verdict(compare(judged_alone(coupled(()))).joints[0])
     assert "follows the velocity of joint 3 more than its own, as where one motor turns" in text
     assert "[coupling] in the robot file" in text
 

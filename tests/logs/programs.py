@@ -59,13 +59,6 @@ def german_excel(folder: Path, table: Table) -> Path:
     return written(folder / "messung.csv", ";".join(names) + "\n" + body, "cp1252", "\r\n")
 
 
-def unicode_excel(folder: Path, table: Table) -> Path:
-    """ "Unicode Text" of Excel: UTF-16, tabs, decimal commas."""
-    head = "time\t" + "\t".join(f"q{j}" for j in "123") + "\t" + "\t".join(f"tau{j}" for j in "123")
-    body = text_of(rows_of(table), "\t", ",")
-    return written(folder / "run.txt", f"{head}\n{body}", "utf-16", "\r\n")
-
-
 def labview(folder: Path, table: Table) -> Path:
     """An .lvm file: two headers, no name of its own for the time, a column of comments."""
     n, x = len(table["time"]), "\t".join
@@ -228,7 +221,6 @@ def mcap(folder: Path, table: Table) -> Path:
 PLACES = ("time=c1", "q<j>=c{n+1}", "tau<j>=c{n+4}")
 KINDS = {
     "German Excel": Kind(german_excel),
-    "Unicode text of Excel": Kind(unicode_excel, ()),
     "LabVIEW": Kind(labview),
     "a controller without names": Kind(controller, PLACES),
     "TwinCAT Scope": Kind(twincat),

@@ -180,8 +180,5 @@ def test_a_gap_of_one_file_is_not_filled(tmp_path):
     there = (rows < 0.3) | (rows > 0.6)
     csv(tmp_path / "tau.csv", {"time": rows[there] + 0.002, "b": rows[there]})
     tau = dict(read_columns(tmp_path, Wanted()).columns)["tau"].numbers()
-    assert (
-        np.isnan(tau[35:58]).all()
-        and np.isfinite(tau[1:28]).all()
-        and np.isfinite(tau[65:98]).all()
-    )
+    assert np.isnan(tau[35:58]).all()
+    assert np.isfinite(np.r_[tau[1:28], tau[65:98]]).all()

@@ -84,6 +84,7 @@ FALSE = [
     ("run.bag", b"no bag", "cannot be read as ROS bag"),
     ("run.npz", b"no arrays", "cannot be read as numpy file"),
     ("run.npy", b"", "the file is empty"),
+    ("run.xlsx", b"no workbook", "cannot be read as spreadsheet"),
 ]
 
 

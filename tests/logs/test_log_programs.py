@@ -112,22 +112,23 @@ def test_files_of_log_lie_beside_it(files):
         map_from_table({"files": files}, "[log]")
 
 
-def two(folder, q, tau, clocks=(0.0, 0.0)):
-    """q.csv and tau.csv with these clocks, s later."""
-    for name, rows, late in (("q", q, clocks[0]), ("tau", tau, clocks[1])):
-        lines = [f"{k * 1e-3 + late:.9f},{k}" for k in range(rows)]
-        written(folder / f"{name}.csv", "time,a\n" + "\n".join(lines) + "\n")
+def files(folder, **texts):
+    """A folder of CSV files of these texts."""
+    for name, text in texts.items():
+        written(folder / f"{name}.csv", text)
     return folder
 
 
-def timeless(folder, q, tau):
-    for name, rows in (("q", q), ("tau", tau)):
-        written(folder / f"{name}.csv", "a,b\n" + "".join(f"{k},{k % 7}\n" for k in range(rows)))
-    return folder
+def clock(late=0.0):
+    return "time,a\n" + "".join(f"{k * 1e-3 + late:.9f},{k}\n" for k in range(100))
+
+
+def numbers(rows):
+    return "a,b\n" + "".join(f"{k},{k % 7}\n" for k in range(rows))
 
 
 def test_clocks_a_little_apart_are_one(tmp_path):
-    found = read_columns(two(tmp_path, 100, 100, (0.0, 2e-4)), Wanted())
+    found = read_columns(files(tmp_path, q=clock(), tau=clock(2e-4)), Wanted())
     assert "up to 0.0002 apart: that of q.csv" in found.told[0]
     assert [name for name, _ in found.columns] == ["time", "q", "tau"]
 
@@ -140,35 +141,24 @@ def test_dates_of_files_are_compared(tmp_path):
         read_columns(tmp_path, Wanted())
 
 
-def damaged_clock(folder):
-    for name in ("q", "tau"):
-        written(folder / f"{name}.csv", "time,a\n" + "12:00:00,1\n" * 20 + "noon,1\n")
-    return folder
-
-
-def several(folder, text):
-    for name in ("mon", "tue"):
-        written(folder / f"{name}.csv", text)
-    return folder
-
-
+NOON = "time,a\n" + "12:00:00,1\n" * 20 + "noon,1\n"
+RUN = "time,q1,tau1\n" + "0,1,2\n1,2,3\n" * 20
 BROKEN = [
-    (lambda f: timeless(f, 100, 90), "tau.csv has 90 rows and q.csv 100; expected the same rows"),
-    (lambda f: two(f, 99, 99, (0.0, 0.7)), "rows in common: q.csv 0 to 0.098, tau.csv 0.7 to 0.79"),
-    (lambda f: several(f, "time,q1,tau1\n" + "0,1,2\n1,2,3\n" * 20), "is in several files, mon"),
-    (damaged_clock, 'column time, row 21: got "noon"; expected a time as in the other rows'),
-    (lambda f: f, "is a folder without metadata.yaml, meta/info.json or logs"),
-    (lambda f: (f / "meta").mkdir() or f / "meta" / "x", "there is no such file"),
-    (lambda f: written(f / "a.csv", "q1;time\n" + "1;x\n" * 30), "column time, row 1: got"),
-    (lambda f: written(f / "a.csv", "time,q1\n" + "12:00:00,1\n" * 20 + "noon,1\n"), "row 21: got"),
-    (lambda f: written(f / "a.xlsx", "none"), "cannot be read as spreadsheet"),
-]
+    ({"q": numbers(100), "tau": numbers(90)}, "tau.csv has 90 rows and q.csv 100; expected the sa"),
+    ({"q": clock(), "tau": clock(0.7)}, "rows in common: q.csv 0 to 0.099, tau.csv 0.7 to 0.79"),
+    ({"mon": RUN, "tue": RUN}, "is in several files, mon"),
+    ({"q": NOON, "tau": NOON}, 'column time, row 21: got "noon"; expected a time as in the other'),
+    ({}, "is a folder without metadata.yaml, meta/info.json or logs"),
+    ({"a": "q1;time\n" + "1;x\n" * 30}, "column time, row 1: got"),
+    ({"a": NOON}, 'row 21: got "noon"'),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize(("make", "line"), BROKEN)
-def test_what_cannot_be_read_is_one_line(tmp_path, make, line):
+@pytest.mark.parametrize(("texts", "line"), BROKEN)
+def test_what_cannot_be_read_is_one_line(tmp_path, texts, line):
+    place = files(tmp_path, **texts)
     with pytest.raises(DataError, match=re.escape(line)) as told:
-        LogTable(make(tmp_path)).numbers("time")
+        LogTable(place).numbers("time")
     assert "\n" not in str(told.value)
 
 

@@ -74,7 +74,7 @@ def test_a_joint_that_reads_the_speed_backwards_is_not_called_late():
     assert consistency(wrong, pieces, 5.0, refuse=False).late == ()
 
 
-@pytest.mark.parametrize("lags", [(0.0, 0.04), (0.03, 0.03)])
+@pytest.mark.parametrize("lags", [(0.0, 0.04), *rotating(((0.03, 0.03),))])
 def test_late_velocities_are_not_used_where_they_do_harm(lags):
     """Positions are differentiated; with --derivatives log they are used all the same, and told."""
     log, beta = drawn(np.random.default_rng(5), 500, lags)

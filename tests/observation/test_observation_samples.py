@@ -369,12 +369,8 @@ def test_a_finer_encoder_hides_the_motion_later():
         step = 2 * np.pi / n
         assert own.step == pytest.approx(step, rel=1e-6)
         assert own.deviation == pytest.approx(step / np.sqrt(12.0), rel=0.4)
-
-
-def test_exact_positions_have_no_noise_that_matters():
-    time = np.arange(20000) / 1000.0
-    found = noise_found(smooth(time), 1e3)
-    assert found.cutoff == 80.0 and found.deviation < 1e-9
+    exact = noise_found(smooth(time), 1e3)
+    assert exact.cutoff == 80.0 and exact.deviation < 1e-9
 
 
 def test_noise_that_grows_towards_low_frequencies_is_told():
