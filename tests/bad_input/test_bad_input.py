@@ -36,8 +36,8 @@ def cases() -> Iterator[object]:
 
 @pytest.mark.parametrize("row", list(cases()))
 def test_a_bad_input_ends_as_it_must(row, inputs, tmp_path):
-    found = faults(row, Workdir(tmp_path, inputs))
-    assert not found, f"{row.command[:200]}\n" + "\n".join(found)
+    wrong = faults(row, Workdir(tmp_path, inputs))
+    assert not wrong, f"{row.command[:200]}\n" + "\n".join(wrong)
 
 
 @pytest.mark.parametrize(
@@ -63,20 +63,20 @@ def test_mutants_of_every_format_end_in_one_line(count, seed, inputs):
 def test_the_judge_sees_an_unclear_line(err, piece, inputs, tmp_path):
     """The judge itself: lines that users must not get."""
     workdir = Workdir(tmp_path, inputs)
-    given = made("x: y", "refused", "derive bad.toml", "got 3")
-    found = ending(given, Result(1 if err else 0, "", err, "", workdir))
+    bad_row = made("x: y", "refused", "derive bad.toml", "got 3")
+    found = ending(bad_row, Result(1 if err else 0, "", err, "", workdir))
     assert any(piece in line for line in found)
 
 
 @pytest.mark.rotating("long tests of bad_input")
 def test_the_judge_sees_what_was_changed_and_left(inputs, tmp_path):
-    given = made("x: y", "works", "fit r.toml a.csv --out m.json")
+    bad_row = made("x: y", "works", "fit r.toml a.csv --out m.json")
     workdir = Workdir(tmp_path, inputs)
     workdir.write("m.json", "{")
     result = Result(0, "", "", "", workdir)
     before = {"work/a.csv": "1", "work/r.toml": "2"}
     after = {"work/a.csv": "3", "work/m.json": "4", "work/x.tmp": "5"}
-    found = " ".join(disturbed(given, result, before, after))
+    found = " ".join(disturbed(bad_row, result, before, after))
     for piece in ("a.csv was changed", "r.toml was removed", "left behind: work/x.tmp",
                   "half-written: m.json"):  # fmt: skip
         assert piece in found

@@ -66,8 +66,8 @@ def test_time_in_two_columns_is_exact(ending, short, tmp_path):
     time = LogTable(path, map_from_words(mapping)).numbers("time")
     expected = (np.array(stamps(short.table)) - START // 10**9 * 10**9) * 1e-9
     assert np.abs(time - expected).max() < 1e-12  # of a float of 1.7e9 s: 2e-7
-    for given in (mapping, ["auto"]):
-        short.check(path, given)
+    for words in (mapping, ["auto"]):
+        short.check(path, words)
 
 
 @pytest.mark.parametrize("ending", ["csv", "parquet"])

@@ -44,20 +44,20 @@ def inspected(tmp_path):
 
 
 @pytest.fixture
-def told(run, tmp_path):
+def log_output(run, tmp_path):
     """What the command tells of a table: as JSON, and on stdout."""
 
-    def told(table, *words):
+    def log_output(table, *words):
         path = parquet(tmp_path / "run.parquet", table)
         status, out, err = run("log", path, *words, "--json", tmp_path / "log.json")
         assert (status, err) == (0, "")
         return json.loads((tmp_path / "log.json").read_text()), out
 
-    return told
+    return log_output
 
 
-def test_what_is_in_a_log_and_the_suggestion_serves_as_a_mapping(told, tmp_path, table):
-    raw, out = told(table)
+def test_what_is_in_a_log_and_the_suggestion_serves_as_a_mapping(log_output, tmp_path, table):
+    raw, out = log_output(table)
     assert raw["log"] == "run.parquet" and raw["rows"] == len(table["time"])
     assert raw["clock"]["rate"] == pytest.approx(1000.0)
     assert raw["clock"]["duration"] == pytest.approx(2.499)
@@ -73,7 +73,7 @@ def test_what_is_in_a_log_and_the_suggestion_serves_as_a_mapping(told, tmp_path,
         '"tau<j>" = "tau_{j}"',
     ]
     (tmp_path / "map.toml").write_text(raw["suggested"])
-    raw, _ = told(table, "--map", tmp_path / "map.toml", "--robot", "demo-arm")
+    raw, _ = log_output(table, "--map", tmp_path / "map.toml", "--robot", "demo-arm")
     names = [channel["name"] for channel in raw["channels"]]
     assert "pos_2 (q2)" in names and "tau_3 (tau3)" in names
     assert raw["suggested"] == ""
@@ -141,22 +141,22 @@ def test_resolution_limits_and_missing_values(inspected, table):
     assert by["tau_3"]["missing"] == 7 and by["tau_1"]["limits"] == by["tau_3"]["limits"] == []
 
 
-def test_a_robot_tells_more(told, plain):
-    assert told(plain, "--robot", "demo-arm")[0]["doubts"] == []
+def test_a_robot_tells_more(log_output, plain):
+    assert log_output(plain, "--robot", "demo-arm")[0]["doubts"] == []
     plain["tau2"] = -plain["tau2"]
-    doubts = "\n".join(told(plain, "--robot", "demo-arm")[0]["doubts"])
+    doubts = "\n".join(log_output(plain, "--robot", "demo-arm")[0]["doubts"])
     assert "joint 2" in doubts and "sign" in doubts
     del plain["tau3"]
-    doubts = told(plain, "--robot", "demo-arm")[0]["doubts"]
+    doubts = log_output(plain, "--robot", "demo-arm")[0]["doubts"]
     assert any("as a log of demo-arm it cannot be fitted: " in line for line in doubts)
 
 
-def test_a_guess_that_fits_worse_is_dropped(told, inspected, plain):
+def test_a_guess_that_fits_worse_is_dropped(log_output, inspected, plain):
     """Without speeds a far way looks like degrees; the fit of the log as it stands clears it."""
     table = {name: v for name, v in plain.items() if not name.startswith("qd")}
     table["q1"] = table["q1"] + 4.0 * np.pi  # joint 1 turns about the vertical: gravity is blind
     assert "q1 looks like deg" in "\n".join(inspected(table).doubts)
-    raw, _ = told(table, "--robot", "demo-arm")
+    raw, _ = log_output(table, "--robot", "demo-arm")
     assert raw["doubts"] == [] and raw["suggested"] == ""
 
 

@@ -88,13 +88,6 @@ def test_rows_know_their_joint_sample_and_log():
     assert seen.names == tuple(base.name for base in model.spec.base)
 
 
-def test_further_columns_go_through_the_same_filter():
-    model = planar_arm()
-    seen = observe(model, [exact_log(model, some_beta(model))])
-    again = seen.filtered(lambda s, w: model.base_regressor(s.q[w], s.qd[w], s.qdd[w]))
-    np.testing.assert_array_equal(again, seen.columns)
-
-
 def test_a_burst_on_masked_samples_does_not_reach_any_row():
     """Missing, saturated and slow samples: whatever stands there, the equations hold."""
     model = planar_arm()
