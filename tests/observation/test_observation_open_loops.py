@@ -100,7 +100,8 @@ def test_fit_compare_diagnose_and_free_run_go_through(further, tmp_path, capsys)
 @pytest.mark.rotating("long tests of observation")
 def test_all_samples_open_is_one_line(tmp_path, capsys):
     log, _ = log_of(0.5)
-    apart = dataclasses.replace(log, q=log.q + 2.0 * OUTWARD)
+    q = home() + np.outer(2.0 + 0.5 * np.sin(4.4 * log.time), OUTWARD)
+    apart = dataclasses.replace(log, q=q, qd=None, qdd=None)
     data = write(tmp_path / "run.csv", apart)
     assert main(["fit", "five-bar", data, "--out", str(tmp_path / "model.json")]) == 1
     said = capsys.readouterr().err.strip()
