@@ -105,7 +105,6 @@ POSITION = [
            put(q1=lambda v: np.degrees(v) % 360), "q1|joint 1", "rad|degrees|jump|turn",
            alone=True),
     signal("a position inf", "told", put(q1=at(700, 701, np.inf)), "q1", "without a value"),
-    signal("position late by 40 ms", "told", put(q2=late(8)), "joint 2|q2", "late|delay|ms"),
 ]  # fmt: skip
 
 TORQUE = [
@@ -120,7 +119,6 @@ TORQUE = [
     signal("torque of 1e300", "ends", put(tau1=at(700, 701, 1e300)), "tau1|joint 1"),
     signal("torque clipped", "told", put(tau1=lambda v: np.clip(v, -8, 8)), "joint 1|tau1",
            "saturat|limit"),
-    signal("torque of the other log", "told", put(tau1=lambda v: v[::-1]), "joint 1|usable"),
 ]  # fmt: skip
 
 SPEED = [

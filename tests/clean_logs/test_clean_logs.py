@@ -4,8 +4,9 @@ import pytest
 
 from tests.clean_logs.judge import find_wrong_lines, print_all
 from tests.clean_logs.machines import PAIRS, Truth, make_machine
+from tests.rotation import ROTATING, rotating
 
-DAILY = [182, *(pytest.param(seed, marks=pytest.mark.rotating) for seed in (107, 103))]
+DAILY = [182, pytest.param(107, marks=ROTATING), *rotating(103)]
 """Sticks and held, with two joints and with more; held and single, what once was said to ring."""
 
 KNOWN = {202: "16 rows at the coarse end of a torque are called clipped"}

@@ -36,9 +36,9 @@ def second_joint(defect: Defect | None, noise: float = NOISE, rows: int = 6000) 
     [
         ("velocity", lambda q, qd, qdd, tau, t: 0.5 * qd),
         ("direction", lambda q, qd, qdd, tau, t: 1.0 * np.sign(qd)),
-        ("load", lambda q, qd, qdd, tau, t: 0.1 * np.abs(tau) * np.sign(qd)),
         ("time", lambda q, qd, qdd, tau, t: 0.06 * (t % 30.0 - 15.0)),
         *rotating(
+            ("load", lambda q, qd, qdd, tau, t: 0.1 * np.abs(tau) * np.sign(qd)),
             ("velocity", lambda q, qd, qdd, tau, t: 1.5 * np.sign(qd) * np.exp(-((qd / 0.4) ** 2))),
             ("position", lambda q, qd, qdd, tau, t: 0.5 * q),
             ("acceleration", lambda q, qd, qdd, tau, t: 0.2 * qdd),
@@ -265,7 +265,7 @@ def at_full_rate(p: Prediction, joint: int, waves: float, amplitude: float) -> P
 
 
 @pytest.mark.parametrize(
-    ("unit", "per", "shown"), [("rad", "turn", 47.0), ("m", "m", 47 / 6.283185)]
+    ("unit", "per", "shown"), [("rad", "turn", 47.0), *rotating(("m", "m", 47 / 6.283185))]
 )
 def test_a_known_order_is_found(unit: str, per: str, shown: float) -> None:
     p = at_full_rate(prediction(rows=1500), 1, 47.0, 0.6)

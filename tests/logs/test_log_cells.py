@@ -17,6 +17,7 @@ from modeler.logs.readers import read_columns
 from modeler.observation.read import source_of
 from tests.logs.test_log_clocks import csv
 from tests.logs.writers import JOINTS, ORDERS, joined
+from tests.rotation import rotating
 
 NAMES = "names=1:waist,2:shoulder,3:elbow"
 
@@ -39,7 +40,9 @@ SHOWN = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("how", SHOWN)
+@pytest.mark.parametrize(
+    "how", ["python", "numpy over lines", *rotating("json", "numpy", "tuple", "array")]
+)
 def test_lists_in_cells_are_columns(how, short, tmp_path):
     path = tmp_path / "run.csv"
     path.write_text(listed(short.table, SHOWN[how]))

@@ -12,6 +12,7 @@ from modeler.logs.columns import Wanted
 from modeler.logs.readers import read_columns
 from tests.logs import writers
 from tests.logs.writers import JOINTS, joined, json_states, mcap_of, serialized, stamps, states
+from tests.rotation import rotating
 
 pytest.importorskip("rosbags", reason="NOT CHECKED: needs rosbags; pip install rosbags")
 pytest.importorskip("mcap.writer", reason="NOT CHECKED: needs mcap; pip install mcap")
@@ -23,7 +24,7 @@ MAPPING = ["auto", "names=1:waist,2:shoulder,3:elbow"]
 
 @pytest.mark.parametrize(
     ("profile", "encoding", "packing"),
-    [("ros1", "ros1", "LZ4"), ("", "cdr", "ZSTD"), ("ros2", "cdr", "NONE")],
+    [("ros1", "ros1", "LZ4"), ("", "cdr", "ZSTD"), *rotating(("ros2", "cdr", "NONE"))],
 )
 def test_messages_of_every_profile(profile, encoding, packing, short, tmp_path):
     messages = (
@@ -131,7 +132,7 @@ class Control:
         return path
 
 
-@pytest.mark.parametrize("headers", ["valid", "empty"])
+@pytest.mark.parametrize("headers", ["valid", *rotating("empty")])
 def test_values_by_the_names_of_interfaces(headers, short, tmp_path):
     ros, kind, messages = Control(), "control_msgs/msg/DynamicJointState", []
     for stamp, names, q, tau in states(short.table):

@@ -16,6 +16,7 @@ from modeler.logs.mapping import map_from_table
 from modeler.logs.readers import read_columns
 from tests.logs.programs import KINDS, lerobot, rows_of, sheet, text_of, written
 from tests.logs.writers import START
+from tests.rotation import rotating
 
 TOLD = {
     "German Excel": "read with ; between columns, decimal commas, in latin-1",
@@ -33,11 +34,13 @@ TOLD = {
     "segment",
 }  # fmt: skip
 """What is said of files of some kinds when they are read."""
+SELDOM = ("RTDE of Universal Robots", "pandas with an ISO index", "a folder of quantities")
+"""Which differ from others in their names only."""
 BY_RANGE = ("LeRobot", "a folder of joints")
 """Whose degrees show by the range of a longer motion."""
 
 
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("name", [*(n for n in KINDS if n not in SELDOM), *rotating(*SELDOM)])
 def test_every_kind_gives_the_run_and_its_blocks_the_same_rows(name, case, short, tmp_path):
     kind, run = KINDS[name], case if name in BY_RANGE else short
     (tmp_path / "run").mkdir()

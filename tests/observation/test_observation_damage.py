@@ -210,7 +210,7 @@ LINES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("defect", ["spike", "zero", "lost", *rotating("wrap", "glitch")])
+@pytest.mark.parametrize("defect", ["zero", *rotating("spike", "lost", "wrap", "glitch")])
 def test_the_report_names_the_defect_and_the_rest_stays_usable(defect):
     model = planar_arm()
     log, beta = sample(defect)
