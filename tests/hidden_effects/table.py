@@ -6,30 +6,11 @@ from tests.hidden_effects.drives import NOISE
 from tests.hidden_effects.score import DETECTABLE, Key, Score
 from tests.hidden_effects.sensor_kinds import FINE, SENSORS
 
-INTRODUCTION = """# Hidden effects: what the diagnosis finds
+INTRODUCTION = f"""# Hidden effects: what the diagnosis finds
 
-Written by `python -m tests.hidden_effects`. Every case is a random arm, simulated by a program
-that shares no code with the one that is tested, with an effect that its robot file does not name.
-Effects are hidden one at a time, two at a time, or not at all; the diagnosis sees the robot file
-and the logs only. Joint and values are drawn; noise is {noise} of the torque.
-
-*First*: the effect named first is the hidden one, on its joint. *Joint*: it is on that joint.
-*Tie*: the hidden effect is the one named first, or one that is said to be as likely.
-*Exact*: what is hidden is named, and nothing else. *Fall*: median fall of the held-out error of
-the joint by the effect named first, where it is right. Where the cause is outside the catalogue, or
-withheld from it, nothing may be stated as a fact. Cases where even a perfect diagnosis would have
-next to nothing to see (less than {least} of the noise) are not counted; they are listed below.
-"""
-
-
-SENSORS_TOLD = f"""Other sensors and recorders on such arms; a slow one takes five times as long for
-its way, and has motors in proportion. *First*: of what these positions can show at all: an effect
-that is less than {DETECTABLE} of the noise, to which that of the positions adds, is not counted.
-*Stated*: it is stated as the cause, perhaps with others that are as likely; *Fact*: alone.
-*Wrong*: what is stated is not there, of all cases with a statement. *Names wrong*: something is
-named that is not there; where the log is wrong, its fault may be named. *Alarms*: such names, or no
-answer, where nothing is hidden. *Told*: what is wrong with the log, in words or by a name.
-What is "perhaps" missing is no name.
+Written by `python -m tests.hidden_effects`; `docs/explanation/hidden-effects.md` says what the
+columns mean. Noise is {{noise}} of the torque. Cases where even a perfect diagnosis would have next
+to nothing to see (less than {DETECTABLE} of the noise) are not counted; they are listed below.
 """
 
 
@@ -39,7 +20,7 @@ def page(scores: Sequence[Score]) -> str:
     named = [s for s in seen if not s.withheld and not s.held_out and s.sensor == FINE]
     single = [score for score in named if len(score.hidden) == 1]
     noise = ", ".join(f"{100 * share:.3g} % ({name})" for name, share in NOISE.items())
-    parts = [INTRODUCTION.format(noise=noise, least=DETECTABLE)]
+    parts = [INTRODUCTION.format(noise=noise)]
     if single:
         parts += ["## One effect\n", _singles(single)]
     if clean := [score for score in named if not score.hidden]:
@@ -47,11 +28,11 @@ def page(scores: Sequence[Score]) -> str:
     if pairs := [score for score in named if len(score.hidden) == 2]:
         parts += ["## Two effects\n", _pairs(pairs)]
     if coarse := [score for score in scores if score.sensor != FINE]:
-        parts += ["## Coarse encoders, noisy positions\n", SENSORS_TOLD, by_sensor(coarse)]
+        parts += ["## Coarse encoders, noisy positions\n", by_sensor(coarse)]
     if withheld := [score for score in seen if score.withheld]:
-        parts += ["## The hidden effect withheld from the catalogue\n", _withheld(withheld)]
+        parts += ["## The hidden effect withheld from the catalogue\n", _outside(withheld)]
     if held_out := [score for score in seen if score.held_out]:
-        parts += ["## Causes outside the catalogue\n", _held_out(held_out)]
+        parts += ["## Causes outside the catalogue\n", _outside(held_out)]
     missed = [score for score in seen if not score.right]
     parts += ["## Misses\n", _list(missed)]
     parts += ["## Undetectable\n", _list([s for s in scores if not s.detectable])]
@@ -86,7 +67,6 @@ def by_sensor(scores: Sequence[Score]) -> str:
         some = [s for s in scores if kind in (s.sensor, "")]
         hidden = [s for s in some if s.hidden and s.detectable]
         stated = [s for s in some if s.stated]
-        clean, faulty = ([s for s in some if good(s)] for good in (_is_clean, _is_faulty))
         rows.append([
             SENSORS[kind].told if kind else "**all**",
             count(hidden, lambda s: s.first),
@@ -94,19 +74,11 @@ def by_sensor(scores: Sequence[Score]) -> str:
             count(hidden, lambda s: len(s.facts) > len(s.wrong)),
             count(stated, lambda s: s.false),
             count(some, lambda s: s.spurious > 0),
-            count(clean, lambda s: s.spurious > 0 or bool(s.error)),
-            count(faulty, lambda s: bool(s.told)),
+            count([s for s in some if not s.hidden], lambda s: s.spurious > 0 or bool(s.error)),
+            count([s for s in some if s.told is not None], lambda s: bool(s.told)),
         ])  # fmt: skip
     header = ["Sensor", "First", "Stated", "Fact", "Wrong", "Names wrong", "Alarms", "Told"]
     return markdown(header, rows)
-
-
-def _is_clean(score: Score) -> bool:
-    return not score.hidden
-
-
-def _is_faulty(score: Score) -> bool:
-    return score.told is not None
 
 
 def _row(name: str, scores: Sequence[Score], levels: Sequence[str]) -> list[str]:
@@ -126,13 +98,9 @@ def _share(cell: str) -> str:
 
 def _clean(scores: Sequence[Score]) -> str:
     levels = [level for level in NOISE if any(s.noise == level for s in scores)]
-    rows = [["False alarms", *(_alarms([s for s in scores if s.noise == k]) for k in levels)]]
-    rows[0].append(_alarms(scores))
-    return markdown(["", *levels, "all"], rows)
-
-
-def _alarms(scores: Sequence[Score]) -> str:
-    return count(scores, lambda score: not score.exact)
+    some = [[s for s in scores if s.noise == level] for level in levels]
+    alarms = [count(cases, lambda score: not score.exact) for cases in (*some, scores)]
+    return markdown(["", *levels, "all"], [["False alarms", *alarms]])
 
 
 def _pairs(scores: Sequence[Score]) -> str:
@@ -145,36 +113,15 @@ def _pairs(scores: Sequence[Score]) -> str:
     return markdown(["Noise", "First is one", "Both", "Exact", "Spurious a case"], rows)
 
 
-def _withheld(scores: Sequence[Score]) -> str:
-    rows = [
-        ["Another effect stated as the cause", count(scores, lambda s: s.stated)],
-        ["Another effect as the closest description", count(scores, _closest)],
-        [
-            "Systematic, and not in the catalogue",
-            count(scores, lambda s: s.verdict == "unexplained"),
-        ],
-        ["Nothing significant", count(scores, lambda s: s.verdict == "nothing significant")],
-    ]
-    return markdown(["The diagnosis says", "cases"], rows)
-
-
-def _held_out(scores: Sequence[Score]) -> str:
-    verdicts: list[Callable[[Score], bool]] = [
-        lambda s: s.stated,
-        _closest,
-        lambda s: s.verdict == "unexplained",
-        lambda s: s.verdict == "nothing significant",
-    ]
+def _outside(scores: Sequence[Score]) -> str:
+    """By cause: what is said of one that may not be named, or that no catalogue has."""
+    verdicts = ("missing", "closest description", "unexplained", "nothing significant")
     rows = []
     for name in [*dict.fromkeys(score.effects for score in scores), "**all**"]:
         some = [score for score in scores if name in (score.effects, "**all**")]
-        rows.append([name, *(count(some, verdict) for verdict in verdicts)])
+        rows.append([name, *(count(some, lambda s, v=v: s.verdict == v) for v in verdicts)])
     header = ["Cause", "Another effect stated", "Closest description", "Unexplained"]
     return markdown([*header, "Nothing significant"], rows)
-
-
-def _closest(score: Score) -> bool:
-    return score.verdict == "closest description"
 
 
 def _list(scores: Sequence[Score]) -> str:
@@ -194,11 +141,8 @@ def line(score: Score) -> str:
         said += "; the log's fault is not told"
     tied = "; tied with what is hidden" if score.tied and not score.first else ""
     where = f"{score.robot}{seen}"
-    return f"{score.case} ({where}): {_hidden(score)}; said {said}{tied}"
-
-
-def _hidden(score: Score) -> str:
-    return ", ".join(map(_name, score.hidden)) or "nothing"
+    hidden = ", ".join(map(_name, score.hidden)) or "nothing"
+    return f"{score.case} ({where}): {hidden}; said {said}{tied}"
 
 
 def _name(key: Key) -> str:

@@ -6,7 +6,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.hidden_effects.case import Case, make_case
 from tests.hidden_effects.drives import equip
 from tests.hidden_effects.effects import BASE, EFFECTS, hide
 from tests.hidden_effects.motion import draw_bounds, motion
@@ -113,20 +112,6 @@ def test_every_effect_changes_the_logged_torque(name):
     joints = range(3) if hidden.joint is None else [hidden.joint]
     assert hidden.values
     assert max(np.abs(after - before)[:, j].max() / scales.rated[j] for j in joints) > 0.01
-
-
-@pytest.mark.slow
-def test_a_seed_is_a_case(tmp_path):
-    case = Case(("offset",), "low", 7, "2R")
-    truths = [make_case(case, tmp_path / name, visible=0) for name in "ab"]
-    assert truths[0] == truths[1]
-    for path in (tmp_path / "a").iterdir():
-        assert path.read_bytes() == (tmp_path / "b" / path.name).read_bytes()
-    other = make_case(dataclasses.replace(case, seed=8), tmp_path / "c", visible=0)
-    assert other["plant"] != truths[0]["plant"]
-    missing = truths[0]["hidden"][0]["joint"]
-    kept = "2" if missing == "1" else "1"
-    assert f'offset = ["{kept}"]' in (tmp_path / "a" / "robot.toml").read_text()
 
 
 def test_a_motion_starts_and_ends_at_rest_within_its_bounds():

@@ -1,17 +1,14 @@
-"""Sensors of real machines: what they do to a log, and how answers about such logs count."""
+"""Sensors of real machines: what they do to a motion and to a log."""
 
-import json
+from dataclasses import replace
 
 import numpy as np
 import pyarrow.parquet
 import pytest
 
-from tests.hidden_effects.__main__ import cases_of, parser
 from tests.hidden_effects.case import Case, make_case
 from tests.hidden_effects.plant import TICK
-from tests.hidden_effects.score import score_from_json, scored
 from tests.hidden_effects.sensor_kinds import FINE, SENSORS, computed_torque
-from tests.hidden_effects.table import page
 from tests.hidden_effects.test_generator import arm
 from tests.hidden_effects.visibility import Left, shown
 
@@ -66,13 +63,13 @@ def test_a_recorder_repeats_whole_rows(kind):
 
 
 def test_a_slow_machine_goes_the_same_kind_of_way_a_fifth_as_fast():
-    _, _, scales = arm()
-    paths = [
-        SENSORS[kind].path(np.random.default_rng(5), seconds, scales.bounds)
+    bounds = arm("2R", seconds=4.0)[2].bounds
+    fast, slow = (
+        SENSORS[kind].path(np.random.default_rng(5), seconds, bounds)
         for kind, seconds in ((FINE, 4.0), ("slow", 10.0))
-    ]
-    np.testing.assert_allclose(paths[1][::5], paths[0], atol=1e-12)
-    assert np.abs(np.diff(paths[1], axis=0)).max() < 0.25 * np.abs(np.diff(paths[0], axis=0)).max()
+    )
+    np.testing.assert_allclose(slow[::5], fast, atol=1e-12)
+    assert np.abs(np.diff(slow, axis=0)).max() < 0.25 * np.abs(np.diff(fast, axis=0)).max()
 
 
 def test_a_coarse_encoder_is_in_the_loop():
@@ -119,97 +116,17 @@ def test_what_positions_bury_is_not_visible():
 
 
 @pytest.mark.rotating("long tests of hidden_effects")
-def test_a_kind_of_sensor_is_the_same_arm(tmp_path):
-    case = Case(("coulomb",), "med", 3, "2R", sensor="late")
-    truth = make_case(case, tmp_path / "late", visible=0.25)
-    fine = make_case(Case(("coulomb",), "med", 3, "2R"), tmp_path / "fine", visible=0.25)
-    assert case.folder == "coulomb-med-3-late" and Case((), "med", 3).folder == "none-med-3"
-    assert truth["plant"] == fine["plant"] and truth["visible"] == fine["visible"]
+def test_a_seed_is_a_case_and_a_kind_of_sensor_the_same_arm(tmp_path):
+    fine = Case(("coulomb",), "med", 3, "2R")
+    cases = {"late": replace(fine, sensor="late"), "fine": fine, "again": fine}
+    truth, plain, again = (make_case(c, tmp_path / n, visible=0.25) for n, c in cases.items())
+    assert cases["late"].folder == "coulomb-med-3-late" and fine.folder == "coulomb-med-3"
+    assert truth["plant"] == plain["plant"] and truth["visible"] == plain["visible"]
     logs = [pyarrow.parquet.read_table(tmp_path / k / "train.parquet") for k in ("late", "fine")]
     other = [name for name in logs[0].column_names if logs[0][name] != logs[1][name]]
-    assert other == [f"q{truth['sensor']['joint']}"] and "joint" not in fine["sensor"]
-
-
-def truth(kind, *hidden, joint="2"):
-    named = [{"effect": e, "joint": j, "values": {}} for e, j in hidden]
-    of_joint = {"joint": joint} if SENSORS[kind].of_joint else {}
-    return {"hidden": named, "visible": [1.0] * len(named), "noise": "med", "robot": "3R",
-            "sensor": {"kind": kind} | of_joint}  # fmt: skip
-
-
-def said(*findings, data=(), tied=()):
-    ties = [{"effect": e, "joint": j} for e, j in tied]
-    effects = [{"effect": e, "joint": j, "status": s, "ties": ties, "error_before": 0.1,
-                "error_after": 0.05} for e, j, s in findings]  # fmt: skip
-    verdict = "missing" if any(s == "fact" for *_, s in findings) else "closest description"
-    return {"effects": effects, "verdict": verdict, "seconds": 1.0, "data": list(data)}
-
-
-def test_perhaps_is_no_name():
-    """It is no alarm; it is first where nothing is named."""
-    perhaps = ("spring", "2", "perhaps")
-    clean = scored("a", truth("coarse"), said(perhaps))
-    assert clean.exact and clean.said == () and clean.maybe == (("spring", "2"),)
-    only = scored("b", truth("coarse", ("spring", "2")), said(perhaps))
-    assert only.first and not only.exact and not only.facts
-    beside = scored("c", truth("coarse", ("spring", "2")), said(("drift", "2", "named"), perhaps))
-    assert not beside.first and beside.spurious == 1
-    assert score_from_json(json.loads(json.dumps(beside.to_json()))) == beside
-
-
-LATE_LINE = "joint 2: its position comes 5 ms too late beside the other channels"
-#             sensor, said, told, names that are wrong
-FAULTS = {
-    "in words": ("late", said(data=[LATE_LINE]), True, 0),
-    "of another joint": ("late", said(data=[LATE_LINE.replace("2", "3")]), False, 0),
-    "by name": ("late", said(("time_delay", None, "fact")), True, 0),
-    "taken for another": ("late", said(("spring", "2", "fact"), data=[LATE_LINE]), True, 1),
-    "gain": ("gain", said(("drive_gain", "2", "named")), True, 0),
-    "gain elsewhere": ("gain", said(("drive_gain", "1", "fact")), False, 1),
-    "gain of either": (
-        "gain", said(("drive_gain", "1", "named"), tied=[("drive_gain", "2")]), True, 0,
-    ),
-    "friction computed": ("computed", said(("coulomb", "1", "named")), False, 1),
-    "silent": ("repeat", said(), False, 0),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", FAULTS)
-def test_a_wrong_log_is_told(name):
-    kind, answer, told, wrong = FAULTS[name]
-    score = scored(name, truth(kind), answer)
-    assert (score.told, score.spurious) == (told, wrong)
-    assert score.right == (told and not wrong)
-
-
-def test_a_statement_that_leaves_it_open_is_not_false():
-    other, spring = ("counterbalance", "2"), ("spring", "2")
-    for ties, false in (((), True), ((spring,), False)):
-        answer = said((*other, "named"), tied=ties) | {"verdict": "missing"}
-        assert scored("a", truth("coarse", spring), answer).false is false
-
-
-def test_the_page_counts_by_sensor():
-    spring = ("spring", "2")
-    scores = [
-        scored("a", truth("coarse", spring), said((*spring, "fact"))),
-        scored("b", truth("coarse", spring), said(("drift", "2", "fact"))),
-        scored("c", truth("coarse"), said((*spring, "named"))),
-        scored("d", truth("late"), said(data=[LATE_LINE])),
-    ]
-    text = page(scores)
-    assert "| 4096 counts a turn, in the loop | 1/2 | 1/2 | 1/2 | 1/2 | 2/3 | 1/1 |  |" in text
-    assert "| one position 5 ms late |  |  |  |  | 0/1 | 0/1 | 1/1 |" in text
-    assert "## One effect" not in text and "no fact: drift@2" in text
-
-
-def test_every_case_is_run_with_every_sensor():
-    options = ["--effects", "spring", "--noise", "med", "--seeds", "1", "--clean", "2"]
-    cases = cases_of(parser().parse_args([*options, "--sensors", "coarse,white"]))
-    assert [case.folder for case in cases] == [
-        f"{name}-{kind}"
-        for kind in ("coarse", "white")
-        for name in ("spring-med-1", "none-med-1", "none-med-2")
-    ]
-    with pytest.raises(SystemExit, match="unknown: blind"):
-        cases_of(parser().parse_args(["--sensors", "blind"]))
+    assert other == [f"q{truth['sensor']['joint']}"] and "joint" not in plain["sensor"]
+    assert plain == again
+    for path in (tmp_path / "fine").iterdir():
+        assert path.read_bytes() == (tmp_path / "again" / path.name).read_bytes()
+    kept = {"1": "2", "2": "1"}[plain["hidden"][0]["joint"]]
+    assert f'coulomb = ["{kept}"]' in (tmp_path / "fine" / "robot.toml").read_text()

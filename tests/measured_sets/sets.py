@@ -1,15 +1,18 @@
 """The measured sets: robot, what it is fitted to, what is held out; and the cases made of them."""
 
+import re
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from modeler.core.builtin import builtin_text
-from tests.measured_sets.robots import DUALARM7, panda
+from tests.repository import ROOT
 
-DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
+DATA = ROOT.parent / "shared" / "data"
 """The measured logs beside the checkout."""
+
+PAGE = ROOT / "docs" / "studies" / "measured-sets.md"
 
 DIRECTIONS = ("forward", "exchanged")
 FACTORS = (1.0, 0.7, 1.4)
@@ -71,6 +74,21 @@ def _builtin(name: str) -> Callable[[], str]:
     return lambda: builtin_text(name)
 
 
+def _panda() -> str:
+    """The built-in arm with friction; its sensors stand behind the gears and feel no rotor."""
+    return builtin_text("panda") + (
+        '\n[effects]\nviscous = "all"\ncoulomb = "all"\noffset = "all"\n'
+    )
+
+
+def _dualarm7() -> str:
+    """As the page of studies has it."""
+    text = PAGE.read_text("utf-8")
+    found = re.search(r"^```toml\n# dualarm7\.toml\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    assert found is not None
+    return found[1]
+
+
 def _ur10e(*names: str) -> tuple[str, ...]:
     return tuple(f"ur-20_{name}" for name in names)
 
@@ -94,10 +112,8 @@ _EVERY = (
     MeasuredSet(
         "kinova_gen3", _builtin("kinova_gen3"), ("traj_1", "traj_3", "traj_5"), ("traj_2", "traj_4")
     ),
-    MeasuredSet("panda", panda, ("excitation@:11.55",), ("excitation@11.55:",)),
-    MeasuredSet(
-        "dualarm7", lambda: DUALARM7, ("excitation_13", "excitation_15"), ("excitation_52",)
-    ),
+    MeasuredSet("panda", _panda, ("excitation@:11.55",), ("excitation@11.55:",)),
+    MeasuredSet("dualarm7", _dualarm7, ("excitation_13", "excitation_15"), ("excitation_52",)),
 )
 SETS = {own.name: own for own in _EVERY}
 """By name of the folder."""

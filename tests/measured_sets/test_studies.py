@@ -9,12 +9,10 @@ from pathlib import Path
 import pytest
 
 from modeler.cli.commands import parser
-from tests.measured_sets.sets import DATA
-from tests.repository import ROOT
+from tests.measured_sets.sets import DATA, PAGE
 from tests.rotation import ROTATING
 from tests.test_docs import Block, Reader, blocks
 
-PAGE = ROOT / "docs" / "studies" / "measured-sets.md"
 STUDIES = dict(
     re.findall(r"^## (.+?)\n(.*?)(?=^## |\Z)", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
 )

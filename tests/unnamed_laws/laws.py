@@ -6,6 +6,7 @@ columns here are the same equations on measured signals, written apart from it.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.signal import lfilter
@@ -119,7 +120,6 @@ class Law:
 
     Attributes:
         number: in `unnamed.c`.
-        physics: where it comes from.
         draw: shapes by name, in the order of `unnamed.c`; changes the joint of the draw where only
             some joints can have it.
         column: of what is seen, by the shapes.
@@ -128,11 +128,24 @@ class Law:
     """
 
     number: int
-    physics: str
     draw: Callable[[Draw, int], dict[str, float]]
     column: Callable[..., np.ndarray]
     neighbour: bool = False
     dry: bool = False
+
+
+LAWS: dict[str, Law] = {}
+"""By name."""
+
+
+def _law(number: int, draw: Callable[[Draw, int], dict[str, float]], **kind: bool) -> Any:
+    """Puts the column that follows, as `_name`, into `LAWS`."""
+
+    def add(column: Callable[..., np.ndarray]) -> Callable[..., np.ndarray]:
+        LAWS[column.__name__.removeprefix("_")] = Law(number, draw, column, **kind)
+        return column
+
+    return add
 
 
 def _bell(x: np.ndarray) -> np.ndarray:
@@ -145,12 +158,6 @@ def _loaded(draw: Draw) -> None:
     draw.joint = draw.pick([k for k in range(draw.n) if load[k] > 0.35 * load.max()])
 
 
-def _two_dips(x: _Seen, v1: float, c: float, v2: float, w: float) -> np.ndarray:
-    """sign(v) (exp(-(|v| / v1)^2) - c exp(-((|v| - v2) / w)^2))."""
-    speed = np.abs(x.v)
-    return x.sign * (_bell(speed / v1) - c * _bell((speed - v2) / w))
-
-
 def _draw_two_dips(draw: Draw, other: int) -> dict[str, float]:
     return {
         "v1": draw.between(0.05, 0.12) * draw.speed,
@@ -160,9 +167,14 @@ def _draw_two_dips(draw: Draw, other: int) -> dict[str, float]:
     }
 
 
-def _load_speed(x: _Seen) -> np.ndarray:
-    """|load| v."""
-    return np.abs(x.load) * x.v
+@_law(1, _draw_two_dips, dry=True)
+def _two_dips(x: _Seen, v1: float, c: float, v2: float, w: float) -> np.ndarray:
+    """sign(v) (exp(-(|v| / v1)^2) - c exp(-((|v| - v2) / w)^2)).
+
+    Gear and seal leave their mixed lubrication at two speeds: friction falls twice.
+    """
+    speed = np.abs(x.v)
+    return x.sign * (_bell(speed / v1) - c * _bell((speed - v2) / w))
 
 
 def _draw_load_speed(draw: Draw, other: int) -> dict[str, float]:
@@ -170,9 +182,13 @@ def _draw_load_speed(draw: Draw, other: int) -> dict[str, float]:
     return {}
 
 
-def _loaded_cogging(x: _Seen, n: float, phi: float) -> np.ndarray:
-    """|load| sin(n q + phi)."""
-    return np.abs(x.load) * np.sin(n * x.q + phi)
+@_law(2, _draw_load_speed)
+def _load_speed(x: _Seen) -> np.ndarray:
+    """|load| v.
+
+    The oil film between loaded teeth is sheared: viscous friction in proportion to the load.
+    """
+    return np.abs(x.load) * x.v
 
 
 def _draw_loaded_cogging(draw: Draw, other: int) -> dict[str, float]:
@@ -180,18 +196,27 @@ def _draw_loaded_cogging(draw: Draw, other: int) -> dict[str, float]:
     return {"n": float(draw.rng.integers(4, 13)), "phi": draw.between(-np.pi, np.pi)}
 
 
-def _reversal_memory(x: _Seen, tau: float) -> np.ndarray:
-    """sign(v) exp(-since / tau)."""
-    return x.sign * np.exp(-x.since / tau)
+@_law(3, _draw_loaded_cogging)
+def _loaded_cogging(x: _Seen, n: float, phi: float) -> np.ndarray:
+    """|load| sin(n q + phi).
+
+    Planets of a gear that share the load unevenly: a ripple in proportion to the load.
+    """
+    return np.abs(x.load) * np.sin(n * x.q + phi)
 
 
 def _draw_reversal_memory(draw: Draw, other: int) -> dict[str, float]:
     return {"tau": draw.between(0.2, 0.8)}
 
 
-def _neighbour_drag(x: _Seen, q0: float, w: float) -> np.ndarray:
-    """sign(v) exp(-((q_k - q0) / w)^2)."""
-    return x.sign * _bell((x.other_q - q0) / w)
+@_law(4, _draw_reversal_memory, dry=True)
+def _reversal_memory(x: _Seen, tau: float) -> np.ndarray:
+    """sign(v) exp(-since / tau).
+
+    After turning back, grease has to be carried into the contact again: friction is larger for
+    a while.
+    """
+    return x.sign * np.exp(-x.since / tau)
 
 
 def _draw_neighbour_drag(draw: Draw, other: int) -> dict[str, float]:
@@ -199,28 +224,42 @@ def _draw_neighbour_drag(draw: Draw, other: int) -> dict[str, float]:
     return {"q0": draw.between(-0.4, 0.4) * angle, "w": draw.between(0.25, 0.5) * angle}
 
 
-def _thixotropy(x: _Seen, v0: float, tau: float) -> np.ndarray:
-    """sign(v) exp(-z / v0), tau z' = |v| - z."""
-    return x.sign * np.exp(-x.lagging(np.abs(x.v), tau) / v0)
+@_law(5, _draw_neighbour_drag, neighbour=True, dry=True)
+def _neighbour_drag(x: _Seen, q0: float, w: float) -> np.ndarray:
+    """sign(v) exp(-((q_k - q0) / w)^2).
+
+    Cables to the tool lie in a bend that another joint makes, and rub most where it is
+    tightest.
+    """
+    return x.sign * _bell((x.other_q - q0) / w)
 
 
 def _draw_thixotropy(draw: Draw, other: int) -> dict[str, float]:
     return {"v0": draw.between(0.12, 0.3) * draw.speed, "tau": draw.between(0.4, 2.0)}
 
 
-def _eddy_peak(x: _Seen, vc: float) -> np.ndarray:
-    """2 v vc / (v^2 + vc^2): largest at vc."""
-    ratio = x.v / vc
-    return 2 * ratio / (1 + ratio**2)
+@_law(6, _draw_thixotropy, dry=True)
+def _thixotropy(x: _Seen, v0: float, tau: float) -> np.ndarray:
+    """sign(v) exp(-z / v0), tau z' = |v| - z.
+
+    Grease that is kneaded thins, and thickens again at rest: friction falls with the mean speed
+    of the last seconds.
+    """
+    return x.sign * np.exp(-x.lagging(np.abs(x.v), tau) / v0)
 
 
 def _draw_eddy_peak(draw: Draw, other: int) -> dict[str, float]:
     return {"vc": draw.between(0.1, 0.3) * draw.speed}
 
 
-def _bumper(x: _Seen, q1: float, side: float) -> np.ndarray:
-    """side max(0, side (q - q1))^1.5."""
-    return side * np.maximum(0, side * (x.q - q1)) ** 1.5
+@_law(7, _draw_eddy_peak)
+def _eddy_peak(x: _Seen, vc: float) -> np.ndarray:
+    """2 v vc / (v^2 + vc^2): largest at vc.
+
+    Currents that a brake disc's motion induces: drag that is largest at one speed.
+    """
+    ratio = x.v / vc
+    return 2 * ratio / (1 + ratio**2)
 
 
 def _draw_bumper(draw: Draw, other: int) -> dict[str, float]:
@@ -228,97 +267,39 @@ def _draw_bumper(draw: Draw, other: int) -> dict[str, float]:
     return {"q1": side * draw.between(0.2, 0.5) * draw.angle, "side": side}
 
 
-def _dither(x: _Seen, v0: float) -> np.ndarray:
-    """sign(v) / (1 + (v_k / v0)^2)."""
-    return x.sign / (1 + (x.other_v / v0) ** 2)
+@_law(8, _draw_bumper)
+def _bumper(x: _Seen, q1: float, side: float) -> np.ndarray:
+    """side max(0, side (q - q1))^1.5.
+
+    A rubber buffer, or a bundle of hoses that is pressed flat, towards one end (Hertz).
+    """
+    return side * np.maximum(0, side * (x.q - q1)) ** 1.5
 
 
 def _draw_dither(draw: Draw, other: int) -> dict[str, float]:
     return {"v0": draw.between(0.1, 0.3) * draw.scales.bounds.speed[other]}
 
 
-def _maxwell_hose(x: _Seen, tau: float) -> np.ndarray:
-    """q - z, tau z' = q - z."""
-    return x.q - x.lagging(x.q, tau)
+@_law(9, _draw_dither, neighbour=True, dry=True)
+def _dither(x: _Seen, v0: float) -> np.ndarray:
+    """sign(v) / (1 + (v_k / v0)^2).
+
+    The joint next to it shakes the contact while it runs: friction falls.
+    """
+    return x.sign / (1 + (x.other_v / v0) ** 2)
 
 
 def _draw_maxwell_hose(draw: Draw, other: int) -> dict[str, float]:
     return {"tau": draw.between(0.3, 1.5)}
 
 
-LAWS: Mapping[str, Law] = {
-    "two_dips": Law(
-        1,
-        "gear and seal leave their mixed lubrication at two speeds: friction falls twice",
-        _draw_two_dips,
-        _two_dips,
-        dry=True,
-    ),
-    "load_speed": Law(
-        2,
-        "the oil film between loaded teeth is sheared: viscous friction in proportion to the load",
-        _draw_load_speed,
-        _load_speed,
-    ),
-    "loaded_cogging": Law(
-        3,
-        "planets of a gear that share the load unevenly: a ripple in proportion to the load",
-        _draw_loaded_cogging,
-        _loaded_cogging,
-    ),
-    "reversal_memory": Law(
-        4,
-        "after turning back, grease has to be carried into the contact again: friction is larger "
-        "for a while",
-        _draw_reversal_memory,
-        _reversal_memory,
-        dry=True,
-    ),
-    "neighbour_drag": Law(
-        5,
-        "cables to the tool lie in a bend that another joint makes, and rub most where it is "
-        "tightest",
-        _draw_neighbour_drag,
-        _neighbour_drag,
-        neighbour=True,
-        dry=True,
-    ),
-    "thixotropy": Law(
-        6,
-        "grease that is kneaded thins, and thickens again at rest: friction falls with the mean "
-        "speed of the last seconds",
-        _draw_thixotropy,
-        _thixotropy,
-        dry=True,
-    ),
-    "eddy_peak": Law(
-        7,
-        "currents that a brake disc's motion induces: drag that is largest at one speed",
-        _draw_eddy_peak,
-        _eddy_peak,
-    ),
-    "bumper": Law(
-        8,
-        "a rubber buffer, or a bundle of hoses that is pressed flat, towards one end (Hertz)",
-        _draw_bumper,
-        _bumper,
-    ),
-    "dither": Law(
-        9,
-        "the joint next to it shakes the contact while it runs: friction falls",
-        _draw_dither,
-        _dither,
-        neighbour=True,
-        dry=True,
-    ),
-    "maxwell_hose": Law(
-        10,
-        "a hose that creeps: a spring in series with a damper (Maxwell)",
-        _draw_maxwell_hose,
-        _maxwell_hose,
-    ),
-}
-"""By name."""
+@_law(10, _draw_maxwell_hose)
+def _maxwell_hose(x: _Seen, tau: float) -> np.ndarray:
+    """q - z, tau z' = q - z.
+
+    A hose that creeps: a spring in series with a damper (Maxwell).
+    """
+    return x.q - x.lagging(x.q, tau)
 
 
 def neighbour_of(draw: Draw) -> int:
