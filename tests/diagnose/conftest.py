@@ -143,15 +143,6 @@ def arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def write_csv(path: Path, log: Log) -> Path:
-    """Time, positions, commands and torques of a log, as a file."""
-    assert log.commanded is not None
-    names = ["time", *(f"{kind}{j}" for kind in ("q", "qc", "tau") for j in log.joints)]
-    columns = np.column_stack([log.time, log.q, log.commanded, log.tau])
-    np.savetxt(path, columns, delimiter=",", header=",".join(names), comments="")
-    return path
-
-
 def motion(log: Log) -> tuple[np.ndarray, np.ndarray]:
     """Commanded positions and their velocities: what no encoder has touched."""
     assert log.commanded is not None

@@ -11,6 +11,7 @@ from modeler.diagnosis.added_model import Logs
 from modeler.diagnosis.drive_gains import gain_visible
 from modeler.runtime.model import load
 from tests.diagnose.conftest import Case, Torque
+from tests.rotation import rotating
 
 BOTH = (1.0, 0.7, 1.5)
 
@@ -27,10 +28,7 @@ def eps_of(model, names) -> Mapping[str, float]:
 
 
 @pytest.mark.rotating("long tests of diagnose")
-@pytest.mark.parametrize(
-    "factors",
-    [BOTH, *(pytest.param(one, marks=pytest.mark.rotating) for one in [(3, 1, 1), (1, 1, 0.4)])],
-)
+@pytest.mark.parametrize("factors", [BOTH, *rotating(((3, 1, 1),), ((1, 1, 0.4),))])
 def test_wrong_gains_are_named_with_their_values_and_added(case: Case, factors) -> None:
     """Where a fit bends most to one, that joint is described best, and others look wrong.
 

@@ -13,18 +13,9 @@ from modeler.diagnosis.sentences import lines
 from modeler.observation.log import Log
 from modeler.report import after_diagnosis
 from tests.chain import chain_of
-from tests.diagnose.conftest import (
-    RATE,
-    Case,
-    Torque,
-    check_gains,
-    motion,
-    nothing,
-    on_joint,
-    position_friction,
-    spring,
-    two,
-)  # fmt: skip
+from tests.diagnose import conftest
+from tests.diagnose.conftest import RATE, Case, Torque, motion, nothing, on_joint, spring
+from tests.rotation import rotating
 
 
 def stribeck(log: Log) -> np.ndarray:
@@ -58,23 +49,17 @@ def drive_gain(log: Log) -> np.ndarray:
 NAMED: dict[str, tuple[Torque, str | None, dict[str, float], float]] = {
     "stribeck": (stribeck, "2", {"Fst2": 4.0, "vs": 0.1, "d": 2.0}, 0.15),
     "asymmetric_viscous": (asymmetric_viscous, "3", {"Fva3": 0.6}, 0.15),
-    "position_friction": (position_friction, "1", {"Fpc1": 1.351, "Fps1": 2.104}, 0.15),
+    "position_friction": (conftest.position_friction, "1", {"Fpc1": 1.351, "Fps1": 2.104}, 0.15),
     "drift": (drift, "2", {"Dr2": 0.08}, 0.15),
     "motor_ripple": (motor_ripple, "2", {"m": 101.0}, 0.15),
-    "time_delay": (late, None, {"dt": -0.004}, 0.25),
     "drive_gain": (drive_gain, "3", {"eps3": 0.12}, 0.15),
+    "time_delay": (late, None, {"dt": -0.004}, 0.25),
     "spring": (spring, "3", {}, 0.15),
 }
 
 
-DAILY = ("spring", "time_delay")
-"""One of each kind: a torque that is added, and one that comes late."""
-
-
 @pytest.mark.rotating("long tests of diagnose")
-@pytest.mark.parametrize(
-    "effect", [e if e in DAILY else pytest.param(e, marks=pytest.mark.rotating) for e in NAMED]
-)
+@pytest.mark.parametrize("effect", ["spring", "time_delay", *rotating(*[*NAMED][:-2])])
 def test_a_hidden_effect_is_named_with_its_values(case: Case, effect: str) -> None:
     torque, joint, values, tolerance = NAMED[effect]
     diagnosis = case.found(torque)
@@ -85,23 +70,21 @@ def test_a_hidden_effect_is_named_with_its_values(case: Case, effect: str) -> No
         assert first.parameters[name] == pytest.approx(value, rel=tolerance), name
 
 
-@pytest.mark.rotating("long tests of diagnose")
-def test_every_effect_tells_what_other_looks_say(case: Case) -> None:
-    """In the fields that scripts read."""
-    diagnosis = case.found(spring)
-    looks = diagnosis.effects[0].looks
-    assert [look.what for look in looks] == [
-        "in the held-out logs", looks[-1].what,
-    ]  # fmt: skip
-    assert looks[-1].what.startswith("up to") and looks[-1].gain > 0.5
-    assert diagnosis.effects[0].doubt == "" and diagnosis.effects[0].status != "perhaps"
-    assert all(look.agrees and look.leads == ("spring", "3") for look in looks)
-    told = diagnosis.to_json()
-    first = told["effects"][0]
-    assert first["looks"][0]["leads"] == {"effect": "spring", "joint": "3"}
-    assert {"verdict", "blind_spots"} <= told.keys() and told["joints"].keys() == {"1", "2", "3"}
-    fields = {"effect", "joint", "gain", "error_before", "error_after", "parameters", "ties"}
-    assert fields | {"evidence"} <= first.keys()
+def test_one_effect_alone_has_the_errors_of_its_joint_and_what_other_looks_say(case: Case) -> None:
+    """Same rows, same weights; looks in the fields that scripts read too."""
+    found = case.found(spring)
+    (first,) = [*found.effects, *found.refinements]
+    joint = found.joints["3"]
+    assert first.error_before == pytest.approx(joint.error_before)
+    assert first.error_after == pytest.approx(joint.error_after)
+    held_out, band = first.looks
+    assert held_out.what == "in the held-out logs" and band.what.startswith("up to")
+    assert band.gain > 0.5 and first.doubt == "" and first.status != "perhaps"
+    assert all(look.agrees and look.leads == ("spring", "3") for look in first.looks)
+    told = found.to_json()
+    leads = told["effects"][0]["looks"][0]["leads"]
+    assert leads == {"effect": "spring", "joint": "3"} and told["joints"].keys() == {"1", "2", "3"}
+    assert found.machine_changed == ()
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
@@ -118,14 +101,14 @@ def test_effects_that_fail_on_held_out_motion_are_not_named(case: Case) -> None:
     diagnosis = diagnose(model, case.compiled, [train], [case.holdout])
     assert ("spring", "3") not in {(f.effect, f.joint) for f in diagnosis.effects}
     assert ("spring", "3") in {judged.candidate.key for judged in diagnosis.search.vetoed}
-    told = [line for line in diagnosis.sentences if line.startswith("not named: spring at")]
-    assert len(told) == 1 and "that of motion left out does not surely fall" in told[0]
+    (told,) = [line for line in diagnosis.sentences if line.startswith("not named: spring at")]
+    assert "that of motion left out does not surely fall" in told
 
 
 def test_nothing_is_named_where_nothing_is_hidden(case: Case) -> None:
     diagnosis = case.found(nothing)
     assert diagnosis.verdict == "nothing significant" and diagnosis.effects == ()
-    assert ("payload", None) in diagnosis.blind_spots
+    assert ("payload", None) in diagnosis.blind_spots and diagnosis.machine_changed == ()
 
 
 def smoothed(log: Log) -> np.ndarray:
@@ -176,7 +159,7 @@ def dragging(log: Log) -> np.ndarray:
     return on_joint(log, 1, 6.0 * on * np.tanh(motion(log)[1][:, 1] / 0.002))
 
 
-@pytest.mark.parametrize("torque", [strange, pytest.param(dragging, marks=pytest.mark.rotating)])
+@pytest.mark.parametrize("torque", [strange, *rotating(dragging)])
 def test_a_cause_outside_the_catalogue_is_not_stated_as_a_fact(case: Case, torque: Torque) -> None:
     diagnosis = case.found(torque)
     assert diagnosis.verdict in ("closest description", "unexplained")
@@ -207,37 +190,6 @@ def test_friction_that_would_drive_is_not_named(case: Case) -> None:
     assert any("position_friction" in x and "would drive" in x for x in diagnosis.sentences)
 
 
-def coupled(log: Log) -> np.ndarray:
-    """Springs on two joints, friction on the third: what one explains is felt on others."""
-    return two(log) + on_joint(log, 1, 2.0 * np.sin(2.0 * motion(log)[0][:, 1]))
-
-
-def late_and_pushed(log: Log) -> np.ndarray:
-    """A delay, and a push."""
-    slope = np.gradient(log.tau, log.time, axis=0)
-    push = np.where((log.time > 8.0) & (log.time < 9.0), 6.0, 0.0)
-    return -0.004 * slope + on_joint(log, 0, push)
-
-
-@pytest.mark.rotating("diagnoses of simulated runs")
-def test_gain_is_computed_from_the_printed_errors(case: Case) -> None:
-    """Of what is named beside others, and of a push in logs without held-out ones."""
-    assert case.found(coupled).effects
-    model, train, _ = case.hidden(late_and_pushed)
-    found = diagnose(model, case.compiled, [train], [])
-    assert found.effects
-    check_gains(found)
-
-
-def test_an_effect_of_one_joint_has_the_errors_of_that_joint(case: Case) -> None:
-    """Alone, they are those of the table of joints: same rows, same weights."""
-    found = case.found(spring)
-    (first,) = [*found.effects, *found.refinements]
-    joint = found.joints["3"]
-    assert first.error_before == pytest.approx(joint.error_before)
-    assert first.error_after == pytest.approx(joint.error_after)
-
-
 def rubbing(log: Log, share: float) -> np.ndarray:
     """More friction of joint 2."""
     v = motion(log)[1][:, 1]
@@ -251,9 +203,7 @@ CHANGES: dict[str, tuple[Callable[[Log], np.ndarray], set[str]]] = {
 }
 
 
-@pytest.mark.parametrize(
-    "name", ["friction", *(pytest.param(n, marks=pytest.mark.rotating) for n in [*CHANGES][1:])]
-)
+@pytest.mark.parametrize("name", ["friction", *rotating(*[*CHANGES][1:])])
 def test_what_has_changed_is_told(case: Case, name: str) -> None:
     torque, moved = CHANGES[name]
     model, train, holdout = case.hidden(nothing)
@@ -266,8 +216,3 @@ def test_what_has_changed_is_told(case: Case, name: str) -> None:
     said = found.to_json()["machine_changed"][0]
     assert {"name", "before", "after", "sigma_before", "sigma_after", "unit"} <= set(said)
     assert not any("generate" in line for line in after_diagnosis("m", ["a"], ["b"], found))
-
-
-def test_the_same_machine_has_not_changed(case: Case) -> None:
-    assert case.found(nothing).machine_changed == ()
-    assert case.found(spring).machine_changed == ()

@@ -12,6 +12,7 @@ from modeler.diagnosis.signals import filtered
 from modeler.diagnosis.timing import CONVENTION
 from modeler.observation import Log
 from tests.diagnose.conftest import Case, Torque, on_joint
+from tests.rotation import rotating
 
 
 def late(log: Log, tau: np.ndarray, seconds: float) -> np.ndarray:
@@ -32,9 +33,8 @@ def changed(how: object, joint: int | None, seconds: float) -> Torque:
 
     def torque(log: Log) -> np.ndarray:
         moved = np.column_stack([how(log, tau, seconds) for tau in log.tau.T])  # type: ignore[operator]
-        return (
-            moved - log.tau if joint is None else on_joint(log, joint, (moved - log.tau)[:, joint])
-        )
+        more = moved - log.tau
+        return more if joint is None else on_joint(log, joint, more[:, joint])
 
     return torque
 
@@ -52,8 +52,7 @@ def stated_friction(found: Diagnosis) -> list[str]:
 
 @pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize(
-    ("torque", "joint", "tau"),
-    [(LAG2, "2", 0.02), pytest.param(LAG_ALL, None, 0.015, marks=pytest.mark.rotating)],
+    ("torque", "joint", "tau"), [(LAG2, "2", 0.02), *rotating((LAG_ALL, None, 0.015))]
 )
 def test_a_filtered_torque_is_named_with_its_time(
     case: Case, torque: Torque, joint: str | None, tau: float
@@ -68,15 +67,11 @@ def test_a_filtered_torque_is_named_with_its_time(
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
-def test_without_held_out_logs_too(case: Case) -> None:
+def test_without_held_out_logs_too_and_ruled_out_it_is_no_friction(case: Case) -> None:
     model, train, _ = case.hidden(LAG2)
     found = diagnose(model, case.compiled, [train])
     assert (found.effects[0].effect, found.effects[0].status) == ("torque_lag", "fact")
     assert not stated_friction(found)
-
-
-@pytest.mark.rotating("diagnoses of simulated runs")
-def test_ruled_out_it_is_no_friction_either(case: Case) -> None:
     found = case.found(LAG2, ("torque_lag",))
     assert all(f.status != "fact" for f in found.effects), found.sentences
 

@@ -15,7 +15,7 @@ pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco-core) is
 
 from tests.chain import chain_of
 from tests.diagnose.mujoco_arm import ROWS, G, random_arm, random_body, robot_text, run, write
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 TRAIN, HOLDOUT = 12.0, 6.0  # s, of moves, and as much of a Fourier series
 USUAL = ("rotor_inertia", "viscous", "coulomb", "offset")
@@ -27,7 +27,13 @@ WHERE = {  # by effect: seed of the arm, and joint
     "rotor_inertia": (2, 3),  # those of joints 1 and 2 are inertias of the links
     "base_tilt": (2, None),
 }
-PREFIX = {"viscous": "Fv", "coulomb": "Fs", "rotor_inertia": "Ia", "spring": "Ks"}
+TRUE = {
+    "viscous": ("Fv", "damping"),
+    "coulomb": ("Fs", "frictionloss"),
+    "rotor_inertia": ("Ia", "armature"),
+    "spring": ("Ks", "stiffness"),
+}
+"""Prefix of the parameter -> attribute of the arm."""
 EVER = ("viscous", "coulomb", "rotor_inertia")  # in every arm; the file leaves one out
 STIFFNESS = 4.0  # N m/rad
 TILT = np.radians(3.0)
@@ -59,15 +65,6 @@ def simulated(effect, joint, seed):
     return run(arm, 10 * seed + 1, TRAIN), run(arm, 10 * seed + 2, HOLDOUT)
 
 
-@cache
-def true_value(effect, joint, seed):
-    arm = random_arm(seed)
-    if effect == "spring":
-        return STIFFNESS
-    kind = {"viscous": arm.damping, "coulomb": arm.frictionloss, "rotor_inertia": arm.armature}
-    return float(kind[effect][joint - 1])
-
-
 def diagnosed(folder, seed, effect=None, joint=None):
     """The diagnosis of a model that lacks this effect on this joint."""
     added = effect if effect not in EVER else None
@@ -82,31 +79,27 @@ def diagnosed(folder, seed, effect=None, joint=None):
     return api.diagnose(chain_of(path).fit([fitted]), [train], [holdout])
 
 
-def case_of(effect):
-    """The first each time; others in rotation, those of another arm not in a quick run."""
-    marks = ROTATING if WHERE[effect][0] == 2 else pytest.mark.rotating
-    return effect if effect == next(iter(WHERE)) else pytest.param(effect, marks=marks)
-
-
 @pytest.mark.rotating("long tests of diagnose")
-@pytest.mark.parametrize("effect", [*map(case_of, WHERE)])
+@pytest.mark.parametrize(
+    "effect", ["viscous", *rotating("spring", "payload"),
+               *(pytest.param(name, marks=ROTATING) for name in [*WHERE][3:])],
+)  # fmt: skip
 def test_what_the_file_lacks_is_named_first(tmp_path, effect):
     seed, joint = WHERE[effect]
-    found = diagnosed(tmp_path, seed, effect, joint)
-    assert found.effects, found.sentences
-    first = found.effects[0]
+    first = diagnosed(tmp_path, seed, effect, joint).effects[0]
     assert (first.effect, first.joint) == (effect, None if joint is None else str(joint))
     assert first.error_after < first.error_before
-    if effect in PREFIX:
-        value = first.parameters[f"{PREFIX[effect]}{joint}"]
-        assert value == pytest.approx(true_value(effect, joint, seed), rel=0.15)
+    arm = altered(effect, joint, seed)
     if effect == "payload":
-        mass = altered(effect, joint, seed).payload.mass
-        assert first.parameters["mass"] == pytest.approx(mass, rel=0.15)
-    if effect == "base_tilt":
+        assert first.parameters["mass"] == pytest.approx(arm.payload.mass, rel=0.15)
+    elif effect == "base_tilt":
         change = [first.parameters[name] for name in ("gx", "gy", "gz")]
-        true = altered(effect, joint, seed).gravity
-        np.testing.assert_allclose(change, [true[0], true[1], 0.0], atol=0.1 * G * np.sin(TILT))
+        true = [*arm.gravity[:2], 0.0]
+        np.testing.assert_allclose(change, true, atol=0.1 * G * np.sin(TILT))
+    else:
+        prefix, values = TRUE[effect]
+        true = getattr(arm, values)[joint - 1]
+        assert first.parameters[f"{prefix}{joint}"] == pytest.approx(true, rel=0.15)
 
 
 @pytest.mark.rotating("long tests of diagnose")

@@ -9,6 +9,7 @@ import pyarrow.parquet
 import pytest
 
 from tests.diagnose.conftest import Run
+from tests.rotation import rotating
 
 ROWS = {
     "turn": '["1", "0", 0, 0, 0, "q1", 0]',
@@ -40,30 +41,19 @@ def write_robot(folder: Path, name: str) -> Path:
     return place
 
 
-def write_changed(place: Path, name: str, to: Path) -> None:
+def changed(columns: dict[str, np.ndarray], how: str) -> dict[str, np.ndarray]:
     """A log that is short, of one segment; a log whose last joint rests."""
-    columns = {k: np.array(v) for k, v in pyarrow.parquet.read_table(place).to_pydict().items()}
-    if name == "short":
-        columns = {key: values[:150] for key, values in columns.items()}
-    else:
-        last = max(key for key in columns if key[0] == "q" and key[1:].isdigit())[1:]
-        for key in columns:
-            if key in (f"q{last}", f"qd{last}", f"qc{last}"):
-                columns[key] = np.full_like(columns[key], columns[key][0] * (key[1] != "d"))
-    pyarrow.parquet.write_table(pyarrow.table(columns), to)
+    if how == "short":
+        return {name: values[:150] for name, values in columns.items()}
+    last = max(name[1:] for name in columns if name[0] == "q" and name[1:].isdigit())
+    still = {name: 0 * columns[name] + columns[name][0] * (name[1] != "d")
+             for name in (f"q{last}", f"qd{last}", f"qc{last}") if name in columns}  # fmt: skip
+    return columns | still
 
 
 @pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize(
-    "name",
-    [
-        "pendulum_with_prior",
-        *(
-            pytest.param(n, marks=pytest.mark.rotating)
-            for n in ROBOTS
-            if n != "pendulum_with_prior"
-        ),
-    ],
+    "name", ["pendulum_with_prior", *rotating(*(n for n in ROBOTS if n != "pendulum_with_prior"))]
 )
 def test_a_diagnosis_ends_in_sentences(name: str, tmp_path: Path, run: Run) -> None:
     robot, a, b = write_robot(tmp_path, name), tmp_path / "a.parquet", tmp_path / "b.parquet"
@@ -72,8 +62,10 @@ def test_a_diagnosis_ends_in_sentences(name: str, tmp_path: Path, run: Run) -> N
         assert run("simulate", robot, *words)[0] == 0
     assert run("fit", robot, a, "--out", tmp_path / "m.json")[0] == 0
     short, resting = tmp_path / "short.parquet", tmp_path / "resting.parquet"
-    write_changed(a, "short", short)
-    write_changed(b, "resting", resting)
+    for place, to in ((a, short), (b, resting)):
+        read = pyarrow.parquet.read_table(place)
+        columns = {name: read[name].to_numpy() for name in read.column_names}
+        pyarrow.parquet.write_table(pyarrow.table(changed(columns, to.stem)), to)
     asked = [(a, "--holdout", b), (a, "--holdout", resting), (short,)]
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)

@@ -55,17 +55,13 @@ def test_with_link_data_a_counterbalance_is_named(seed):
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
-def test_with_free_inertias_it_is_said_that_gravity_looks_alike():
-    _, model, *logs = fitted({}, 3)
+@pytest.mark.parametrize(
+    ("values", "seed", "uncertainty"), [({}, 3, None), (NOMINAL, 5, {"inertial": 0.1})]
+)
+def test_a_true_machine_lacks_nothing_and_free_inertias_look_like_gravity(
+    values, seed, uncertainty
+):
+    _, model, *logs = fitted(values, seed, (), uncertainty)
     found = diagnose(model, *logs)
-    assert found.verdict == "nothing significant"
-    assert any(line.startswith(LINE) for line in found.sentences)
-
-
-@pytest.mark.rotating("diagnoses of simulated runs")
-def test_a_true_machine_lacks_nothing_beside_its_link_data():
-    _, model, *logs = fitted(NOMINAL, 5, (), {"inertial": 0.1})
-    found = diagnose(model, *logs)
-    assert found.verdict == "nothing significant"
-    assert not model.fit.contradicted
-    assert not any("cannot be told from gravity" in line for line in found.sentences)
+    assert found.verdict == "nothing significant" and not model.fit.contradicted
+    assert any(line.startswith(LINE) for line in found.sentences) is (not values)

@@ -18,6 +18,8 @@ from modeler.estimation.parameter import spread_text
 from modeler.runtime.model import load
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate
 from tests.chain import chain_of
+from tests.diagnose.conftest import Case
+from tests.diagnose.test_diagnose_effects import stribeck
 
 
 @cache
@@ -43,14 +45,6 @@ def found(hide, seed):
     effect, _, joint = hide.partition(":")[0].partition("@")
     best = scan_catalogue(state, only=effect, joint=joint).judged().ranked[0].candidate
     return profile_of(extended(state, best), 0), truth
-
-
-@cache
-def added_to(hide, seed):
-    """The log, and its model with the effect added."""
-    log, model, _ = simulated(hide, seed)
-    effect, _, joint = hide.partition("@")
-    return log, add_effect(model, chain_of("demo-arm").compiled, effect, joint, Logs([log]))
 
 
 CASES = {
@@ -83,18 +77,6 @@ def test_the_truth_is_where_the_interval_says(effect):
     assert np.mean(inside) >= np.mean(blind)
 
 
-@pytest.mark.rotating("long tests of diagnose")
-def test_two_exponents_that_do_as_well_are_both_in_the_interval():
-    along, truth = found("stribeck@2", 901)
-    # the simulated dip has the exponent 2; these logs hold too few slow rows to tell
-    assert along.shape_intervals()["d"] == (1.0, 2.0)
-    (low, high) = along.intervals()[0]
-    assert low < truth["extra"] < high
-    assert abs(along.told.values[0] - truth["extra"]) < 3.0 * along.deviations()[0]
-    low, high = along.shape_intervals()["vs"]
-    assert low < truth["speed"] < high
-
-
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_a_narrow_likelihood_gives_the_delta_method():
     # g(theta) linear, S(theta) quadratic: var g = s^2 + (dg/dtheta)^2 var theta.
@@ -115,26 +97,21 @@ def test_a_narrow_likelihood_gives_the_delta_method():
     assert high - low == pytest.approx(2.0 * 1.96 * delta, rel=0.3)
 
 
-@pytest.mark.rotating("diagnoses of simulated runs")
-def test_an_effect_without_shapes_has_no_profile():
-    assert found("asymmetric_viscous@2", 903)[0] is None
-
-
 @pytest.mark.rotating("long tests of diagnose")
 def test_what_is_added_is_stored_and_told_with_it(tmp_path):
-    truth = simulated("stribeck@2", 901)[2]
-    log, better = added_to("stribeck@2", 901)
-    names = [p.name for p in better.fit.parameters]
-    extra = better.fit.parameters[names.index("Fst2")]
+    """The dip has the exponent 2; these logs hold too few slow rows to tell it from 1."""
+    log, model, truth = simulated("stribeck@2", 901)
+    better = add_effect(model, chain_of("demo-arm").compiled, "stribeck", "2", Logs([log]))
+    (extra,) = (p for p in better.fit.parameters if p.name == "Fst2")
     low, high = extra.interval
     assert low < truth["extra"] < high and low < extra.value < high
-    np.testing.assert_allclose(
-        np.sqrt(np.diag(better.covariance)), [p.sigma for p in better.fit.parameters]
-    )
-    assert np.linalg.eigvalsh(better.covariance / np.outer(*2 * [
-        np.sqrt(np.diag(better.covariance))]))[0] > -1e-9  # fmt: skip
+    sigmas = [p.sigma for p in better.fit.parameters]
+    np.testing.assert_allclose(np.sqrt(np.diag(better.covariance)), sigmas)
+    assert np.linalg.eigvalsh(better.covariance / np.outer(sigmas, sigmas))[0] > -1e-9
     step = better.history[-1]
     assert list(step.shape_intervals["d"]) == [1.0, 2.0]
+    low, high = step.shape_intervals["vs"]
+    assert low < truth["speed"] < high
     told = added(better)
     assert told[0].startswith("Fst2 = ") and (" to " in told[0] or "+-" in told[0])
     assert "d = " in told[-1] and "(1 to 2)" in told[-1]
@@ -146,11 +123,12 @@ def test_what_is_added_is_stored_and_told_with_it(tmp_path):
     assert all(p.interval is None for p in before.fit.parameters)
 
 
-def test_shapes_widen_what_stands_beside_them():
-    # Coulomb friction trades with a dip of unknown width: its sigma knows.
-    log, better = added_to("stribeck@2", 901)
+def test_shapes_widen_what_stands_beside_them(case: Case):
+    """Coulomb friction trades with a dip of unknown width: its sigma knows."""
+    model, train, _ = case.hidden(stribeck)
+    better = add_effect(model, case.compiled, "stribeck", "2", Logs([train]))
     sigma = {p.name: p.sigma for p in better.fit.parameters}
-    observation = observe(load(better.spec, better.sources), [log], better.processing)
+    observation = observe(load(better.spec, better.sources), [train], better.processing)
     fixed = {p.name: p.sigma for p in identify(observation).parameters}
     assert sigma["Fst2"] > 2.0 * fixed["Fst2"]
     assert all(sigma[name] >= 0.999 * fixed[name] for name in fixed)

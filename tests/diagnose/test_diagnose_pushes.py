@@ -10,13 +10,13 @@ import pytest
 from modeler.core.table import printed
 from modeler.diagnosis.candidates import StatedEffects, candidates, scales_of
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.search import STARTS, scan_catalogue
 from modeler.effects.catalogue import effect_named
 from modeler.observation.log import Log
 from modeler.report.diagnosis import diagnosis_page
 from modeler.report.page import write_page
 from modeler.report.torque_picture import push_picture
-from tests.diagnose.conftest import Case, motion, on_joint
+from tests.diagnose.conftest import Case, Torque, motion, on_joint
+from tests.rotation import rotating
 
 
 def pushed(*windows: tuple[float, float], size: float = 1.0):
@@ -72,10 +72,8 @@ def test_a_push_whose_torque_changes_its_sign_is_one_push(case: Case, tmp_path: 
         outside = (curve.x < start - 0.2) | (curve.x > end + 0.2)
         loud, quiet = (np.nanmedian(np.abs(curve.y[x])) for x in (inside, outside))
         assert loud > 20.0 * quiet
-    assert (
-        "Something pushed"
-        in write_page(tmp_path / "page.html", diagnosis_page(diagnosis)).read_text()
-    )
+    page = write_page(tmp_path / "page.html", diagnosis_page(diagnosis)).read_text()
+    assert "Something pushed" in page
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
@@ -94,46 +92,35 @@ def test_what_the_held_out_motion_shows_too_is_a_description_at_most(case: Case)
     assert "in the held-out motion too" in diagnosis.sentences[0]
 
 
-def lever(log: Log, helical: bool) -> np.ndarray:
-    """A spring between b = 0.2 m on link 2 and h = 0.4 m above its axis."""
-    q, _ = motion(log)
-    b, h = 0.2, 0.4
-    length = np.sqrt(b**2 + h**2 - 2.0 * b * h * np.cos(q[:, 1] - 0.6))
-    slope = b * h * np.sin(q[:, 1] - 0.6) / length
-    return on_joint(log, 1, (900.0 * (length - 0.15) if helical else 150.0) * slope)
+def helical(log: Log, pull: float = 0.0) -> np.ndarray:
+    """A spring, or a constant pull, between b = 0.2 m on link 2 and h = 0.4 m above its axis."""
+    angle, b, h = motion(log)[0][:, 1] - 0.6, 0.2, 0.4
+    length = np.sqrt(b**2 + h**2 - 2.0 * b * h * np.cos(angle))
+    return on_joint(log, 1, (pull or 900.0 * (length - 0.15)) * b * h * np.sin(angle) / length)
 
 
-levers = {helical: partial(lever, helical=helical) for helical in (True, False)}
-
-
-@pytest.mark.rotating("long tests of diagnose")
-@pytest.mark.parametrize("helical", [pytest.param(True, marks=pytest.mark.rotating), False])
-def test_a_helical_spring_and_a_constant_pull_are_told_apart(case: Case, helical: bool) -> None:
-    diagnosis = case.found(levers[helical])
-    first = diagnosis.effects[0]
-    names = ("counterbalance", "constant_force_spring")
-    named = names[0] if helical else names[1]
-    assert (first.effect, first.joint) == (named, "2")
-    pushing = () if not helical else (("constant_force_spring", "2"),)
-    assert first.ties == pushing and (first.status == "fact") is not helical
+constant = partial(helical, pull=150.0)
 
 
 @pytest.mark.rotating("long tests of diagnose")
-def test_shapes_are_sought_where_the_values_can_be(case: Case) -> None:
-    """Of a helical spring for a constant pull, some of the best shapes ask for the wrong sign."""
-    start = case.found(levers[False]).search.start
-    scan = scan_catalogue(start, only="counterbalance", joint="2")
-    best = sorted(scan.trials, key=lambda trial: -trial.fall)[:STARTS]
-    assert not all(trial.possible for trial in best)
-    can_be = [trial.candidate for trial in scan.trials if trial.possible]
-    starts = scan.starts(scan.best[0].candidate)
-    assert len(starts) == STARTS and all(start in can_be for start in starts)
-    assert scan.judged().ranked[0].possible
+@pytest.mark.parametrize(
+    ("torque", "named", "ties", "status"),
+    [
+        (constant, "constant_force_spring", (), "fact"),
+        *rotating((helical, "counterbalance", (("constant_force_spring", "2"),), "named")),
+    ],
+)
+def test_a_helical_spring_and_a_constant_pull_are_told_apart(
+    case: Case, torque: Torque, named: str, ties: tuple[tuple[str, str], ...], status: str
+) -> None:
+    first = case.found(torque).effects[0]
+    assert (first.effect, first.joint, first.ties) == (named, "2", ties)
+    assert (first.status == "fact") is (status == "fact")
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_what_is_ruled_out_on_a_joint_is_neither_named_nor_tied(case: Case) -> None:
-    first = case.found(levers[False], without=("balancer@2",)).effects[0]
+    first = case.found(constant, without=("balancer@2",)).effects[0]
     assert (first.effect, first.joint) == ("constant_force_spring", "2")
     assert ("counterbalance", "2") not in first.ties
 
@@ -147,9 +134,7 @@ def slower(log: Log, every: int, late: float) -> Log:
 
 
 @pytest.mark.rotating("long tests of diagnose")
-@pytest.mark.parametrize(
-    ("late", "named"), [pytest.param(0.0054, False, marks=pytest.mark.rotating), (0.009, True)]
-)
+@pytest.mark.parametrize(("late", "named"), [*rotating((0.0054, False)), (0.009, True)])
 def test_half_a_sample_is_a_convention_and_more_is_a_delay(
     case: Case, late: float, named: bool
 ) -> None:
@@ -158,12 +143,10 @@ def test_half_a_sample_is_a_convention_and_more_is_a_delay(
     train, holdout = (slower(log, every, late) for log in (case.train, case.holdout))
     diagnosis = diagnose(case.fitted(train), case.compiled, [train], [holdout])
     moved = [line for line in diagnosis.data if "a convention of the logger" in line]
-    if named:
-        assert diagnosis.effects[0].effect == "time_delay"
-        assert abs(diagnosis.effects[0].parameters["dt"]) == pytest.approx(late, rel=0.1)
-        assert not moved
-    else:
-        assert diagnosis.effects == () and len(moved) == 1
+    assert (bool(diagnosis.effects), len(moved)) == ((True, 0) if named else (False, 1))
+    for first in diagnosis.effects[:1]:
+        assert first.effect == "time_delay"
+        assert abs(first.parameters["dt"]) == pytest.approx(late, rel=0.1)
 
 
 def heated(log: Log) -> Log:

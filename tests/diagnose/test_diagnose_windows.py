@@ -59,32 +59,29 @@ def test_logs_are_mended_once_for_any_filters(arm, log) -> None:
     assert mending.mended(0, processing)[0] is mending.mended(0, processing)[0]
 
 
-def test_an_expression_lets_go_of_its_values() -> None:
-    """Without the collection of garbage: columns of a long log are large."""
-    expression, gone = parse("x*abs(x) + x**2"), []
-    functions = {"abs": np.abs}
+@pytest.fixture
+def without_collection():
+    """Columns of a long log are large: they go without a collection of garbage."""
     gc.disable()
-    try:
-        values = np.ones(3)
-        gone.append(weakref.ref(values))
-        expression.fold({"x": values}, functions, np.pi, float)
-        del values
-        assert gone[0]() is None
-    finally:
-        gc.enable()
+    yield
+    gc.enable()
 
 
-def test_a_state_lets_go_of_its_rows(arm, log) -> None:
+def test_an_expression_lets_go_of_its_values(without_collection) -> None:
+    expression, values = parse("x*abs(x) + x**2"), np.ones(3)
+    gone = weakref.ref(values)
+    expression.fold({"x": values}, {"abs": np.abs}, np.pi, float)
+    del values
+    assert gone() is None
+
+
+def test_a_state_lets_go_of_its_rows(arm, log, without_collection) -> None:
     data = SearchData(arm, analysed(arm, [log], Processing()))
     state = state_of(data, (), np.zeros(len(arm.spec.base)))
     state.ranked([(np.ones((len(state.y[0]), 1)), None, None)])
     first = weakref.ref(state.base.columns[0])
-    gc.disable()
-    try:
-        del state
-        assert first() is None
-    finally:
-        gc.enable()
+    del state
+    assert first() is None
 
 
 def test_samples_that_the_band_has_no_use_for_are_let_go(arm, log) -> None:

@@ -11,7 +11,7 @@ from modeler.fleet.naming import Named
 from modeler.fleet.result import Fleet, fleet_lines, sentence
 from modeler.fleet.summary import SkippedLog
 from tests.fleet.machines import Planted, Scene, compiled, summaries
-from tests.rotation import rotating_with
+from tests.rotation import rotating, rotating_with
 
 
 def fleet(scene: Scene, seed: int, robot: str = "two-link") -> Fleet:
@@ -23,41 +23,29 @@ def told(found: Fleet) -> list[tuple[str, str, str]]:
 
 
 @rotating_with("fleets that drift")
-def test_fleets_without_drift_are_quiet() -> None:
-    """5 % of them may show anything at all: 4 and more of 16 have a chance of 1 %."""
-    scene = Scene(machines=2, periods=3, noise=0.05)
-    assert sum(bool(fleet(scene, seed).findings) for seed in range(300, 316)) <= 3
-
-
-@rotating_with("fleets that drift")
-@pytest.mark.parametrize(("machines", "periods", "daily"), [(1, 8, 0.03)])
-def test_many_fleets_without_drift_are_quiet(machines: int, periods: int, daily: float) -> None:
-    """Of other sizes, with friction that scatters from day to day: 5 and more of 20: 0.3 %."""
-    scene = Scene(machines=machines, periods=periods, daily=daily, apart=0.2)
-    assert sum(bool(fleet(scene, seed).findings) for seed in range(600, 620)) <= 4
+@pytest.mark.parametrize(
+    ("scene", "seeds", "most"),
+    [
+        (Scene(machines=2, periods=3, noise=0.05), range(300, 316), 3),
+        (Scene(machines=1, periods=8, daily=0.03, apart=0.2), range(600, 620), 4),
+    ],
+)
+def test_fleets_without_drift_are_quiet(scene: Scene, seeds: range, most: int) -> None:
+    """5 % of them may show anything at all: 4 and more of 16: 1 %; 5 and more of 20: 0.3 %."""
+    assert sum(bool(fleet(scene, seed).findings) for seed in seeds) <= most
 
 
 DAYS = 8
 PLANTED = {
+    "Coulomb on one day": ("Fs2", (0.0,) * 4 + (0.5,) + (0.0,) * 3, "one period", 50.0),
     "gain 5 % at once": ("gain2", (0.0,) * 5 + (0.05,) * 3, "jump", 5.0),
     "viscous 30 % in 8 days": ("Fv2", tuple(0.3 * np.linspace(0.0, 1.0, DAYS)), "trend", 30.0),
-    "Coulomb on one day": ("Fs2", (0.0,) * 4 + (0.5,) + (0.0,) * 3, "one period", 50.0),
     "Coulomb 40 % at once": ("Fs2", (0.0,) * 4 + (0.4,) * 4, "jump", 40.0),
     "gain of the first joint": ("gain1", tuple(-0.1 * np.linspace(0.0, 1.0, DAYS)), "trend", -10.0),
 }
 
 
-@pytest.mark.parametrize(
-    "case",
-    [
-        "Coulomb on one day",
-        *(
-            pytest.param(case, marks=pytest.mark.rotating)
-            for case in PLANTED
-            if case != "Coulomb on one day"
-        ),
-    ],
-)
+@pytest.mark.parametrize("case", ["Coulomb on one day", *rotating(*[*PLANTED][1:])])
 def test_what_is_planted_is_found_and_nothing_else(case: str) -> None:
     name, plan, shape, percent = PLANTED[case]
     found = fleet(Scene(machines=2, periods=DAYS, planted=(Planted(1, name, plan),)), 901)
@@ -78,9 +66,7 @@ def test_an_offset_that_leaps_is_found() -> None:
     assert "joint 1: constant torque offset (Off1) leaps " in sentence(found.findings[0], "days")
 
 
-@pytest.mark.parametrize(
-    "robot", ["two-link", pytest.param("demo-arm", marks=pytest.mark.rotating)]
-)
+@pytest.mark.parametrize("robot", ["two-link", *rotating("demo-arm")])
 def test_a_load_is_no_gain(robot: str) -> None:
     """0.8 kg on the last link weigh on several joints; a gain of one joint is not told."""
     plan = (0.0,) * 2 + (0.8,) * 4
@@ -146,16 +132,19 @@ def test_a_temperature_that_moves_along_is_told() -> None:
 
 
 def test_what_cannot_be_compared_is_refused() -> None:
-    spec, one = compiled().spec, summaries(Scene(machines=2, periods=1), 1)
-    with pytest.raises(DataError, match="got one log each of r1, r2; expected two periods of a ma"):
-        fleet_of(spec, one)
-    gone = [SkippedLog(Named("r1", "a", "r1/a.csv"), "r1/a.csv: there is no such file")]
-    with pytest.raises(DataError, match=r"none of 1 logs can be used; the first: r1/a.csv: t"):
-        fleet_of(spec, gone)
-    scene = Scene(machines=1, periods=2)
-    twice = [dataclasses.replace(each, content="x") for each in summaries(scene, 1)]
-    with pytest.raises(DataError, match=r"r1/day2.csv: got rows of r1/day1.csv again; expected ea"):
-        fleet_of(spec, twice)
+    scene = Scene(machines=2, periods=3)
+    first, second, *_ = summaries(scene, 1)
+    other = dataclasses.replace(first, named=Named("r2", "day1", "r2/day1.csv"), content="x")
+    gone = SkippedLog(Named("r1", "b", "r1/b.csv"), "r1/b.csv: there is no such file; check it")
+    twice = [dataclasses.replace(log, content="x") for log in (first, second)]
+    for logs, told in (
+        ([first, other], "got one log each of r1, r2; expected two periods of a machine"),
+        ([gone], "none of 1 logs can be used; the first: r1/b.csv: there is no such file"),
+        ([first, gone], "left out: 1, the first: r1/b.csv: there is no such file"),
+        (twice, "r1/day2.csv: got rows of r1/day1.csv again; expected each"),
+    ):
+        with pytest.raises(DataError, match=told):
+            fleet_of(compiled().spec, logs)
 
 
 def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
@@ -169,3 +158,7 @@ def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
     assert "3 machines: an odd one among fewer than 5 is not told" in lines
     assert found.verdict == "nothing drifts" and found.logs == 7
     assert found.to_json()["left_out"] == [{"log": "r1/day9.csv", "why": "r1/day9.csv: damaged"}]
+    alike = "filtered alike: positions below 20 Hz, torques and columns below 5 Hz"
+    assert f"all logs are {alike}" in fleet_of(compiled().spec, given).notes
+    few = fleet_of(compiled().spec, summaries(Scene(machines=1, periods=3), 2)).notes
+    assert any("too few to know how values scatter" in note for note in few)

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
+from modeler.api import fleet, load
 from modeler.core.errors import DataError
 from modeler.fleet.fleet import fleet_of
 from modeler.fleet.naming import Named
@@ -13,7 +14,8 @@ from modeler.fleet.summary import LogSummary, SkippedLog, summary
 from modeler.observation.log import Log
 from modeler.observation.settings import Processing
 from modeler.runtime.model import CompiledModel
-from tests.fleet.machines import Planted, Scene, compiled, logs, motion, parameters, summaries
+from tests.fleet.machines import Planted, Scene, compiled, logs, motion, parameters
+from tests.rotation import rotating
 
 GIVEN = Processing(position_cutoff=20.0, parallel_cutoff=8.0)
 
@@ -39,9 +41,7 @@ def exchanged(log: Log) -> Log:
 
 
 @pytest.mark.rotating("long tests of fleet")
-@pytest.mark.parametrize(
-    "robot", ["two-link", pytest.param("demo-arm", marks=pytest.mark.rotating)]
-)
+@pytest.mark.parametrize("robot", ["two-link", *rotating("demo-arm")])
 def test_logs_with_exchanged_torques_are_left_out_with_the_reason(robot: str) -> None:
     """A whole machine, and one day of another: neither drifts, nor is it well."""
     pairs = logs(Scene(machines=3, periods=3), 41, robot)
@@ -68,13 +68,9 @@ def test_short_logs_are_still_compared() -> None:
 
 @pytest.mark.parametrize(
     ("seed", "plan"),
-    [
-        (71, ("gain1", -0.5)),
-        pytest.param(74, ("load", 5.0), marks=pytest.mark.rotating),
-        pytest.param(72, ("Fv1", -0.9), marks=pytest.mark.rotating),
-        pytest.param(73, ("Fs2", 4.0), marks=pytest.mark.rotating),
-    ],
-)
+    [(71, ("gain1", -0.5)),
+     *rotating((74, ("load", 5.0)), (72, ("Fv1", -0.9)), (73, ("Fs2", 4.0)))],
+)  # fmt: skip
 def test_great_drifts_are_no_wrong_logs(seed: int, plan: tuple[str, float]) -> None:
     name, size = plan
     scene = Scene(machines=2, periods=4, planted=(Planted(0, name, (0.0, 0.0, size, size)),))
@@ -86,16 +82,16 @@ def test_great_drifts_are_no_wrong_logs(seed: int, plan: tuple[str, float]) -> N
 
 def test_logs_of_more_joints_are_of_another_robot() -> None:
     """One among others without is left out; where all have them, it is told."""
-    pairs = logs(Scene(machines=2, periods=2), 8)
+    pairs = logs(Scene(machines=2, periods=2, duration=6.0), 8)
 
     def wider(log: Log) -> Log:
         more = {name: np.zeros(len(log.time)) for name in ("q3", "tau3", "q4", "tau4", "q5")}
         return dataclasses.replace(log, extra=more)
 
-    one = judged([(named, wider(log) if k == 1 else log) for k, (named, log) in enumerate(pairs)])
-    [(place, why)] = one.left
+    plain, wide = reduced(pairs), reduced([(named, wider(log)) for named, log in pairs])
+    [(place, why)] = fleet_of(compiled().spec, [plain[0], wide[1], *plain[2:]]).left
     assert place == "r1/day2.csv" and "has joints 3, 4 besides, which most logs have not" in why
-    every = judged([(named, wider(log)) for named, log in pairs])
+    every = fleet_of(compiled().spec, wide)
     assert every.left == ()
     [line] = [note for note in every.notes if "of joints besides those of the robot (3, 4)" in note]
     assert line.startswith("r1/day1.csv and 3 more: ")
@@ -124,15 +120,21 @@ def still(log: Log, model: CompiledModel, rng: np.random.Generator) -> Log:
     return dataclasses.replace(log, q=q + 1e-5 * rng.normal(size=q.shape), tau=exact + noise)
 
 
-def test_few_logs_say_little_of_scatter() -> None:
-    notes = fleet_of(compiled().spec, summaries(Scene(machines=1, periods=3), 2)).notes
-    assert any("too few to know how values scatter" in note for note in notes)
+def coarser(log: Log, counts: int) -> Log:
+    step = 2.0 * np.pi / counts
+    return dataclasses.replace(log, q=np.floor(log.q / step) * step)
 
 
-def test_one_log_besides_those_left_out_says_why() -> None:
-    [one] = summaries(Scene(machines=1, periods=1), 2)
-    gone = SkippedLog(
-        Named("r1", "b", "r1/b.csv"), "r1/b.csv: there is no such file; check the path"
-    )
-    with pytest.raises(DataError, match=r"left out: 1, the first: r1/b.csv: there is no such file"):
-        fleet_of(compiled().spec, [one, gone])
+@pytest.mark.rotating("long tests of fleet")
+def test_a_coarse_encoder_is_no_drift_and_hides_none() -> None:
+    """Machine 5 of 5 has 1000 counts a turn; its friction drifts, and so does that of machine 2."""
+    planted = tuple(Planted(m, name, (0.0, 0.4, 0.4)) for m, name in ((1, "Fv2"), (4, "Fs2")))
+    scene = Scene(machines=5, periods=3, apart=0.03, noise=0.01, planted=planted)
+    machines: dict[str, dict[str, Log]] = {}
+    for named, log in logs(scene, 90):
+        seen = coarser(log, 1000) if named.machine == "r5" else log
+        machines.setdefault(named.machine, {})[named.period] = seen
+    found = fleet(load("two-link"), machines)
+    told = {(one.machine, one.quantity.parameter, one.begin) for one in found.findings}
+    assert told == {("r2", "Fv2", "day2"), ("r5", "Fs2", "day2")}
+    assert any("each log is filtered as its noise asks: positions below" in n for n in found.notes)

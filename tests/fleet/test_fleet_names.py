@@ -1,5 +1,7 @@
 """Which machine and period a log is of, and when that was."""
 
+import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -29,18 +31,15 @@ def test_windows_of_one_file_are_periods() -> None:
     assert [log.place for log in found] == ["r1/a.csv@0:5", "r1/a.csv@5:10"]
 
 
-@pytest.mark.parametrize(
-    ("pattern", "place", "machine", "period"),
-    [
+def test_patterns() -> None:
+    for pattern, place, machine, period in (
         ("{machine}-{period}.csv", "x/r1-3.csv", "r1", "3"),
         ("{period}/{machine}.*", "2026-03-01/r1.parquet", "r1", "2026-03-01"),
         ("{machine}/logs/*_{period}.csv", "p/r1/logs/run_7.csv", "r1", "7"),
         ("/{machine}/{period}.csv", "/r1/3.csv", "r1", "3"),
         ("day{period}.csv", "r5/day3.csv", "r5", "3"),
-    ],
-)
-def test_patterns(pattern: str, place: str, machine: str, period: str) -> None:
-    assert named(place, name=pattern) == [(machine, period)]
+    ):
+        assert named(place, name=pattern) == [(machine, period)]
 
 
 @pytest.mark.parametrize(
@@ -54,16 +53,14 @@ def test_patterns(pattern: str, place: str, machine: str, period: str) -> None:
     ],
 )
 def test_bad_patterns(pattern: str, told: str) -> None:
-    with pytest.raises(DataError) as error:
+    with pytest.raises(DataError, match=re.escape(told)):
         named("r1/a.csv", name=pattern)
-    assert told in str(error.value)
 
 
 def test_two_logs_of_one_machine_and_period() -> None:
-    with pytest.raises(DataError) as error:
-        named("r1/a.csv", "x/r1/a.csv")
     told = "x/r1/a.csv: machine r1, period a, which r1/a.csv is too; expected one log each; rename"
-    assert str(error.value).startswith(told)
+    with pytest.raises(DataError, match=re.escape(told)):
+        named("r1/a.csv", "x/r1/a.csv")
 
 
 def test_lists(tmp_path: Path) -> None:
@@ -97,47 +94,33 @@ def test_lists(tmp_path: Path) -> None:
 def test_bad_lists(tmp_path: Path, name: str, text: str | bytes | None, told: str) -> None:
     if text is not None:
         (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
-    with pytest.raises(DataError) as error:
+    with pytest.raises(DataError, match=re.escape(told)):
         listed_logs(tmp_path / name)
-    assert told in str(error.value)
 
 
 def test_natural_order() -> None:
     assert sorted(["d10", "d9", "d", "c11"], key=natural) == ["c11", "d", "d9", "d10"]
 
 
-@pytest.mark.parametrize(
-    ("period", "told"),
-    [
-        ("2026-03-01", "2026-03-01 00:00"),
-        ("run_20260301_0930", "2026-03-01 09:30"),
-        ("2026.03.01 at x", "2026-03-01 00:00"),
-        ("2026-13-01", None),
-        ("day3", None),
-        ("120260301", None),
-    ],
-)
-def test_dates_in_names(period: str, told: str | None) -> None:
-    found = date_of(period)
-    assert (None if found is None else f"{found:%Y-%m-%d %H:%M}") == told
+def test_dates_in_names() -> None:
+    for period, told in {
+        "2026-03-01": "2026-03-01 00:00", "run_20260301_0930": "2026-03-01 09:30",
+        "2026.03.01 at x": "2026-03-01 00:00", "2026-13-01": None, "day3": None, "120260301": None,
+    }.items():  # fmt: skip
+        found = date_of(period)
+        assert (None if found is None else f"{found:%Y-%m-%d %H:%M}") == told
 
 
 def test_periods_are_in_time() -> None:
     """Dates, else clocks that do not overlap, else names."""
-    from dataclasses import replace
-
-    plain = summaries(Scene(machines=1, periods=3), 1)
+    plain = summaries(Scene(machines=1, periods=3), 2)
     logs, at, unit = in_time(plain)  # day1 ..., all clocks from 0
     assert unit == "periods" and at.tolist() == [0.0, 1.0, 2.0]
-    dated = [
-        replace(log, named=replace(log.named, period=f"2026-03-{day:02d}"))
-        for log, day in zip(plain, (9, 2, 1), strict=True)
-    ]
+    dated = [replace(log, named=replace(log.named, period=f"2026-03-{day:02d}"))
+             for log, day in zip(plain, (9, 2, 1), strict=True)]  # fmt: skip
     logs, at, unit = in_time(dated)
     assert unit == "days" and at.tolist() == [0.0, 1.0, 8.0] and [*logs] == dated[::-1]
-    clocked = [
-        replace(log, span=(86400.0 * day, 86400.0 * day + 12.0))
-        for log, day in zip(plain, (3, 0, 1), strict=True)
-    ]
+    clocked = [replace(log, span=(86400.0 * day, 86400.0 * day + 12.0))
+               for log, day in zip(plain, (3, 0, 1), strict=True)]  # fmt: skip
     logs, at, unit = in_time(clocked)
     assert unit == "days" and np.allclose(at, [0.0, 1.0, 3.0]) and logs[0] is clocked[1]

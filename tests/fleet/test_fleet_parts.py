@@ -5,15 +5,8 @@ import pytest
 from scipy.special import stdtrit
 
 from modeler.estimation.least_squares import least_squares
-from modeler.fleet.drift import (
-    PeriodSeries,
-    critical_deviate,
-    least_detectable,
-    move_of,
-    outlying_machines,
-    quantile,
-    scatters,
-)
+from modeler.fleet import drift
+from modeler.fleet.drift import PeriodSeries, move_of, outlying_machines, scatters
 from modeler.fleet.joint_fit import GAIN, LOAD, joint_fit, layout_of
 from modeler.observation.observe import observe
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs, parameters, summaries
@@ -28,7 +21,7 @@ ROSNER = """
 
 def test_critical_values_are_those_of_the_handbook() -> None:
     printed = [3.159, 3.151, 3.144, 3.136, 3.128, 3.120, 3.112, 3.103, 3.094, 3.085]
-    found = [critical_deviate(54, i, 0.05) for i in range(1, 11)]
+    found = [drift.critical_deviate(54, i, 0.05) for i in range(1, 11)]
     assert np.allclose(found, printed, atol=1.1e-3)
 
 
@@ -56,7 +49,7 @@ def test_alike_machines_are_rarely_odd_and_a_far_one_is() -> None:
 
 
 def test_a_quantile_is_students() -> None:
-    assert quantile(7.0, 0.01) == pytest.approx(stdtrit(7.0, 0.995))
+    assert drift.quantile(7.0, 0.01) == pytest.approx(stdtrit(7.0, 0.995))
 
 
 def series(rng: np.random.Generator, extra: float, plan: np.ndarray) -> PeriodSeries:
@@ -100,7 +93,7 @@ def test_what_a_series_does_is_told() -> None:
         assert move is not None and move.shape == shape and move.chance < 1e-6
         assert abs(move.change) == pytest.approx(np.abs(plan).max(), abs=4.0 * move.sigma)
         assert move.begin == {"trend": 0, "jump": 3, "one period": 4}[shape]
-        told = least_detectable(own, scatter, 1e-3)
+        told = drift.least_detectable(own, scatter, 1e-3)
         assert 3.0 < told < 30.0
     assert move_of(PeriodSeries(np.zeros(1), np.zeros(1), np.ones(1)), scatter) is None
 

@@ -4,6 +4,7 @@ import argparse
 import sys
 import tempfile
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from tests.hidden_effects.case import NONE, Case
@@ -11,17 +12,7 @@ from tests.hidden_effects.drives import NOISE
 from tests.hidden_effects.effects import EFFECTS
 from tests.hidden_effects.score import Score
 from tests.hidden_effects.sensor_kinds import FINE, SENSORS
-from tests.hidden_effects.suite import (
-    ACCEPTANCE,
-    DEVELOPMENT,
-    clean_cases,
-    held_out_cases,
-    pair_cases,
-    run,
-    single_cases,
-    with_sensors,
-    withheld_cases,
-)
+from tests.hidden_effects.suite import ACCEPTANCE, DEVELOPMENT, cases_with, run
 from tests.hidden_effects.table import line, page
 
 SEEDS = 3  # of every effect at every noise
@@ -72,14 +63,9 @@ def cases_of(options: argparse.Namespace) -> list[Case]:
         seeds = [int(seed) for seed in options.seeds.split(",")]
     if not set(seeds) <= set(pool):
         sys.exit(f"seeds {options.seeds}: expected of {pool[0]} to {pool[-1]}, or --acceptance")
-    made = [
-        *single_cases(names, noises, seeds),
-        *clean_cases(noises, pool[: options.clean]),
-        *pair_cases(noises, pool[: options.two]),
-        *withheld_cases(noises, pool[: options.withheld]),
-        *held_out_cases(noises, pool[: options.held_out]),
-    ]
-    return with_sensors(made, sensors)
+    asked = (options.clean, options.two, options.withheld, options.held_out)
+    made = cases_with(names, noises, seeds, pool, *asked)
+    return [replace(case, sensor=sensor) for sensor in sensors for case in made]
 
 
 def _tell(score: Score) -> None:

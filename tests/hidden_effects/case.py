@@ -149,14 +149,14 @@ class _Attempt:
 
     def write(self, folder: Path, visible: float) -> dict[str, Any]:
         """All files of the case."""
-        train = _ran(self.free, self.wanted, self.temperature, self.seed)
+        train = ran_or_impossible(self.free, self.wanted, self.temperature, self.seed)
         thermal, drifts = "temperature_friction" in self.hidden, "drift" in self.hidden
         start = LATER if thermal or drifts else 0.0
         later = self.free.copy()
         later.contact_start = later.contact_end = -1
         later.clock = start if drifts else 0.0
         warm = train.temperature[-1] if thermal else self.temperature
-        holdout = _ran(later, self.wanted_later, warm, self.seed + 1)
+        holdout = ran_or_impossible(later, self.wanted_later, warm, self.seed + 1)
         seen = [self._visibility(name, visible) for name in self.case.effects] if visible else []
         folder.mkdir(parents=True, exist_ok=True)
         if set(LOADS) & self.hidden.keys():
@@ -172,7 +172,7 @@ class _Attempt:
     def _write_loaded(self, folder: Path, thermal: bool) -> None:
         paths = [self.sensor.path(self.rng, seconds, self.most) for seconds in (TRAIN, HOLDOUT)]
         runs = [
-            _ran(self.loaded, path, self.temperature, self.seed + 2 + k)
+            ran_or_impossible(self.loaded, path, self.temperature, self.seed + 2 + k)
             for k, path in enumerate(paths)
         ]
         for name, run, path in zip(("loaded", "loaded_holdout"), runs, paths, strict=True):
@@ -241,7 +241,8 @@ class _Attempt:
         }
 
 
-def _ran(plant: Plant, wanted: np.ndarray, temperature: np.ndarray, seed: int) -> Run:
+def ran_or_impossible(plant: Plant, wanted: np.ndarray, temperature: np.ndarray, seed: int) -> Run:
+    """A run that no arm flees from."""
     run = plant.run(wanted, temperature, seed)
     if run is None:
         raise Impossible

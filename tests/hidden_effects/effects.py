@@ -92,11 +92,11 @@ LOADS = ("payload", "link_inertia")
 """The fit has the arm without them."""
 
 
-def effect(name: str) -> Callable[[Hide], Hide]:
-    """Put what follows into `EFFECTS`."""
+def effect(name: str, known: dict[str, Hide] = EFFECTS) -> Callable[[Hide], Hide]:
+    """Put what follows into `EFFECTS`, or into others."""
 
     def add(hide: Hide) -> Hide:
-        EFFECTS[name] = hide
+        known[name] = hide
         return hide
 
     return add

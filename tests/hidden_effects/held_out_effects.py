@@ -4,26 +4,18 @@ An arm never gets them unless they are asked for: they stand in `HELD_OUT_EFFECT
 `EFFECTS`.
 """
 
-from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
-from tests.hidden_effects.effects import Draw, Hidden, Hide, Impossible
+from tests.hidden_effects.effects import Draw, Hidden, Hide, Impossible, effect
 
 HELD_OUT_EFFECTS: dict[str, Hide] = {}
 """How to hide such a cause, by name."""
 
+held_out = partial(effect, known=HELD_OUT_EFFECTS)
+
 STEEPEST = 9000 * 0.3  # 1/s: dry friction over its width and inertia, for the integration
-
-
-def held_out(name: str) -> Callable[[Hide], Hide]:
-    """Put what follows into `HELD_OUT_EFFECTS`."""
-
-    def add(hide: Hide) -> Hide:
-        HELD_OUT_EFFECTS[name] = hide
-        return hide
-
-    return add
 
 
 def _dry(draw: Draw, torque: float) -> float:

@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,30 +23,32 @@ ACCEPTANCE = range(1001, 1100)
 IMPOSSIBLE = frozenset({"elasticity", "backlash"})  # one gear for both
 
 
-def single_cases(effects: Sequence[str], noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
-    """Every effect at every noise with every seed."""
-    chosen = list(seeds)
-    return [Case((name,), noise, seed) for name in effects for noise in noises for seed in chosen]
+def cases_with(
+    effects: Sequence[str], noises: Sequence[str], seeds: Iterable[int],
+    pool: Sequence[int] = (), clean: int = 0, two: int = 0, withheld: int = 0, held_out: int = 0,
+) -> list[Case]:  # fmt: skip
+    """Every effect at every noise with every seed, and the first so many of a pool at every noise.
 
-
-def clean_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
-    """Nothing hidden."""
-    return [Case((), noise, seed) for seed in seeds for noise in noises]
-
-
-def pair_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
-    """Two effects of all, drawn by the seed."""
-    return [Case(_pair(seed), noise, seed) for seed in seeds for noise in noises]
-
-
-def withheld_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
-    """One effect drawn by the seed, which the diagnosis may not name."""
-    return [Case(_pair(seed)[:1], k, seed, withheld=True) for seed in seeds for k in noises]
-
-
-def held_out_cases(noises: Sequence[str], seeds: Iterable[int]) -> list[Case]:
-    """Every cause outside the catalogue at every noise with every seed."""
-    return single_cases(list(HELD_OUT_EFFECTS), noises, seeds)
+    Args:
+        effects, noises, seeds: of single effects.
+        pool: seeds of the others.
+        clean: cases without any effect.
+        two: pairs of effects, drawn by the seed.
+        withheld: effects, drawn by the seed, that the diagnosis may not name.
+        held_out: seeds of every cause outside the catalogue.
+    """
+    single = [(name, pool[:held_out]) for name in HELD_OUT_EFFECTS]
+    single = [*((name, list(seeds)) for name in effects), *single]
+    return [
+        *(Case((name,), noise, seed) for name, some in single for noise in noises for seed in some),
+        *(Case((), noise, seed) for seed in pool[:clean] for noise in noises),
+        *(Case(_pair(seed), noise, seed) for seed in pool[:two] for noise in noises),
+        *(
+            Case(_pair(seed)[:1], k, seed, withheld=True)
+            for seed in pool[:withheld]
+            for k in noises
+        ),
+    ]
 
 
 def _pair(seed: int) -> tuple[str, ...]:
@@ -56,11 +57,6 @@ def _pair(seed: int) -> tuple[str, ...]:
         pair = tuple(str(name) for name in rng.choice(sorted(EFFECTS), 2, replace=False))
         if set(pair) != IMPOSSIBLE:
             return pair
-
-
-def with_sensors(cases: Sequence[Case], sensors: Sequence[str]) -> list[Case]:
-    """Every case with every kind of sensor."""
-    return [replace(case, sensor=sensor) for sensor in sensors for case in cases]
 
 
 def ran(case: Case, cases: Path) -> Score:

@@ -1,6 +1,6 @@
 """The results as a page in Markdown."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from tests.hidden_effects.drives import NOISE
 from tests.hidden_effects.score import DETECTABLE, Key, Score
@@ -14,114 +14,109 @@ to nothing to see (less than {DETECTABLE} of the noise) are not counted; they ar
 """
 
 
+Column = Callable[[Sequence[Score]], str]
+"""A cell from the scores of its row."""
+
+
+def count(good: Callable[[Score], bool], of: Callable[[Score], bool] = lambda s: True) -> Column:
+    """`good/all`; empty if there are none."""
+
+    def cell(scores: Sequence[Score]) -> str:
+        counted = [score for score in scores if of(score)]
+        return f"{sum(map(good, counted))}/{len(counted)}" if counted else ""
+
+    return cell
+
+
+def _fall(scores: Sequence[Score]) -> str:
+    falls = sorted(s.fall for s in scores if s.first and s.fall is not None)
+    return f"{100 * falls[len(falls) // 2]:.0f} %" if falls else ""
+
+
+def _to_name(score: Score) -> bool:
+    return bool(score.hidden) and score.detectable
+
+
+SINGLE = {
+    **{f"First, {level}": count(lambda s: s.first, lambda s, level=level: s.noise == level)
+       for level in NOISE},
+    "First": count(lambda s: s.first),
+    "Joint": count(lambda s: s.joint),
+    "Tie": count(lambda s: s.tied),
+    "Exact": count(lambda s: s.exact),
+    "Fall": _fall,
+}  # fmt: skip
+CLEAN = {"False alarms": count(lambda s: not s.exact)}
+PAIRS = {
+    "First is one": SINGLE["First"],
+    "Both": count(lambda s: s.found == 2),
+    "Exact": SINGLE["Exact"],
+    "Spurious a case": lambda some: f"{sum(s.spurious for s in some) / len(some):.2f}",
+}
+BY_SENSOR = {
+    "First": count(lambda s: s.first, _to_name),
+    "Stated": count(lambda s: s.stated and s.tied, _to_name),
+    "Fact": count(lambda s: len(s.facts) > len(s.wrong), _to_name),
+    "Wrong": count(lambda s: s.false, lambda s: s.stated),
+    "Names wrong": count(lambda s: s.spurious > 0),
+    "Alarms": count(lambda s: s.spurious > 0 or bool(s.error), lambda s: not s.hidden),
+    "Told": count(lambda s: bool(s.told), lambda s: s.told is not None),
+}
+OUTSIDE = {
+    "Another effect stated": count(lambda s: s.stated),
+    "Closest description": count(lambda s: s.verdict == "closest description"),
+    "Unexplained": count(lambda s: s.verdict == "unexplained"),
+    "Nothing significant": count(lambda s: s.verdict == "nothing significant"),
+}
+
+
 def page(scores: Sequence[Score]) -> str:
-    """Counts by effect and noise, false alarms, pairs, and every case that went wrong."""
+    """Counts by effect, noise and sensor, and every case that went wrong."""
     seen = [score for score in scores if score.detectable]
     named = [s for s in seen if not s.withheld and not s.held_out and s.sensor == FINE]
-    single = [score for score in named if len(score.hidden) == 1]
     noise = ", ".join(f"{100 * share:.3g} % ({name})" for name, share in NOISE.items())
     parts = [INTRODUCTION.format(noise=noise)]
-    if single:
-        parts += ["## One effect\n", _singles(single)]
-    if clean := [score for score in named if not score.hidden]:
-        parts += ["## Nothing hidden\n", _clean(clean)]
-    if pairs := [score for score in named if len(score.hidden) == 2]:
-        parts += ["## Two effects\n", _pairs(pairs)]
-    if coarse := [score for score in scores if score.sensor != FINE]:
-        parts += ["## Coarse encoders, noisy positions\n", by_sensor(coarse)]
-    if withheld := [score for score in seen if score.withheld]:
-        parts += ["## The hidden effect withheld from the catalogue\n", _outside(withheld)]
-    if held_out := [score for score in seen if score.held_out]:
-        parts += ["## Causes outside the catalogue\n", _outside(held_out)]
-    missed = [score for score in seen if not score.right]
-    parts += ["## Misses\n", _list(missed)]
+    for title, some, row, columns in (
+        ("One effect", [s for s in named if len(s.hidden) == 1], _effects, SINGLE),
+        ("Nothing hidden", [s for s in named if not s.hidden], _noise, CLEAN),
+        ("Two effects", [s for s in named if len(s.hidden) == 2], _noise, PAIRS),
+        ("Coarse encoders, noisy positions", [s for s in scores if s.sensor != FINE],
+         lambda s: SENSORS[s.sensor].told, BY_SENSOR),
+        ("The hidden effect withheld from the catalogue", [s for s in seen if s.withheld],
+         _effects, OUTSIDE),
+        ("Causes outside the catalogue", [s for s in seen if s.held_out], _effects, OUTSIDE),
+    ):  # fmt: skip
+        if some:
+            parts += [f"## {title}\n", table(some, row, columns)]
+    parts += ["## Misses\n", _list([score for score in seen if not score.right])]
     parts += ["## Undetectable\n", _list([s for s in scores if not s.detectable])]
     return "\n".join(parts)
+
+
+def table(
+    scores: Sequence[Score], row: Callable[[Score], str], columns: Mapping[str, Column]
+) -> str:
+    """A row for all scores of which `row` gives the same name, and one for all."""
+    by_name: dict[str, list[Score]] = {}
+    for score in scores:
+        by_name.setdefault(row(score), []).append(score)
+    by_name["**all**"] = list(scores)
+    rows = [[name, *(cell(some) for cell in columns.values())] for name, some in by_name.items()]
+    return markdown(["", *columns], rows)
+
+
+def _effects(score: Score) -> str:
+    return score.effects
+
+
+def _noise(score: Score) -> str:
+    return score.noise
 
 
 def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """A table; all but the first column are numbers."""
     lines = [header, ["---"] + ["---:"] * (len(header) - 1), *rows]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
-
-
-def count(scores: Sequence[Score], good: Callable[[Score], bool]) -> str:
-    """`good/all`; empty if there are none."""
-    return f"{sum(map(good, scores))}/{len(scores)}" if scores else ""
-
-
-def _singles(scores: Sequence[Score]) -> str:
-    names = list(dict.fromkeys(score.effects for score in scores))
-    levels = [level for level in NOISE if any(s.noise == level for s in scores)]
-    header = ["Effect", *(f"First, {level}" for level in levels), "First", "Joint", "Tie", "Exact"]
-    rows = [_row(name, [s for s in scores if s.effects == name], levels) for name in names]
-    rows.append(_row("**all**", scores, levels))
-    rows.append(["**share**", *(_share(cell) for cell in rows[-1][1:-1]), rows[-1][-1]])
-    return markdown([*header, "Fall"], rows)
-
-
-def by_sensor(scores: Sequence[Score]) -> str:
-    """Names, facts and alarms by kind of sensor."""
-    rows = []
-    for kind in [*(kind for kind in SENSORS if any(s.sensor == kind for s in scores)), ""]:
-        some = [s for s in scores if kind in (s.sensor, "")]
-        hidden = [s for s in some if s.hidden and s.detectable]
-        stated = [s for s in some if s.stated]
-        rows.append([
-            SENSORS[kind].told if kind else "**all**",
-            count(hidden, lambda s: s.first),
-            count(hidden, lambda s: s.stated and s.tied),
-            count(hidden, lambda s: len(s.facts) > len(s.wrong)),
-            count(stated, lambda s: s.false),
-            count(some, lambda s: s.spurious > 0),
-            count([s for s in some if not s.hidden], lambda s: s.spurious > 0 or bool(s.error)),
-            count([s for s in some if s.told is not None], lambda s: bool(s.told)),
-        ])  # fmt: skip
-    header = ["Sensor", "First", "Stated", "Fact", "Wrong", "Names wrong", "Alarms", "Told"]
-    return markdown(header, rows)
-
-
-def _row(name: str, scores: Sequence[Score], levels: Sequence[str]) -> list[str]:
-    by_level = [count([s for s in scores if s.noise == k], lambda s: s.first) for k in levels]
-    kinds: list[Callable[[Score], bool]] = [
-        lambda s: s.first, lambda s: s.joint, lambda s: s.tied, lambda s: s.exact
-    ]  # fmt: skip
-    falls = sorted(s.fall for s in scores if s.first and s.fall is not None)
-    fall = f"{100 * falls[len(falls) // 2]:.0f} %" if falls else ""
-    return [name, *by_level, *(count(scores, kind) for kind in kinds), fall]
-
-
-def _share(cell: str) -> str:
-    good, _, total = cell.partition("/")
-    return f"{100 * int(good) / int(total):.1f} %"
-
-
-def _clean(scores: Sequence[Score]) -> str:
-    levels = [level for level in NOISE if any(s.noise == level for s in scores)]
-    some = [[s for s in scores if s.noise == level] for level in levels]
-    alarms = [count(cases, lambda score: not score.exact) for cases in (*some, scores)]
-    return markdown(["", *levels, "all"], [["False alarms", *alarms]])
-
-
-def _pairs(scores: Sequence[Score]) -> str:
-    rows = []
-    for name in [*(level for level in NOISE if any(s.noise == level for s in scores)), "**all**"]:
-        some = [s for s in scores if name in (s.noise, "**all**")]
-        spurious = sum(s.spurious for s in some) / len(some)
-        counts = [count(some, lambda s: s.first), count(some, lambda s: s.found == 2)]
-        rows.append([name, *counts, count(some, lambda s: s.exact), f"{spurious:.2f}"])
-    return markdown(["Noise", "First is one", "Both", "Exact", "Spurious a case"], rows)
-
-
-def _outside(scores: Sequence[Score]) -> str:
-    """By cause: what is said of one that may not be named, or that no catalogue has."""
-    verdicts = ("missing", "closest description", "unexplained", "nothing significant")
-    rows = []
-    for name in [*dict.fromkeys(score.effects for score in scores), "**all**"]:
-        some = [score for score in scores if name in (score.effects, "**all**")]
-        rows.append([name, *(count(some, lambda s, v=v: s.verdict == v) for v in verdicts)])
-    header = ["Cause", "Another effect stated", "Closest description", "Unexplained"]
-    return markdown([*header, "Nothing significant"], rows)
 
 
 def _list(scores: Sequence[Score]) -> str:

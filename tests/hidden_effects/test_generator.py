@@ -1,6 +1,6 @@
 """The simulated arms against other people's mechanics, and the laws that they must keep."""
 
-import dataclasses
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -9,7 +9,7 @@ import pytest
 from tests.hidden_effects.drives import equip
 from tests.hidden_effects.effects import BASE, EFFECTS, hide
 from tests.hidden_effects.motion import draw_bounds, motion
-from tests.hidden_effects.plant import rate
+from tests.hidden_effects.plant import TICK, rate
 from tests.hidden_effects.robot_file import robot_text
 from tests.hidden_effects.robots import KINDS, draw_arm
 from tests.hidden_effects.sensors import logged_torque
@@ -31,6 +31,41 @@ def arm(kind="3R", seed=3, seconds=6.0):
     """An equipped arm of one's own, its path and its scales."""
     plant, path, scales = drawn(kind, seed, seconds)
     return plant.copy(), path, scales
+
+
+@dataclass
+class Moved:
+    """A run without noise: true motion, torques of the motors, and what they are asked for.
+
+    Attributes:
+        load: torque of the links.
+        rubbed: friction that every arm has.
+        extra: torque beyond links, rotors and that friction.
+        steady: (ticks,) where differences over ticks do not blur a change of sign.
+    """
+
+    q: np.ndarray
+    v: np.ndarray
+    a: np.ndarray
+    torque: np.ndarray
+    load: np.ndarray
+    rubbed: np.ndarray
+    extra: np.ndarray
+    steady: np.ndarray
+
+
+def moved(plant, path):
+    plant.noise_torque, plant.encoder_step = 0, 1e-9
+    run = plant.run(path, np.zeros(plant.joints), 1)
+    q, v, torque = run.link, rate(run.link), logged_torque(run, 0.0)
+    a = np.zeros_like(q)
+    a[1:-1] = np.diff(q, 2, axis=0) / TICK**2
+    load = plant.inverse_dynamics(q, v, a)[0]
+    rubbed = plant.viscous * v + plant.coulomb * np.tanh(v / plant.coulomb_width) + plant.offset
+    steady = (np.abs(v) > 0.05).all(1)
+    steady[:50] = steady[-50:] = False
+    extra = torque - load - plant.rotor_inertia * a - rubbed
+    return Moved(q, v, a, torque, load, rubbed, extra, steady)
 
 
 def pinocchio_model(pin, plant):
@@ -68,15 +103,10 @@ def test_links_move_as_in_pinocchio(kind):
 def test_motors_drive_links_rotors_and_friction():
     """torque = links(q, v, a) + Ia a + friction along a motion: the integration is right."""
     plant, path, _ = arm("3R")
-    plant.noise_torque, plant.encoder_step = 0, 1e-9
-    run = plant.run(path, np.zeros(3), 1)
-    q, v, a = run.link, rate(run.link), rate(rate(run.link))
-    moved = plant.inverse_dynamics(q, v, a)[0] + plant.rotor_inertia * a
-    rubbed = plant.viscous * v + plant.coulomb * np.tanh(v / plant.coulomb_width) + plant.offset
-    torque = logged_torque(run, 0.0)
-    left = (torque - moved - rubbed).std(0) / torque.std(0)
-    assert left.max() < 5e-3  # differences over ticks blur what happens when a speed changes sign
-    assert (rubbed.std(0) / torque.std(0)).min() > 5 * left.max()
+    x = moved(plant, path)
+    left = x.extra.std(0) / x.torque.std(0)
+    assert left.max() < 5e-3
+    assert (x.rubbed.std(0) / x.torque.std(0)).min() > 5 * left.max()
 
 
 def test_a_clean_arm_hides_nothing_and_a_spring_is_seen():
@@ -96,7 +126,7 @@ def test_a_clean_arm_hides_nothing_and_a_spring_is_seen():
 def test_every_effect_changes_the_logged_torque(name):
     plant, path, scales = arm("3R", seconds=4.0)
     if name == "external_force":
-        scales = dataclasses.replace(scales, seconds=4.0)
+        scales = replace(scales, seconds=4.0)
     changed = plant.copy()
     if name == "rotor_inertia":
         plant.rotor_inertia[2] *= 0.5

@@ -17,27 +17,20 @@ from modeler.report import after_add, after_compare, after_diagnosis, after_fit
 from tests.diagnose.conftest import Case, Run, spring
 
 
-def named(case: Case, effect: Effect) -> list[str]:
-    """The commands after a diagnosis that names one effect, on joint 3 if it is of a joint."""
-    found = case.found(spring)
+@pytest.mark.parametrize(
+    "effect",
+    [effect for effect in CATALOGUE if effect.acts is not Acts.PASSIVE],
+    ids=lambda effect: effect.id,
+)
+def test_what_is_suggested_can_be_added(case: Case, effect: Effect) -> None:
+    """After a diagnosis that names one effect, on joint 3 if it is of a joint."""
+    model, found = case.hidden(spring)[0], case.found(spring)
     (first,) = found.effects
     whole = effect.acts in (Acts.TORQUE, Acts.GRAVITY, Acts.WINDOW) or effect.last_link
-    assert first.pick is not None
-    pick = Candidate(effect, effect.forms[0], None if whole else "3", 2)
-    one = dataclasses.replace(
-        first, effect=effect.id, joint=pick.joint,
-        pick=dataclasses.replace(first.pick, candidate=pick),
-    )  # fmt: skip
-    return after_diagnosis("m.json", ["a"], ["b"], dataclasses.replace(found, effects=(one,)))
-
-
-OF_MOTORS = [effect for effect in CATALOGUE if effect.acts is not Acts.PASSIVE]
-
-
-@pytest.mark.parametrize("effect", OF_MOTORS, ids=lambda effect: effect.id)
-def test_what_is_suggested_can_be_added(case: Case, effect: Effect) -> None:
-    model = case.hidden(spring)[0]
-    commands = named(case, effect)
+    candidate = Candidate(effect, effect.forms[0], None if whole else "3", 2)
+    pick = dataclasses.replace(first.pick, candidate=candidate)
+    one = dataclasses.replace(first, effect=effect.id, joint=candidate.joint, pick=pick)
+    commands = after_diagnosis("m", ["a"], ["b"], dataclasses.replace(found, effects=(one,)))
     for _, command, _, *rest in map(shlex.split, commands):
         if command == "add":
             joint = rest[rest.index("--joint") + 1] if "--joint" in rest else None

@@ -1,6 +1,5 @@
 """Effects of a folder: those of one robot are found, added and refused on another of its kind."""
 
-import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +12,7 @@ from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
 from modeler.robot.shared_effects import exported_effect, shared_effects
 from tests.chain import chain_of
-from tests.diagnose.conftest import Case, Run, motion, on_joint, write_csv
+from tests.diagnose.conftest import Case, Run, demonstration, motion, on_joint
 from tests.improve.conftest import BRAKE, brake, long_runs
 
 FAR = """
@@ -68,6 +67,8 @@ def test_it_is_found_and_added_on_a_robot_that_does_not_define_it(case: Case, fo
         api.add(model, "leaning", [train], effects_from=folder)
     with pytest.raises(DataError, match="eddy_brake: no such effect"):
         api.add(model, "eddy_brake", [train])
+    with pytest.raises(DataError, match="got it with undo; expected an effect of the folder, or"):
+        api.add(model, "undo", [train], effects_from=folder)
 
 
 @pytest.mark.rotating("effects are added to simulated runs")
@@ -106,7 +107,6 @@ def test_what_two_files_define_alike_counts_once(folder: Path) -> None:
          "spinner; rename one of the two"),
         ("eddy_brake", "magnet", "x.toml: [own_effects.magnet], columns: the parameter \"Keb\" is "
          "that of eddy_brake already; choose another name"),
-        ("Keb", "Fv", "the parameter \"Fv\" is that of viscous already; choose another name"),
         ("eddy_brake", "spring", '[own_effects.spring]: "spring" is spring of the catalogue'),
         ("title", "titel", 'unknown key "titel" (did you mean "title"?)'),
         ("]\n", "\n", "not TOML"),
@@ -123,26 +123,22 @@ def test_mistakes_name_the_file(tmp_path: Path, old: str, new: str, said: str) -
     assert said in str(caught.value) and str(tmp_path / "x.toml") in str(caught.value)
 
 
-def test_two_files_that_disagree_are_named_both(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(folder)
-    (folder / "other.toml").write_text(LAW.replace("0, 1, 1", "0, 1, 2"), encoding="utf-8")
-    with pytest.raises(RobotError, match=r"^other\.toml: .*defined otherwise in law\.toml;"):
-        shared_effects(robot_from_text(ROBOT, "spinner.toml"), ".")
-
-
-def test_folders_without_effects_and_files_that_are_none(tmp_path: Path) -> None:
+def test_folders_without_effects_and_files_that_are_none(folder: Path, tmp_path: Path) -> None:
     robot = robot_from_text(ROBOT, "spinner.toml")
-    (tmp_path / "robot.toml").write_text(ROBOT, encoding="utf-8")
-    for place in (tmp_path, tmp_path / "robot.toml", tmp_path / "nowhere"):
+    (folder / "other.toml").write_text(LAW.replace("0, 1, 1", "0, 1, 2"), encoding="utf-8")
+    both = r"other\.toml: \[own_effects.learned_2\]: defined otherwise in .*law\.toml; rename"
+    with pytest.raises(RobotError, match=both):
+        shared_effects(robot, folder)
+    place, bad = tmp_path / "robot.toml", tmp_path / "x.toml"
+    place.write_text(ROBOT, encoding="utf-8")
+    for nothing in (tmp_path, place, tmp_path / "nowhere"):
         with pytest.raises(RobotError, match="no effects there; expected a folder with files"):
-            shared_effects(robot, place)
-    (tmp_path / "x.toml").write_bytes(b"\xff")
+            shared_effects(robot, nothing)
+    bad.write_bytes(b"\xff")
     with pytest.raises(RobotError, match=r"x\.toml: byte 0 is not UTF-8 text"):
         shared_effects(robot, tmp_path)
-    (tmp_path / "x.toml").unlink()
-    (tmp_path / "x.toml").mkdir()
+    bad.unlink()
+    bad.mkdir()
     with pytest.raises(RobotError, match=r"x\.toml: is a folder"):
         shared_effects(robot, tmp_path)
 
@@ -180,13 +176,16 @@ shapes = {p = [2, 4]}
     assert effect.forms[0].shapes[0].grid == (2.0, 4.0)
 
 
-def test_export_as_a_command(case: Case, tmp_path: Path, run: Run) -> None:
-    (tmp_path / "arm.toml").write_text(api.load("demo-arm").text + BRAKE, encoding="utf-8")
-    model, *logs = dataclasses.replace(case, chain=chain_of(tmp_path / "arm.toml")).hidden(brake)
-    m2, shelf = tmp_path / "b.json", tmp_path / "shelf"
-    save_model(m2, api.add(model, "eddy_brake", logs[:1], logs[1:], joint="2"))
+def test_export_as_a_command(tmp_path: Path, run: Run) -> None:
+    """Of a model that has the effect, and of the robot file with other values."""
+    fitted, robot = demonstration(robot="two-link"), api.load("two-link").text + BRAKE
+    for name, w in (("has", 0.2), ("other", 0.1)):
+        use = f'[effects]\neddy_brake = [{{joint = "2", c = 0.7, w = {w}}}]'
+        (tmp_path / f"{name}.toml").write_text(robot.replace("[effects]", use), encoding="utf-8")
+    model, shelf = tmp_path / "b.json", tmp_path / "shelf"
+    save_model(model, chain_of(tmp_path / "has.toml").fit([fitted.train]))
     export = ("effects", "--export", "eddy_brake", "--out", shelf, "--robot")
-    status, out, _ = run(*export, m2)
+    status, out, _ = run(*export, model)
     files = [shelf / "eddy_brake.toml", shelf / "eddy_brake.html"]
     assert (status, out) == (0, "".join(f"written: {file}\n" for file in files))
     assert sorted(shelf.iterdir()) == sorted(files)
@@ -195,33 +194,12 @@ def test_export_as_a_command(case: Case, tmp_path: Path, run: Run) -> None:
         assert said in page, said
     assert "http://" not in page.split("<script>")[0]
     content = files[0].read_text(encoding="utf-8")
-    assert run(*export, m2)[0] == 0  # the same again
-    status, _, err = run(*export, tmp_path / "arm.toml")  # other first values
+    assert run(*export, model)[0] == 0  # the same again
+    status, _, err = run(*export, tmp_path / "other.toml")
     assert status == 1 and "there is such a file with another content" in err
     assert [file.read_text(encoding="utf-8") for file in files] == [content, page]
-    assert run(*export, tmp_path / "arm.toml", "--force")[0] == 0
+    assert run(*export, tmp_path / "other.toml", "--force")[0] == 0
     assert files[0].read_text(encoding="utf-8") != content
-
-
-@pytest.mark.rotating("effects are added to simulated runs")
-def test_a_folder_of_effects_in_commands(case: Case, tmp_path: Path, run: Run) -> None:
-    """What one robot showed is found on the next, by nothing but the file."""
-    fitted, train, holdout = case.hidden(brake)
-    plain, shelf, m = tmp_path / "plain.json", tmp_path / "shelf", tmp_path / "m.json"
-    save_model(plain, fitted)
-    shelf.mkdir()
-    (shelf / "brake.toml").write_text(BRAKE, encoding="utf-8")
-    words = (write_csv(tmp_path / "a.csv", train), "--holdout",
-             write_csv(tmp_path / "b.csv", holdout))  # fmt: skip
-    status, out, _ = run("diagnose", plain, *words, "--effects-from", shelf)
-    assert status == 0 and "missing: drag of a magnet (eddy_brake), joint 2" in out
-    assert f"modeler add {plain} eddy_brake --joint 2" in out and f"--effects-from {shelf}" in out
-    found = run("add", plain, "auto", *words, "--out", m, "--effects-from", shelf)
-    assert found[0] == 0 and "+ eddy_brake @2" in found[1]
-    status, _, err = run("add", plain, "undo", *words, "--out", m, "--effects-from", shelf)
-    assert status == 1 and "got it with undo; expected an effect of the folder, or auto" in err
-    status, _, err = run("diagnose", plain, *words, "--effects-from", shelf, "--without", "spin")
-    assert status == 1 and "eddy_brake" in err
 
 
 def test_what_cannot_be_exported(tmp_path: Path, run: Run) -> None:

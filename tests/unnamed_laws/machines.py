@@ -16,11 +16,12 @@ from pathlib import Path
 import numpy as np
 
 from tests.chain import chain_of
+from tests.hidden_effects.case import ran_or_impossible
 from tests.hidden_effects.drives import Scales, equip, measured_noise
 from tests.hidden_effects.effects import BASE, Draw, Impossible
 from tests.hidden_effects.held_out_effects import STEEPEST
 from tests.hidden_effects.motion import draw_bounds, motion
-from tests.hidden_effects.plant import TICK, Plant, Run, rate
+from tests.hidden_effects.plant import TICK, Plant, rate
 from tests.hidden_effects.robot_file import robot_text
 from tests.hidden_effects.robots import draw_arm
 from tests.hidden_effects.sensor_kinds import FINE, SENSORS
@@ -108,19 +109,12 @@ def _drawn(law: str, rng: np.random.Generator, encoder: str, place: Path) -> Tru
     truth = None if law == CLEAN else with_law(law, plant, scales, paths["train"], rng)
     SENSORS[ENCODERS[encoder]].equip(plant)
     for k, (name, path) in enumerate(paths.items()):
-        run = _ran(plant, path, seed + k)
+        run = ran_or_impossible(plant, path, np.full(n, 20.0), seed + k)
         columns = log(run, path, measured_noise(scales, NOISE), noises[k])
         write(columns, place / f"{name}.parquet")
     text = robot_text("arm", plant, {name: list(range(n)) for name in BASE})
     (place / "robot.toml").write_text(text, encoding="utf-8")
     return truth
-
-
-def _ran(plant: Plant, path: np.ndarray, seed: int) -> Run:
-    run = plant.run(path, np.full(plant.joints, 20.0), seed)
-    if run is None:
-        raise Impossible
-    return run
 
 
 def with_law(

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from tests.hidden_effects.conftest import plant_compiler as plant_compiler
-from tests.hidden_effects.plant import TICK, rate
-from tests.hidden_effects.test_generator import arm
+from tests.hidden_effects.plant import TICK
+from tests.hidden_effects.test_generator import arm, moved
 from tests.unnamed_laws.found import what_is_learned, what_is_proposed
 from tests.unnamed_laws.judge import errors
 from tests.unnamed_laws.laws import LAWS, Motion
@@ -18,26 +18,16 @@ pytestmark = pytest.mark.usefixtures("plant_compiler")
 def test_the_simulated_torque_is_the_column(name):
     plant, path, scales = arm(seconds=3.0)
     form = with_law(name, plant, scales, path, np.random.default_rng(4))
-    plant.noise_torque, plant.encoder_step = 0, 1e-9
-    run = plant.run(path, np.zeros(plant.joints), 1)
-    q, v = run.link, rate(run.link)
-    a = np.zeros_like(q)
-    a[1:-1] = np.diff(q, 2, axis=0) / TICK**2
-    load = plant.inverse_dynamics(q, v, a)[0]
-    rubbed = plant.viscous * v + plant.coulomb * np.tanh(v / plant.coulomb_width) + plant.offset
-    extra = run.torque[::4] - load - plant.rotor_inertia * a - rubbed
-    expected = np.zeros_like(q)
-    column = form.column(Motion(q, v, a, load, np.arange(len(q)) * TICK))
-    expected[:, form.joint] = form.size * column
-    steady = (np.abs(v) > 0.05).all(1)  # differences over ticks blur where a speed changes sign
-    steady[:50] = steady[-50:] = False
-    scale = run.torque.std(0)
-    jumps = np.abs(np.diff(expected, axis=0, prepend=0)).max(1) > 0.01 * scale[form.joint]
-    steady[np.convolve(jumps, np.ones(9), "same") > 0] = False
+    x, j = moved(plant, path), form.joint
+    expected, scale = np.zeros_like(x.q), x.torque.std(0)
+    column = form.column(Motion(x.q, x.v, x.a, x.load, np.arange(len(x.q)) * TICK))
+    expected[:, j] = form.size * column
+    jumps = np.abs(np.diff(expected, axis=0, prepend=0)).max(1) > 0.01 * scale[j]
+    steady = x.steady & ~(np.convolve(jumps, np.ones(9), "same") > 0)
     assert steady.mean() > 0.3
-    error = ((extra - expected)[steady].std(0) / scale).max()
+    error = ((x.extra - expected)[steady].std(0) / scale).max()
     assert error < 5e-3
-    share = np.sqrt((expected[:, form.joint] ** 2).mean()) / scales.motors[form.joint]
+    share = np.sqrt((expected[:, j] ** 2).mean()) / scales.motors[j]
     assert max(0.6 * LEAST, 5 * error) < share < 1.6 * MOST
 
 
