@@ -1,11 +1,13 @@
 """Two simulated runs of the demonstration arm, and a way to hide effects in them."""
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from modeler.cli import main
@@ -141,6 +143,22 @@ def arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
             made("simulate", "demo-arm", *words)
         made("fit", "demo-arm", folder / "train.parquet", "--out", folder / "m.json")
     return folder
+
+
+Table = Mapping[str, np.ndarray]
+"""Columns of a log."""
+
+
+def columns_of(place: Path) -> dict[str, np.ndarray]:
+    """Of a Parquet file."""
+    read = pq.read_table(place)
+    return {name: read[name].to_numpy().copy() for name in read.column_names}
+
+
+def written(place: Path, columns: Table) -> Path:
+    """The log as a Parquet file."""
+    pq.write_table(pa.table(dict(columns)), place)
+    return place
 
 
 def motion(log: Log) -> tuple[np.ndarray, np.ndarray]:

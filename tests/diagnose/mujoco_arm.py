@@ -6,12 +6,9 @@ steps and knows the rigid body only.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import mujoco
 import numpy as np
-import pyarrow
-import pyarrow.parquet
 
 from tests.hidden_effects.motion import Bounds, motion
 
@@ -174,9 +171,3 @@ def _feedforward(wanted: np.ndarray, speed: np.ndarray) -> np.ndarray:
         mujoco.mj_inverse(model, data)
         found[k] = data.qfrc_inverse
     return found
-
-
-def write(path: Path, columns: Mapping[str, np.ndarray]) -> Path:
-    """The log as Parquet."""
-    pyarrow.parquet.write_table(pyarrow.table(dict(columns)), path)
-    return path

@@ -5,27 +5,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 
 from modeler.api import recompile
 from modeler.estimation.model_file import load_model
-from tests.diagnose.conftest import Run
-
-Table = dict[str, np.ndarray]
-
-RATE = 250.0
-
-
-def table(place: Path) -> Table:
-    read = pq.read_table(place)
-    return {name: read[name].to_numpy().copy() for name in read.column_names}
-
-
-def written(place: Path, columns: Table) -> Path:
-    pq.write_table(pa.table(columns), place)
-    return place
+from tests.diagnose.conftest import RATE, Run, Table, columns_of, written
+from tests.rotation import rotating
 
 
 def with_gap(values: np.ndarray, what: float) -> np.ndarray:
@@ -38,7 +23,7 @@ def with_gap(values: np.ndarray, what: float) -> np.ndarray:
 def test_logs_that_cannot_be_used_are_refused_in_one_line(
     arm: Path, run: Run, tmp_path: Path
 ) -> None:
-    log = table(arm / "other.parquet")
+    log = columns_of(arm / "other.parquet")
     timeless = log | {"time": with_gap(log["time"], np.nan)}
     creeping = log | {f"q{j}": 1e-3 * log[f"q{j}"] for j in (1, 2, 3)}
     bad = written(tmp_path / "bad.parquet", timeless)
@@ -58,7 +43,7 @@ def test_logs_that_cannot_be_used_are_refused_in_one_line(
 
 @pytest.mark.rotating("long tests of diagnose")
 def test_a_log_too_short_is_no_evidence_of_anything(arm: Path, run: Run, tmp_path: Path) -> None:
-    short = {n: v[: int(2.0 * RATE)] for n, v in table(arm / "other.parquet").items()}
+    short = {n: v[: int(2.0 * RATE)] for n, v in columns_of(arm / "other.parquet").items()}
     place = written(tmp_path / "short.parquet", short)
     status, out, _ = run("diagnose", arm / "m.json", place, "--report", tmp_path / "p.html")
     assert status == 0
@@ -69,18 +54,22 @@ def test_a_log_too_short_is_no_evidence_of_anything(arm: Path, run: Run, tmp_pat
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
-def test_without_held_out_motion_the_answer_says_what_that_costs(arm: Path, run: Run) -> None:
-    status, out, _ = run("diagnose", arm / "m.json", arm / "train.parquet")
+def test_without_held_out_motion_or_with_fitted_one_the_answer_says_so(arm: Path, run: Run) -> None:
+    train = arm / "train.parquet"
+    status, out, _ = run("diagnose", arm / "m.json", train)
     assert status == 0
     assert "no held-out logs: errors are cross-validated within the logs, which flatters" in out
     assert "(cross-validated error, up to" in out
+    status, out, _ = run("diagnose", arm / "m.json", arm / "other.parquet", "--holdout", train)
+    assert status == 0
+    assert "data: held out: the model was fitted to train.parquet; " in out
 
 
 def test_channels_that_contradict_the_model_are_named_and_no_physics_is(
     arm: Path, run: Run, tmp_path: Path
 ) -> None:
     """In the logs that are diagnosed, and in held-out ones."""
-    log, bad, to = table(arm / "other.parquet"), tmp_path / "bad.parquet", tmp_path / "d.json"
+    log, bad, to = columns_of(arm / "other.parquet"), tmp_path / "bad.parquet", tmp_path / "d.json"
     degrees = log | {f"q{j}": np.degrees(log[f"q{j}"]) for j in (1, 2, 3)}
     exchanged = log | {"q1": log["q2"], "q2": log["q1"]}
     for columns, logs, words in (
@@ -101,21 +90,18 @@ def test_channels_that_contradict_the_model_are_named_and_no_physics_is(
 
 def late(joint: int, samples: int, columns: Table) -> Table:
     q = columns[f"q{joint}"]
-    return columns | {f"q{joint}": np.concatenate([np.full(samples, q[0]), q[:-samples]])}
+    return {**columns, f"q{joint}": np.concatenate([np.full(samples, q[0]), q[:-samples]])}
 
 
 @pytest.mark.parametrize(
     ("samples", "words"),
-    [
-        (2, " ms late, by a fit at other times"),
-        pytest.param(1, " ms too late beside", marks=pytest.mark.rotating),
-    ],
+    [(2, " ms late, by a fit at other times"), *rotating((1, " ms too late beside"))],
 )
 def test_a_late_position_is_found_with_its_delay(
     samples: int, words: str, arm: Path, run: Run, tmp_path: Path
 ) -> None:
     """Samples of 4 ms; the other joints are in time. A short delay shows in a wide band only."""
-    bad = written(tmp_path / "bad.parquet", late(2, samples, table(arm / "other.parquet")))
+    bad = written(tmp_path / "bad.parquet", late(2, samples, columns_of(arm / "other.parquet")))
     _, out, _ = run("diagnose", arm / "m.json", bad)
     (line,) = [line for line in out.splitlines() if "its position comes" in line]
     assert line.startswith("data: joint 2: its position comes ") and words in line
@@ -123,7 +109,7 @@ def test_a_late_position_is_found_with_its_delay(
 
 
 def test_missing_and_clipped_values_are_counted(arm: Path, run: Run, tmp_path: Path) -> None:
-    t = table(arm / "other.parquet")
+    t = columns_of(arm / "other.parquet")
     t["q2"], t["tau1"] = with_gap(t["q2"], np.nan), with_gap(t["tau1"], np.inf)
     limit = float(np.quantile(np.abs(t["tau3"]), 0.8))
     stuck = np.abs(t["tau3"]) > limit
@@ -195,21 +181,10 @@ def test_slow_motion_only(arm: Path, run: Run, tmp_path: Path) -> None:
     assert line.endswith("are not identifiable; accelerate more")
 
 
-@pytest.mark.rotating("diagnoses of simulated runs")
-def test_a_held_out_log_that_was_fitted_is_told(arm: Path, run: Run) -> None:
-    words = ("diagnose", arm / "m.json", arm / "other.parquet", "--holdout", arm / "train.parquet")
-    status, out, _ = run(*words)
-    assert status == 0
-    assert "data: held out: the model was fitted to train.parquet; " in out
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
+def test_what_is_ruled_out_must_exist(arm: Path, run: Run) -> None:
+    for text, message in (
         ("sprng@3", '--without sprng@3: no such effect (did you mean "spring"'),
         ("spring@9", "--without spring@9: no joint 9; expected one of 1, 2, 3"),
-    ],
-)
-def test_what_is_ruled_out_must_exist(arm: Path, run: Run, text: str, message: str) -> None:
-    status, _, err = run("diagnose", arm / "m.json", arm / "train.parquet", "--without", text)
-    assert status == 1 and err.count("\n") == 1 and message in err
+    ):
+        status, _, err = run("diagnose", arm / "m.json", arm / "train.parquet", "--without", text)
+        assert status == 1 and err.count("\n") == 1 and message in err

@@ -69,10 +69,3 @@ def test_a_second_gain_mends_the_first_that_was_added(case: Case) -> None:
         compiled = load(model.spec, model.sources)
     added = eps_of(model, ["eps2", "eps3"])
     assert added == pytest.approx({"eps2": 0.3, "eps3": -0.5}, abs=0.01)
-
-
-@pytest.mark.rotating("diagnoses of simulated runs")
-def test_a_torque_in_another_unit_is_a_matter_of_its_channel_still(case: Case) -> None:
-    diagnosis = case.found(logged(1.0, 1000.0, 1.0))
-    said = [*diagnosis.data, *(f.objection for f in diagnosis.effects)]
-    assert any("unit" in line for line in said)

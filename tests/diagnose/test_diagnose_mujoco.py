@@ -14,7 +14,8 @@ from modeler import api
 pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco-core) is not installed")
 
 from tests.chain import chain_of
-from tests.diagnose.mujoco_arm import ROWS, G, random_arm, random_body, robot_text, run, write
+from tests.diagnose.conftest import written
+from tests.diagnose.mujoco_arm import ROWS, G, random_arm, random_body, robot_text, run
 from tests.rotation import ROTATING, rotating
 
 TRAIN, HOLDOUT = 12.0, 6.0  # s, of moves, and as much of a Fourier series
@@ -69,10 +70,10 @@ def diagnosed(folder, seed, effect=None, joint=None):
     """The diagnosis of a model that lacks this effect on this joint."""
     added = effect if effect not in EVER else None
     logs = simulated(added, joint if added else None, seed)
-    train, holdout = (write(folder / f"{k}.parquet", log) for k, log in enumerate(logs))
+    train, holdout = (written(folder / f"{k}.parquet", log) for k, log in enumerate(logs))
     fitted = train
     if effect == "payload":  # a model of the arm without load, asked about the arm with it
-        fitted = write(folder / "unloaded.parquet", simulated(None, None, seed)[0])
+        fitted = written(folder / "unloaded.parquet", simulated(None, None, seed)[0])
     path = folder / "robot.toml"
     text = robot_text(random_arm(seed), effects_without(effect, joint))
     path.write_text(text, encoding="utf-8")

@@ -4,11 +4,9 @@ import warnings
 from pathlib import Path
 
 import numpy as np
-import pyarrow
-import pyarrow.parquet
 import pytest
 
-from tests.diagnose.conftest import Run
+from tests.diagnose.conftest import Run, columns_of, written
 from tests.rotation import rotating
 
 ROWS = {
@@ -63,9 +61,7 @@ def test_a_diagnosis_ends_in_sentences(name: str, tmp_path: Path, run: Run) -> N
     assert run("fit", robot, a, "--out", tmp_path / "m.json")[0] == 0
     short, resting = tmp_path / "short.parquet", tmp_path / "resting.parquet"
     for place, to in ((a, short), (b, resting)):
-        read = pyarrow.parquet.read_table(place)
-        columns = {name: read[name].to_numpy() for name in read.column_names}
-        pyarrow.parquet.write_table(pyarrow.table(changed(columns, to.stem)), to)
+        written(to, changed(columns_of(place), to.stem))
     asked = [(a, "--holdout", b), (a, "--holdout", resting), (short,)]
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)

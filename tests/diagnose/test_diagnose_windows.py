@@ -13,7 +13,6 @@ from modeler.diagnosis.effect_columns import coarser
 from modeler.diagnosis.generate import generate_candidates
 from modeler.diagnosis.ranking import sigma_of
 from modeler.diagnosis.state import SearchData, all_columns_of, analysed, state_of
-from modeler.estimation import findings
 from modeler.numerics.least_squares import ReducedRows
 from modeler.observation.prepare import LogRepair
 from modeler.observation.settings import Processing
@@ -106,20 +105,6 @@ def test_what_rings_is_that_of_scipy(frequency: float, damping: float) -> None:
     theirs = load[0] + lfilter(np.ravel(numerator), denominator, load - load[0])
     ours = signals_module.resonance(load, step, frequency, damping)
     np.testing.assert_allclose(ours, theirs, rtol=0.0, atol=1e-9 * np.abs(load).max())
-
-
-def test_later_torques_and_one_column_more_are_those_of_all_columns(arm, log) -> None:
-    """Of a few rows: torques of a shifted motion, and what a column beside W adds to products."""
-    seen = findings._evidence(arm, analysed(arm, [log], Processing()))
-    rows, beta = seen.rows, np.linspace(-1.0, 2.0, len(arm.spec.base))
-    shift = np.array([2e-3, 0.0, -3e-3])
-    torque = rows.shifted(arm, shift, beta)
-    np.testing.assert_allclose(torque, rows.shifted(arm, shift) @ beta, rtol=1e-9, atol=1e-9)
-    own = findings._bordered(seen.data, seen, rows.W, torque)
-    both = np.concatenate([rows.W, torque[..., None]], axis=2)
-    whole = findings._products(both, rows.tau, rows.used, seen.joints)
-    for name in ("gram", "cross"):
-        np.testing.assert_allclose(getattr(own, name), getattr(whole, name), rtol=1e-9, atol=1e-12)
 
 
 def test_rows_without_torque_do_not_drive_the_parameters_to_zero() -> None:

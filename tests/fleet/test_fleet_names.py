@@ -64,17 +64,14 @@ def test_two_logs_of_one_machine_and_period() -> None:
 
 
 def test_lists(tmp_path: Path) -> None:
-    table = tmp_path / "logs.csv"
-    table.write_text("machine, period, log\nr1, b, x/1.csv\nr1, a, 2.csv\n")
-    found = listed_logs(table)
-    assert [(log.machine, log.period) for log in found] == [("r1", "a"), ("r1", "b")]
-    assert [log.place for log in found] == [str(tmp_path / "2.csv"), str(tmp_path / "x/1.csv")]
-    same = tmp_path / "logs.toml"
-    same.write_text(
-        '[[log]]\nmachine = "r1"\nperiod = "b"\nlog = "x/1.csv"\n'
-        '[[log]]\nmachine = "r1"\nperiod = "a"\nlog = "2.csv"\n'
-    )
-    assert listed_logs(same) == found
+    tables = [f'[[log]]\nmachine = "r1"\nperiod = "{p}"\nlog = "{log}"\n'
+              for p, log in (("b", "x/1.csv"), ("a", "2.csv"))]  # fmt: skip
+    rows = "machine, period, log\nr1, b, x/1.csv\nr1, a, 2.csv\n"
+    for name, text in (("logs.csv", rows), ("logs.toml", "".join(tables))):
+        (tmp_path / name).write_text(text)
+        found = listed_logs(tmp_path / name)
+        assert [(log.machine, log.period) for log in found] == [("r1", "a"), ("r1", "b")]
+        assert [log.place for log in found] == [str(tmp_path / p) for p in ("2.csv", "x/1.csv")]
 
 
 @pytest.mark.parametrize(

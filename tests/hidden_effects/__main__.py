@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from tests.hidden_effects.asked import names_of
 from tests.hidden_effects.case import NONE, Case
 from tests.hidden_effects.drives import NOISE
 from tests.hidden_effects.effects import EFFECTS
@@ -43,19 +44,15 @@ def parser() -> argparse.ArgumentParser:
         usual = {"nargs": "?", "const": PAIRS} if name == "two" else {}
         add(f"--{name}", type=int, default=0, metavar="N", help=f"and {told}", **usual)
     add("--out", type=Path, help="folder that keeps cases and results: run again, and it goes on")
-    add("--table", type=Path, help="page to write, in Markdown")
+    add("--table", type=Path, help="page to write, in Markdown; default: printed")
     add("--jobs", type=int, default=1, help="processes; default: 1")
     return made
 
 
 def cases_of(options: argparse.Namespace) -> list[Case]:
     """What the options ask for; ends the program with a line if they make no sense."""
-    names = list(EFFECTS) if options.effects is None else options.effects.split(",")
-    names = [] if names == [NONE] else names
-    noises, sensors = options.noise.split(","), options.sensors.split(",")
-    for given, known in ((names, EFFECTS), (noises, NOISE), (sensors, SENSORS)):
-        if unknown := [name for name in given if name not in known]:
-            sys.exit(f"unknown: {', '.join(unknown)}; expected of {', '.join(known)}")
+    names = [] if options.effects == NONE else names_of(options.effects, EFFECTS)
+    noises, sensors = names_of(options.noise, NOISE), names_of(options.sensors, SENSORS)
     every = ACCEPTANCE if options.acceptance else DEVELOPMENT
     pool = range(max(every.start, options.first), every.stop)
     seeds = list(pool[: options.acceptance or SEEDS])
@@ -75,26 +72,16 @@ def _tell(score: Score) -> None:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run, print, write the page."""
+    """Run; print or write the page."""
     options = parser().parse_args(arguments)
     cases = cases_of(options)
-    if options.out:
-        scores = run(cases, options.out, options.jobs, _tell)
-    else:
-        with tempfile.TemporaryDirectory() as folder:
-            scores = run(cases, Path(folder), options.jobs, _tell)
-    seen = [score for score in scores if score.detectable]
-    to_name = [score for score in seen if not score.withheld and not score.held_out]
-    single = [score for score in to_name if len(score.hidden) == 1]
-    good, tied = sum(score.first for score in single), sum(score.tied for score in single)
-    print(f"one effect: {good} of {len(single)} first, {tied} in the tie; "
-          f"{len(scores) - len(seen)} of {len(scores)} cases undetectable")  # fmt: skip
-    if held_out := [score for score in seen if score.held_out]:
-        print(f"outside the catalogue: {sum(score.stated for score in held_out)} of "
-              f"{len(held_out)} stated as something else")  # fmt: skip
+    with tempfile.TemporaryDirectory() as folder:
+        scores = run(cases, options.out or Path(folder), options.jobs, _tell)
     if options.table:
         options.table.parent.mkdir(parents=True, exist_ok=True)
         options.table.write_text(page(scores), encoding="utf-8")
+    else:
+        print(page(scores))
 
 
 if __name__ == "__main__":

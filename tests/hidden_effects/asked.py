@@ -3,10 +3,19 @@
 import json
 import multiprocessing
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import sys
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
+
+
+def names_of(text: str | None, known: Collection[str]) -> list[str]:
+    """Names with commas, all that are known for None; one that is not ends the program."""
+    names = list(known) if text is None else text.split(",")
+    if unknown := [name for name in names if name not in known]:
+        sys.exit(f"unknown: {', '.join(unknown)}; expected of {', '.join(known)}")
+    return names
 
 
 def asked_once(

@@ -37,17 +37,14 @@ def cases_with(
         withheld: effects, drawn by the seed, that the diagnosis may not name.
         held_out: seeds of every cause outside the catalogue.
     """
-    single = [(name, pool[:held_out]) for name in HELD_OUT_EFFECTS]
-    single = [*((name, list(seeds)) for name in effects), *single]
+    seeds, other = list(seeds), pool[:withheld]
+    single = [(name, seeds) for name in effects]
+    single += [(name, pool[:held_out]) for name in HELD_OUT_EFFECTS]
     return [
         *(Case((name,), noise, seed) for name, some in single for noise in noises for seed in some),
         *(Case((), noise, seed) for seed in pool[:clean] for noise in noises),
         *(Case(_pair(seed), noise, seed) for seed in pool[:two] for noise in noises),
-        *(
-            Case(_pair(seed)[:1], k, seed, withheld=True)
-            for seed in pool[:withheld]
-            for k in noises
-        ),
+        *(Case(_pair(seed)[:1], k, seed, withheld=True) for seed in other for k in noises),
     ]
 
 
@@ -70,18 +67,16 @@ def ran(case: Case, cases: Path) -> Score:
             make_case(case, folder)
     except NoArm as problem:
         return failed(case.name, _no_truth(case), str(problem))
-    said: dict[str, Any] = {}
-    error = ""
+    said: dict[str, Any] | str
     try:
         said = diagnose_case(folder, case.effects if case.withheld else ())
         text = json.dumps(said, indent=1) + "\n"
         (folder / f"{case.name}.json").write_text(text, encoding="utf-8")
     except Exception as problem:
-        error = f"{type(problem).__name__}: {problem}"
+        said = f"{type(problem).__name__}: {problem}"
     truth = json.loads(place.read_text(encoding="utf-8"))
-    if error:
-        return failed(case.name, truth, error, case.withheld)
-    return scored(case.name, truth, said, case.withheld)
+    made = failed if isinstance(said, str) else scored
+    return made(case.name, truth, said, case.withheld)  # type: ignore[operator]
 
 
 def _no_truth(case: Case) -> dict[str, Any]:

@@ -10,10 +10,10 @@ from tests.hidden_effects.drives import equip
 from tests.hidden_effects.effects import BASE, EFFECTS, hide
 from tests.hidden_effects.motion import draw_bounds, motion
 from tests.hidden_effects.plant import TICK, rate
-from tests.hidden_effects.robot_file import robot_text
 from tests.hidden_effects.robots import KINDS, draw_arm
 from tests.hidden_effects.sensors import logged_torque
 from tests.hidden_effects.visibility import Trial, left_over, visibility
+from tests.rotation import rotating
 
 pytestmark = pytest.mark.usefixtures("plant_compiler")
 
@@ -119,10 +119,7 @@ def test_a_clean_arm_hides_nothing_and_a_spring_is_seen():
     assert visibility(left_over(sprung, plant, "spring", *more), scales) > 0.5
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["spring", *(pytest.param(n, marks=pytest.mark.rotating) for n in EFFECTS if n != "spring")],
-)
+@pytest.mark.parametrize("name", ["spring", *rotating(*(n for n in EFFECTS if n != "spring"))])
 def test_every_effect_changes_the_logged_torque(name):
     plant, path, scales = arm("3R", seconds=4.0)
     if name == "external_force":
@@ -152,12 +149,3 @@ def test_a_motion_starts_and_ends_at_rest_within_its_bounds():
     assert not path[0].any() and abs(path[-1]).max() < 1e-3
     assert (abs(path).max(0) <= bounds.angle * 1.001).all()
     assert (abs(rate(path)).max(0) <= bounds.speed * 1.05).all()
-
-
-def test_a_robot_file_tells_no_inertia():
-    plant, _, _ = arm("6R")
-    text = robot_text("arm", plant, {"viscous": [0, 1, 2, 3, 4, 5], "offset": [1], "coulomb": []})
-    assert 'viscous = "all"' in text and 'offset = ["2"]' in text and "coulomb" not in text
-    assert '["2", "1", 1, 0, "pi/2", 0, "q2", 0]' in text
-    for mass in plant.mass:
-        assert f"{mass:.3f}"[:5] not in text

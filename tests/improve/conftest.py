@@ -6,16 +6,10 @@ import numpy as np
 import pytest
 
 from modeler.observation.log import Log
-from tests.diagnose.conftest import (
-    Case,
-    arm as arm,
-    case as case,
-    demonstration,
-    made,
-    motion,
-    on_joint,
-    run as run,
-)  # fmt: skip
+from tests.diagnose import conftest
+from tests.diagnose.conftest import Case, demonstration, made, motion, on_joint
+
+arm, case, run = conftest.arm, conftest.case, conftest.run  # fixtures
 
 BRAKE = """
 [own_effects.eddy_brake]

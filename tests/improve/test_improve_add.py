@@ -6,16 +6,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from modeler import api
 from modeler.core.errors import DataError
 from modeler.diagnosis.add import add_effect, add_findings
-from modeler.diagnosis.added_model import Logs, rows_of
+from modeler.diagnosis.added_model import Logs, notes, rows_of
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.estimation.model_file import load_model
 from modeler.observation.log import Log
 from modeler.observation.observation import model_torque
 from modeler.runtime.model import load as load_compiled
-from tests.diagnose.conftest import Case, Run, motion, on_joint, spring, two
-from tests.rotation import rotating_with
+from tests.diagnose.conftest import Case, motion, on_joint, spring, two
 
 
 @pytest.mark.rotating("long tests of improve")
@@ -37,7 +37,7 @@ def test_what_a_diagnosis_names_is_added(case: Case) -> None:
 
 
 def test_presliding_has_a_state_that_the_c_advances(case: Case) -> None:
-    model, train, holdout = case.hidden(two)
+    model, train, holdout = case.hidden(spring)
     better = add_effect(model, case.compiled, "presliding", "2", Logs([train], [holdout]))
     compiled = load_compiled(better.spec, better.sources)
     assert [s.kind for s in better.spec.signals] == ["slip"]
@@ -64,22 +64,17 @@ def test_a_temperature_effect_needs_the_column_ever_after(case: Case) -> None:
         diagnose(better, load_compiled(better.spec, better.sources), [case.train])
 
 
-@rotating_with("effects are added")
-def test_viscous_and_coulomb_one_after_the_other(loops: Path, run: Run, tmp_path: Path) -> None:
-    logs = (loops / "train.parquet", "--holdout", loops / "other.parquet")
-    one, two, robot = tmp_path / "1.json", tmp_path / "2.json", tmp_path / "r.toml"
-    status, _, err = run("add", loops / "m.json", "viscous", "--joint", "21", *logs, "--out", one)
-    assert (status, err) == (0, "")
-    line = ("add", one, "coulomb", "--joint", "21", *logs, "--out", two, "--robot-out", robot)
-    status, out, _ = run(*line)
-    assert status == 0 and "coulomb, joint 21: the held-out error falls: joint 11" in out
-    text = robot.read_text(encoding="utf-8")
-    assert 'viscous = ["21"]' in text and 'coulomb = ["21"]' in text
-    error = load_model(two).history[-1].error
-    both = tmp_path / "both.json"
-    line = ("add", loops / "m.json", "passive_friction", "--joint", "21", *logs, "--out", both)
-    assert run(*line)[0] == 0
-    assert load_model(both).history[-1].error == pytest.approx(error, rel=1e-3)
+@pytest.mark.rotating("effects are added to simulated runs")
+def test_viscous_and_coulomb_one_after_the_other(loops: Path) -> None:
+    """In a joint without motor they are its friction, which is one effect too."""
+    model = load_model(loops / "m.json")
+    logs = [loops / "train.parquet"], [loops / "other.parquet"]
+    one = api.add(model, "viscous", *logs, joint="21")
+    two = api.add(one, "coulomb", *logs, joint="21")
+    assert "coulomb, joint 21: the held-out error falls: joint 11" in notes(two)[-1]
+    assert 'viscous = ["21"]' in two.robot_text and 'coulomb = ["21"]' in two.robot_text
+    both = api.add(model, "passive_friction", *logs, joint="21")
+    assert both.history[-1].error == pytest.approx(two.history[-1].error, rel=1e-3)
 
 
 def test_rows_are_those_that_the_new_robot_would_make_itself(case: Case) -> None:

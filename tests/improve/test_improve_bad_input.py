@@ -4,6 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from modeler.diagnosis.add import add_effect, undone
+from modeler.diagnosis.added_model import Logs, notes
+from tests.chain import chain_of
 from tests.diagnose.conftest import Run
 
 REFUSED = {
@@ -19,7 +22,12 @@ REFUSED = {
     "undo": "undo: no effect was added to this model",
     "auto --joint 2": "--joint 2: `auto` takes no joint; expected one effect",
     "auto": "auto: nothing is added, because nothing that can be added is",
-}  # fmt: skip
+    "learned --joint 9": "--joint 9: no such joint; expected one of",
+    "learned --joint 2 --of q,v,a": "--of q,v,a: expected one or two quantities, as in q,v",
+    "learned --joint 2 --of speed": '--of speed: law: columns, xa: got "speed": speed is',
+    "viscous --of q": "--of, --odd, --monotone: got them with viscous; expected",
+    "viscous --learned": "--learned: got it with viscous; expected `modeler add MODEL auto`",
+}
 
 
 @pytest.mark.parametrize("words", REFUSED)
@@ -73,19 +81,13 @@ def test_a_warm_up_takes_longer_than_a_short_log(arm: Path, run: Run, tmp_path: 
 
 
 @pytest.mark.rotating("effects are added to simulated runs")
-def test_a_temperature_that_was_not_logged_is_told(run: Run, tmp_path: Path) -> None:
+def test_a_temperature_that_was_not_logged_is_told() -> None:
     """Time stands in for it; and as the machine has no such effect, the error does not fall."""
-    for name, seed in (("train", 1), ("other", 2)):
-        long = ("--duration", 120, "--rate", 50, "--seed", seed)
-        run("simulate", "emps", *long, "--out", tmp_path / f"{name}.parquet")
-    run("fit", "emps", tmp_path / "train.parquet", "--out", tmp_path / "m.json")
-    logs = (tmp_path / "train.parquet", "--holdout", tmp_path / "other.parquet")
-    line = ("add", tmp_path / "m.json", "temperature_friction", "--joint", "1", *logs)
-    status, out, err = run(*line, "--out", tmp_path / "m2.json")
-    assert status == 0, err
-    assert "temperature_friction, joint 1: the logs have no column temperature1 or temperature" in (
-        out
-    )
-    assert "the error does not fall" in out and "undo" in out
-    status, out, _ = run("add", tmp_path / "m2.json", "undo", *logs, "--out", tmp_path / "m3.json")
-    assert status == 0 and "temperature_friction" not in out
+    emps = chain_of("emps")
+    train, other = (emps.log(str(k), duration=120.0, rate=50.0, seed=k) for k in (1, 2))
+    logs = Logs([train], [other])
+    hot = add_effect(emps.fit([train]), emps.compiled, "temperature_friction", "1", logs)
+    (line,) = notes(hot)
+    assert line.startswith("temperature_friction, joint 1: the logs have no column temperature1 or")
+    assert "the error does not fall" in line and "undo" in line
+    assert "temperature_friction" not in undone(hot, logs).robot_text

@@ -13,7 +13,7 @@ from modeler.diagnosis.state import SearchData, analysed, state_of
 from modeler.estimation.model_file import load_model, save_model
 from modeler.observation.log import Log
 from modeler.robot.read import robot_from_text
-from tests.diagnose.conftest import Case, Run, demonstration, motion, nothing, on_joint
+from tests.diagnose.conftest import Case, demonstration, motion, nothing, on_joint
 
 SIZE, WHERE, WIDTH = 2.0, 0.6, 0.15  # N m, rad/s
 
@@ -74,25 +74,6 @@ def test_a_law_as_asked(case: Case) -> None:
     assert np.all(np.diff(found.law(x)) >= -1e-5)  # rounded to six digits
     assert found.law(1e6) == found.law(found.law.high[0])
     assert abs(found.law(x[-1], along=0)) < 1e-9  # it comes to rest at its end
-
-
-@pytest.mark.parametrize(
-    ("words", "told"),
-    [
-        ("learned --joint 9", "--joint 9: no such joint; expected one of"),
-        ("learned --joint 2 --of q,v,a", "--of q,v,a: expected one or two quantities, as in q,v"),
-        ("learned --joint 2 --of speed", '--of speed: law: columns, xa: got "speed": speed is'),
-        ("viscous --of q", "--of, --odd, --monotone: got them with viscous; expected"),
-        ("viscous --learned", "--learned: got it with viscous; expected `modeler add MODEL auto`"),
-    ],
-)
-def test_bad_input(arm: Path, run: Run, words: str, told: str, tmp_path: Path) -> None:
-    effect, *rest = words.split()
-    out = tmp_path / "out.json"
-    line = ("add", arm / "m.json", effect, arm / "train.parquet", *rest, "--out", out)
-    status, _, err = run(*line)
-    assert status == 1 and told in err and err.count("\n") == 1
-    assert not out.exists()
 
 
 @pytest.mark.rotating("effects are added to simulated runs")

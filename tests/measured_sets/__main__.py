@@ -5,6 +5,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from tests.hidden_effects.asked import names_of
 from tests.measured_sets.answer import Answer
 from tests.measured_sets.chain import diagnosed, improved
 from tests.measured_sets.sets import DATA, DIRECTIONS, FACTORS, SETS, Case
@@ -48,11 +49,7 @@ def parser() -> argparse.ArgumentParser:
 
 def cases_of(options: argparse.Namespace) -> list[Case]:
     """What the options ask for; ends the program with a line if they make no sense."""
-    names = list(SETS) if options.sets is None else options.sets.split(",")
-    directions = options.directions.split(",")
-    for given, known in ((names, SETS), (directions, DIRECTIONS)):
-        if unknown := [name for name in given if name not in known]:
-            sys.exit(f"unknown: {', '.join(unknown)}; expected of {', '.join(known)}")
+    names, directions = names_of(options.sets, SETS), names_of(options.directions, DIRECTIONS)
     try:
         factors = [float(factor) for factor in options.factors.split(",")]
     except ValueError:

@@ -2,9 +2,8 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from modeler.core.builtin import builtin_text
 from tests.repository import ROOT
@@ -59,10 +58,6 @@ class Case:
     def name(self) -> str:
         """Short."""
         return f"{self.set}-{self.direction}-{self.factor:g}"
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain data."""
-        return asdict(self)
 
 
 def _place(folder: Path, log: str) -> str:

@@ -84,7 +84,7 @@ class Predictions:
     def true(self, rows: Rows) -> np.ndarray:
         """The column of the true form."""
         assert self.own.truth is not None
-        return true_column(rows, self.own.truth)[:, None]
+        return true_column(rows, self.own.truth)
 
     def torque(self, column: Column | None = None) -> np.ndarray:
         """(rows,) of the model that is fitted with it."""
@@ -92,14 +92,7 @@ class Predictions:
         return self._with(self.held, column)[self.j] @ beta
 
     def _with(self, rows: Rows, column: Column | None) -> list[np.ndarray]:
-        W = matrices(rows, None)
-        if column is None:
-            return W
-        own = column(rows)
-        return [
-            np.column_stack([w, own if k == self.j else np.zeros((len(w), own.shape[1]))])
-            for k, w in enumerate(W)
-        ]
+        return matrices(rows, self.j, None if column is None else column(rows))
 
     def error(self, column: Column | None = None) -> float:
         """% of the rms torque."""

@@ -43,9 +43,9 @@ def rows_of_machine(own: Machine) -> tuple[Rows, Rows]:
 
 
 def true_column(rows: Rows, form: TrueForm) -> np.ndarray:
-    """(rows of its joint,) column of the true form, filtered as the rows are."""
+    """(rows of its joint, 1) column of the true form, filtered as the rows are."""
     seen = [Motion(s.q, s.v, s.a, s.load, s.time) for s in rows.signals]
-    return rows.filtered(form.joint, [form.column(motion) for motion in seen])
+    return rows.filtered(form.joint, [form.column(motion) for motion in seen])[:, None]
 
 
 def errors(own: Machine) -> Errors:
@@ -54,19 +54,22 @@ def errors(own: Machine) -> Errors:
     size = [np.sqrt((y**2).mean()) for y in held.y]
     found = []
     for form in (None, own.truth):
-        beta = least_squares(train.y, matrices(train, form))
-        left = zip(held.y, matrices(held, form), strict=True)
+        fitted, seen = (
+            matrices(rows) if form is None else matrices(rows, form.joint, true_column(rows, form))
+            for rows in (train, held)
+        )
+        beta = least_squares(train.y, fitted)
+        left = zip(held.y, seen, strict=True)
         found.append(np.array([np.sqrt(((y - W @ beta) ** 2).mean()) for y, W in left]))
     return Errors(*(100 * error / size for error in found))
 
 
-def matrices(rows: Rows, form: TrueForm | None) -> list[np.ndarray]:
-    """Base columns by joint, and that of the form."""
-    if form is None:
+def matrices(rows: Rows, j: int = 0, more: np.ndarray | None = None) -> list[np.ndarray]:
+    """Base columns by joint, and (rows of joint j, k) more on joint j."""
+    if more is None:
         return list(rows.W)
-    column = true_column(rows, form)
-    extra = [column if j == form.joint else np.zeros(len(W)) for j, W in enumerate(rows.W)]
-    return [np.column_stack([W, own]) for W, own in zip(rows.W, extra, strict=True)]
+    none = [np.zeros((len(W), more.shape[1])) for W in rows.W]
+    return [np.column_stack([W, more if k == j else none[k]]) for k, W in enumerate(rows.W)]
 
 
 def least_squares(y: tuple[np.ndarray, ...], W: list[np.ndarray]) -> np.ndarray:

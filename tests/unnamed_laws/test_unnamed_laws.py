@@ -6,6 +6,7 @@ import pytest
 from tests.hidden_effects.conftest import plant_compiler as plant_compiler
 from tests.hidden_effects.plant import TICK
 from tests.hidden_effects.test_generator import arm, moved
+from tests.rotation import rotating
 from tests.unnamed_laws.found import what_is_learned, what_is_proposed
 from tests.unnamed_laws.judge import errors
 from tests.unnamed_laws.laws import LAWS, Motion
@@ -33,8 +34,7 @@ def test_the_simulated_torque_is_the_column(name):
 
 @pytest.mark.rotating("long tests of unnamed_laws")
 @pytest.mark.parametrize(
-    ("name", "encoder"),
-    [("load_speed", "fine"), pytest.param("dither", "4096", marks=pytest.mark.rotating)],
+    ("name", "encoder"), [("load_speed", "fine"), *rotating(("dither", "4096"))]
 )
 def test_the_true_form_explains_what_is_left(name, encoder, tmp_path):
     own = machine(name, 1, encoder, tmp_path)
