@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnosis import judge as errors, search
+from modeler.diagnosis import data_checks, judge as errors, search
 from modeler.diagnosis.assemble import _doubted, verdict
 from modeler.diagnosis.candidates import Candidate, StatedEffects, candidates, scales_of
 from modeler.diagnosis.cross_checks import CrossCheck
@@ -17,6 +17,7 @@ from modeler.diagnosis.score import Change, Score
 from modeler.diagnosis.search import HypothesisScan
 from modeler.diagnosis.sentences import refused_lines
 from modeler.effects.catalogue import effect_named
+from modeler.observation.channels import Doubt
 from tests.diagnose.conftest import Case
 
 
@@ -223,6 +224,22 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
     chance = Change("", 1.0, after, 1.9)
     monkeypatch.setattr(errors, "compared", lambda *a: Score((chance,), chance))
     assert veto("before", "after", judged_at), "no more than chance"  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("left", "certain", "told"), [(0.4, False, 0), (0.6, False, 1), (0.4, True, 1)]
+)
+def test_what_an_effect_explains_is_no_matter_of_the_channel(
+    monkeypatch: pytest.MonkeyPatch, left: float, certain: bool, told: int
+) -> None:
+    for name in ("_late", "_moved", "data_lines"):
+        monkeypatch.setattr(data_checks, name, lambda *a: [])
+    data = SimpleNamespace(observation=SimpleNamespace(report=SimpleNamespace(notes=list)))
+    start, end = (SimpleNamespace(residual=[np.full(10, size)], data=data, picks=())
+                  for size in (1.0, left))  # fmt: skip
+    faults = [Doubt("torque 1 is 0.7 times the predicted", certain, joint=0)]
+    search = SimpleNamespace(start=start, end=end)
+    assert len(data_checks.doubts(None, search, None, faults)) == told  # type: ignore[arg-type]
 
 
 def test_what_gave_way_is_a_tie_of_what_explains_as_much() -> None:

@@ -1,7 +1,8 @@
 """The simulated arms against other people's mechanics, and the laws that they must keep."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -33,39 +34,25 @@ def arm(kind="3R", seed=3, seconds=6.0):
     return plant.copy(), path, scales
 
 
-@dataclass
-class Moved:
-    """A run without noise: true motion, torques of the motors, and what they are asked for.
-
-    Attributes:
-        load: torque of the links.
-        rubbed: friction that every arm has.
-        extra: torque beyond links, rotors and that friction.
-        steady: (ticks,) where differences over ticks do not blur a change of sign.
-    """
-
-    q: np.ndarray
-    v: np.ndarray
-    a: np.ndarray
-    torque: np.ndarray
-    load: np.ndarray
-    rubbed: np.ndarray
-    extra: np.ndarray
-    steady: np.ndarray
-
-
 def moved(plant, path):
+    """A run without noise.
+
+    Attributes: q, v, a: (ticks, n) true motion; torque: of the motors; load: that of the links;
+    rubbed: friction that every arm has; extra: torque beyond links, rotors and that friction;
+    steady: (ticks,) where differences over ticks do not blur a change of sign.
+    """
     plant.noise_torque, plant.encoder_step = 0, 1e-9
     run = plant.run(path, np.zeros(plant.joints), 1)
-    q, v, torque = run.link, rate(run.link), logged_torque(run, 0.0)
-    a = np.zeros_like(q)
+    q, v, a, torque = run.link, rate(run.link), np.zeros_like(run.link), logged_torque(run, 0.0)
     a[1:-1] = np.diff(q, 2, axis=0) / TICK**2
     load = plant.inverse_dynamics(q, v, a)[0]
     rubbed = plant.viscous * v + plant.coulomb * np.tanh(v / plant.coulomb_width) + plant.offset
+    extra = torque - load - plant.rotor_inertia * a - rubbed
     steady = (np.abs(v) > 0.05).all(1)
     steady[:50] = steady[-50:] = False
-    extra = torque - load - plant.rotor_inertia * a - rubbed
-    return Moved(q, v, a, torque, load, rubbed, extra, steady)
+    return SimpleNamespace(
+        q=q, v=v, a=a, torque=torque, load=load, rubbed=rubbed, extra=extra, steady=steady
+    )
 
 
 def pinocchio_model(pin, plant):

@@ -1,7 +1,5 @@
 """Causes outside the catalogue: every one is the law of its docstring, computed another way."""
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 from scipy.signal import lsim
@@ -9,7 +7,7 @@ from scipy.signal import lsim
 from tests.hidden_effects.effects import EFFECTS, hide
 from tests.hidden_effects.held_out_effects import HELD_OUT_EFFECTS
 from tests.hidden_effects.plant import TICK, rate
-from tests.hidden_effects.test_generator import Moved, arm, moved
+from tests.hidden_effects.test_generator import arm, moved
 
 pytestmark = pytest.mark.usefixtures("plant_compiler")
 
@@ -67,30 +65,16 @@ def _momentum(plant, q, v, k):
     return (tensor @ spin[:, :, None])[:, :, 0]
 
 
-@dataclass
-class Ran(Moved):
-    """Of an arm with one such cause, on joint j, or k besides."""
-
-    plant: object
-    j: int
-    k: int
-    values: dict
-
-    @property
-    def way(self):
-        return np.tanh(self.v / self.plant.coulomb_width)[:, self.j]
-
-    @property
-    def time(self):
-        return np.arange(len(self.q)) * TICK
-
-
 def ran(name):
+    """A run of an arm with one such cause, on joint j, or k besides."""
     plant, path, scales = arm(seconds=6.0)
     hidden = hide(name, plant, scales, np.random.default_rng(4), HELD_OUT_EFFECTS)
-    j = 0 if hidden.joint is None else hidden.joint
-    k = int(hidden.values.get("with_joint", j + 1)) - 1
-    return Ran(**vars(moved(plant, path)), plant=plant, j=j, k=k, values=hidden.values)
+    x, values = moved(plant, path), hidden.values
+    x.j = 0 if hidden.joint is None else hidden.joint
+    x.k = int(values.get("with_joint", x.j + 1)) - 1
+    x.plant, x.values, x.time = plant, values, np.arange(len(x.q)) * TICK
+    x.way = np.tanh(x.v / plant.coulomb_width)[:, x.j]
+    return x
 
 
 def law(name, x):

@@ -1,6 +1,7 @@
 """What a diagnosis names goes into the model, if it lowers the error on motion never fitted."""
 
 import dataclasses
+from collections import namedtuple
 
 import pytest
 
@@ -8,20 +9,10 @@ from modeler.diagnosis import add as module, added_model
 from modeler.diagnosis.add import add_effect, add_findings
 from modeler.diagnosis.added_model import Logs, notes
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.result import Diagnosis
-from modeler.estimation.model_file import IdentifiedModel
 from tests.diagnose.conftest import Case, spring
 
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Mended:
-    """A model, its logs, what is missing, and the model with that."""
-
-    model: IdentifiedModel
-    logs: Logs
-    diagnosis: Diagnosis
-    better: IdentifiedModel
-    left_out: tuple[str, ...]
+Mended = namedtuple("Mended", "model logs diagnosis better left_out")
+"""A model, its logs, what is missing, and the model with that."""
 
 
 @pytest.fixture(scope="module")

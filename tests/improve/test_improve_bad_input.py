@@ -20,6 +20,7 @@ REFUSED = {
     "elasticity --joint 2": "elasticity: cannot be added (the joint needs a second",
     "external_force": "external_force: cannot be added (a contact is an event",
     "undo": "undo: no effect was added to this model",
+    "undo --effects-from .": "got it with undo; expected an effect of the folder, or auto",
     "auto --joint 2": "--joint 2: `auto` takes no joint; expected one effect",
     "auto": "auto: nothing is added, because nothing that can be added is",
     "learned --joint 9": "--joint 9: no such joint; expected one of",
@@ -87,7 +88,7 @@ def test_a_temperature_that_was_not_logged_is_told() -> None:
     train, other = (emps.log(str(k), duration=120.0, rate=50.0, seed=k) for k in (1, 2))
     logs = Logs([train], [other])
     hot = add_effect(emps.fit([train]), emps.compiled, "temperature_friction", "1", logs)
-    (line,) = notes(hot)
+    line, change = notes(hot)
     assert line.startswith("temperature_friction, joint 1: the logs have no column temperature1 or")
-    assert "the error does not fall" in line and "undo" in line
+    assert "the error does not fall" in change and "undo" in change
     assert "temperature_friction" not in undone(hot, logs).robot_text

@@ -83,6 +83,6 @@ def test_auto_puts_laws_in_last() -> None:
         return hidden(log) + on_joint(log, 0, 1.5 * np.sin(q[:, 0]) * np.abs(np.sin(q[:, 0])))
 
     fitted, train, holdout = demonstration(robot="two-link").hidden(both)
-    better = api.add(fitted, "auto", [train], [holdout], learned=True)
+    better = api.auto(fitted, [train], [holdout], learned=True)
     kinds = [step.learned for step in better.history[1:]]
     assert kinds == sorted(kinds) and any(kinds)

@@ -144,9 +144,9 @@ def test_one_that_reads_a_temperature_is_added_where_one_is_logged(own: Case) ->
     assert use.instances[0].shapes["T0"] == pytest.approx(mean, abs=0.5)
 
 
-def test_the_page_of_an_effect(own: Case, tmp_path: Path, run: Run) -> None:
+def test_the_page_of_an_effect(tmp_path: Path, run: Run) -> None:
     place = tmp_path / "arm.toml"
-    place.write_text(own.derivation.robot.text, encoding="utf-8")
+    place.write_text(api.load("demo-arm").text + OWN, encoding="utf-8")
     _, out, _ = run("effects", "eddy_brake", "--robot", place)
     assert "drag of a magnet" in out and "N*m*s/rad" in out and "first tried at -1 0 1" in out
     assert "*****" in out and "torque against position" in out  # the picture

@@ -19,11 +19,9 @@ COMMANDS: dict[str, tuple[Ask, str, Callable[[Sequence[Answer]], str]]] = {
 }
 
 EPILOG = """\
-stability   does a diagnosis say the same of a machine when training and held-out logs are
-            exchanged, and with other cut-offs?
+stability   is the same said with logs exchanged, and with other cut-offs?
 auto        the error of the held-out motion before and after `modeler add auto`
-check       can the values that these diagnoses state be those of a machine? Ends with status 1 if
-            one that cannot be is stated as a fact
+check       can the stated values be those of a machine? Status 1 if a fact cannot be
 """
 
 
