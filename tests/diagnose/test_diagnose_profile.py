@@ -18,8 +18,6 @@ from modeler.estimation.parameter import spread_text
 from modeler.runtime.model import load
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate
 from tests.chain import chain_of
-from tests.diagnose.conftest import Case
-from tests.diagnose.test_diagnose_effects import stribeck
 
 
 @cache
@@ -45,6 +43,14 @@ def found(hide, seed):
     effect, _, joint = hide.partition(":")[0].partition("@")
     best = scan_catalogue(state, only=effect, joint=joint).judged().ranked[0].candidate
     return profile_of(extended(state, best), 0), truth
+
+
+@cache
+def added_to(hide, seed):
+    """The log, and its model with the effect added."""
+    log, model, _ = simulated(hide, seed)
+    arm, (effect, _, joint) = chain_of("demo-arm"), hide.partition("@")
+    return log, add_effect(model, arm.compiled, effect, joint, Logs([log]))
 
 
 CASES = {
@@ -100,8 +106,7 @@ def test_a_narrow_likelihood_gives_the_delta_method():
 @pytest.mark.rotating("long tests of diagnose")
 def test_what_is_added_is_stored_and_told_with_it(tmp_path):
     """The dip has the exponent 2; these logs hold too few slow rows to tell it from 1."""
-    log, model, truth = simulated("stribeck@2", 901)
-    better = add_effect(model, chain_of("demo-arm").compiled, "stribeck", "2", Logs([log]))
+    truth, (log, better) = simulated("stribeck@2", 901)[2], added_to("stribeck@2", 901)
     (extra,) = (p for p in better.fit.parameters if p.name == "Fst2")
     low, high = extra.interval
     assert low < truth["extra"] < high and low < extra.value < high
@@ -123,12 +128,11 @@ def test_what_is_added_is_stored_and_told_with_it(tmp_path):
     assert all(p.interval is None for p in before.fit.parameters)
 
 
-def test_shapes_widen_what_stands_beside_them(case: Case):
+def test_shapes_widen_what_stands_beside_them():
     """Coulomb friction trades with a dip of unknown width: its sigma knows."""
-    model, train, _ = case.hidden(stribeck)
-    better = add_effect(model, case.compiled, "stribeck", "2", Logs([train]))
+    log, better = added_to("stribeck@2", 901)
     sigma = {p.name: p.sigma for p in better.fit.parameters}
-    observation = observe(load(better.spec, better.sources), [train], better.processing)
+    observation = observe(load(better.spec, better.sources), [log], better.processing)
     fixed = {p.name: p.sigma for p in identify(observation).parameters}
     assert sigma["Fst2"] > 2.0 * fixed["Fst2"]
     assert all(sigma[name] >= 0.999 * fixed[name] for name in fixed)
