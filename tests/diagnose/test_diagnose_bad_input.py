@@ -10,7 +10,6 @@ import pytest
 from modeler.api import recompile
 from modeler.estimation.model_file import load_model
 from tests.diagnose.conftest import RATE, Run, Table, columns_of, written
-from tests.rotation import rotating
 
 
 def with_gap(values: np.ndarray, what: float) -> np.ndarray:
@@ -69,23 +68,20 @@ def test_channels_that_contradict_the_model_are_named_and_no_physics_is(
     arm: Path, run: Run, tmp_path: Path
 ) -> None:
     """In the logs that are diagnosed, and in held-out ones."""
-    log, bad, to = columns_of(arm / "other.parquet"), tmp_path / "bad.parquet", tmp_path / "d.json"
-    degrees = log | {f"q{j}": np.degrees(log[f"q{j}"]) for j in (1, 2, 3)}
-    exchanged = log | {"q1": log["q2"], "q2": log["q1"]}
-    for columns, logs, words in (
-        (exchanged, (bad,), "joints 1 and 2: their positions look exchanged; check the order"),
-        (degrees, (bad,), "the positions look like degrees; expected rad and m; convert"),
-        (degrees, (arm / "train.parquet", "--holdout", bad),
-         "held out: the positions look like degrees"),
-    ):  # fmt: skip
-        written(bad, columns)
-        status, out, _ = run("diagnose", arm / "m.json", *logs, "--json", to)
-        assert status == 0
-        assert out.startswith("cannot tell: channels of the logs contradict the model")
-        assert f"\ndata: {words}" in out
-        content = json.loads(to.read_text())
-        assert content["verdict"] == "cannot tell" and content["effects"] == []
-        assert content["contradicted"] is True
+    log, to = columns_of(arm / "other.parquet"), tmp_path / "d.json"
+    exchanged = written(tmp_path / "bad.parquet", log | {"q1": log["q2"], "q2": log["q1"]})
+    log = columns_of(arm / "train.parquet")
+    degrees = {f"q{j}": np.degrees(log[f"q{j}"]) for j in (1, 2, 3)}
+    held_out = written(tmp_path / "held_out.parquet", log | degrees)
+    words = ("diagnose", arm / "m.json", exchanged, "--holdout", held_out, "--json", to)
+    status, out, _ = run(*words)
+    assert status == 0
+    assert out.startswith("cannot tell: channels of the logs contradict the model")
+    assert "\ndata: joints 1 and 2: their positions look exchanged; check the order of" in out
+    assert "\ndata: held out: the positions look like degrees; expected rad and m; convert" in out
+    content = json.loads(to.read_text())
+    assert content["verdict"] == "cannot tell" and content["effects"] == []
+    assert content["contradicted"] is True
 
 
 def late(joint: int, samples: int, columns: Table) -> Table:
@@ -93,9 +89,9 @@ def late(joint: int, samples: int, columns: Table) -> Table:
     return {**columns, f"q{joint}": np.concatenate([np.full(samples, q[0]), q[:-samples]])}
 
 
+@pytest.mark.rotating("diagnoses of simulated runs")
 @pytest.mark.parametrize(
-    ("samples", "words"),
-    [(2, " ms late, by a fit at other times"), *rotating((1, " ms too late beside"))],
+    ("samples", "words"), [(2, " ms late, by a fit at other times"), (1, " ms too late beside")]
 )
 def test_a_late_position_is_found_with_its_delay(
     samples: int, words: str, arm: Path, run: Run, tmp_path: Path

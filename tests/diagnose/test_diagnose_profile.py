@@ -128,6 +128,7 @@ def test_what_is_added_is_stored_and_told_with_it(tmp_path):
     assert all(p.interval is None for p in before.fit.parameters)
 
 
+@pytest.mark.rotating("long tests of diagnose")
 def test_shapes_widen_what_stands_beside_them():
     """Coulomb friction trades with a dip of unknown width: its sigma knows."""
     log, better = added_to("stribeck@2", 901)

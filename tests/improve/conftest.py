@@ -1,13 +1,16 @@
 """The demonstration arm of the diagnoses, its runs, commands about it; a robot with loops."""
 
+from collections import namedtuple
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from modeler.diagnosis import add
+from modeler.diagnosis.added_model import Logs
 from modeler.observation.log import Log
 from tests.diagnose import conftest
-from tests.diagnose.conftest import Case, demonstration, made, motion, on_joint
+from tests.diagnose.conftest import Case, demonstration, made, motion, on_joint, spring
 
 arm, case, run = conftest.arm, conftest.case, conftest.run  # fixtures
 
@@ -31,6 +34,21 @@ def brake(log: Log) -> np.ndarray:
 def long_runs() -> Case:
     """The arm in longer runs: a magnet that acts in one place is passed seldom."""
     return demonstration(500.0, seconds=(30.0, 20.0))
+
+
+Mended = namedtuple("Mended", "model logs diagnosis better left_out")
+"""A model, its logs, what is missing, and the model with that."""
+
+
+@pytest.fixture(scope="session")
+def sprung(case: Case) -> Mended:
+    """Of a spring; nothing is searched for again."""
+    model, train, holdout = case.hidden(spring)
+    logs, diagnosis = Logs([train], [holdout]), case.found(spring)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delattr(add, "scan_catalogue")
+        added = add.add_findings(model, case.compiled, diagnosis.effects, logs)
+    return Mended(model, logs, diagnosis, *added)
 
 
 @pytest.fixture(scope="session")

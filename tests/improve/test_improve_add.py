@@ -16,6 +16,7 @@ from modeler.observation.log import Log
 from modeler.observation.observation import model_torque
 from modeler.runtime.model import load as load_compiled
 from tests.diagnose.conftest import Case, motion, on_joint, spring, two
+from tests.improve.conftest import Mended
 
 
 @pytest.mark.rotating("long tests of improve")
@@ -77,11 +78,9 @@ def test_viscous_and_coulomb_one_after_the_other(loops: Path) -> None:
     assert both.history[-1].error == pytest.approx(two.history[-1].error, rel=1e-3)
 
 
-def test_rows_are_those_that_the_new_robot_would_make_itself(case: Case) -> None:
-    model, train, holdout = case.hidden(spring)
-    logs = Logs([train], [holdout])
+def test_rows_are_those_that_the_new_robot_would_make_itself(case: Case, sprung: Mended) -> None:
+    model, logs, _, better, _ = sprung
     before = rows_of(case.compiled, logs, model.processing)
-    better = add_effect(model, case.compiled, "spring", "3", logs)
     compiled = load_compiled(better.spec, better.sources)
     alike, fresh = before.of(compiled), rows_of(compiled, logs, model.processing)
     for ours, own in zip(alike.seen, fresh.seen, strict=True):

@@ -1,7 +1,6 @@
 """What a diagnosis names goes into the model, if it lowers the error on motion never fitted."""
 
 import dataclasses
-from collections import namedtuple
 
 import pytest
 
@@ -10,20 +9,7 @@ from modeler.diagnosis.add import add_effect, add_findings
 from modeler.diagnosis.added_model import Logs, notes
 from modeler.diagnosis.diagnosis import diagnose
 from tests.diagnose.conftest import Case, spring
-
-Mended = namedtuple("Mended", "model logs diagnosis better left_out")
-"""A model, its logs, what is missing, and the model with that."""
-
-
-@pytest.fixture(scope="module")
-def sprung(case: Case) -> Mended:
-    """Of a spring; nothing is searched for again."""
-    model, train, holdout = case.hidden(spring)
-    logs, diagnosis = Logs([train], [holdout]), case.found(spring)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.delattr(module, "scan_catalogue")
-        added = add_findings(model, case.compiled, diagnosis.effects, logs)
-    return Mended(model, logs, diagnosis, *added)
+from tests.improve.conftest import Mended
 
 
 def test_what_is_missing_is_added_and_lowers_the_error(sprung: Mended) -> None:
