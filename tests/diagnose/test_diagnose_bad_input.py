@@ -75,8 +75,7 @@ def test_channels_that_contradict_the_model_are_named_and_no_physics_is(
     held_out = written(tmp_path / "held_out.parquet", log | degrees)
     words = ("diagnose", arm / "m.json", exchanged, "--holdout", held_out, "--json", to)
     status, out, _ = run(*words)
-    assert status == 0
-    assert out.startswith("cannot tell: channels of the logs contradict the model")
+    assert status == 0 and out.startswith("cannot tell: channels of the logs contradict the model")
     assert "\ndata: joints 1 and 2: their positions look exchanged; check the order of" in out
     assert "\ndata: held out: the positions look like degrees; expected rad and m; convert" in out
     content = json.loads(to.read_text())
