@@ -142,7 +142,6 @@ def strange(log: Log) -> np.ndarray:
     return on_joint(log, 1, 3.0 * np.sin(2.0 * q[:, 2]) * np.tanh(v[:, 0]) * np.cos(q[:, 1]))
 
 
-@pytest.mark.rotating("diagnoses of simulated runs")
 def test_a_cause_outside_the_catalogue_is_not_stated_as_a_fact(case: Case) -> None:
     diagnosis = case.found(strange)
     assert diagnosis.verdict in ("closest description", "unexplained")
