@@ -1,4 +1,7 @@
-"""The demonstration, carried out once; a server; the windows of a browser."""
+"""Projects that are carried out once; a server; the windows of a browser.
+
+NiceGUI is imported in fixtures and functions: it costs each process of the tests a second.
+"""
 
 import asyncio
 import shutil
@@ -7,13 +10,21 @@ from pathlib import Path
 
 import pytest
 
-from tests.studio.in_process import windows
+from modeler.cli import main
+from modeler.core.builtin import builtin_text
+from modeler.studio.project import FOLDERS, Project, ProjectLog, Workspace
+from modeler.studio.tasks import Stretch
+from tests.studio.requests import let_in
 from tests.studio.window import Served, Window, opened, served, without_browser
+
+SECRET = "what nobody may read"
 
 
 @pytest.fixture(scope="session")
 def demonstration(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The arm with a hidden effect, from the empty page on: fitted, diagnosed, the effect tried."""
+    from tests.studio.in_process import windows
+
     folder = tmp_path_factory.mktemp("demonstration") / "arm"
 
     async def clicked() -> None:
@@ -37,10 +48,41 @@ def arm(demonstration: Path, tmp_path: Path) -> Path:
 
 
 @pytest.fixture(scope="session")
-def served_studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
-    """A studio whose tests only ask for what it must not give, or drop files."""
-    with served(tmp_path_factory.mktemp("served") / "project") as running:
+def axis(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """EMPS, a single axis with a hidden spring, and a log: nothing is fitted yet."""
+    folder = tmp_path_factory.mktemp("axis") / "project"
+    for name in FOLDERS:
+        (folder / name).mkdir(parents=True)
+    (folder / "robot.toml").write_text(builtin_text("emps"))
+    words = "simulate emps --duration 6 --rate 250 --hide spring:stiffness=40,rest=0.1 --out"
+    assert main([*words.split(), str(folder / "logs/a.csv")]) == 0
+    Workspace(folder).save(Project("robot.toml", logs=(ProjectLog("logs/a.csv", (Stretch(),)),)))
+    return folder
+
+
+@pytest.fixture
+def axis_project(axis: Path, tmp_path: Path) -> Path:
+    """A copy of it."""
+    return shutil.copytree(axis, tmp_path / "project")
+
+
+@pytest.fixture(scope="session")
+def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    """A server that is only asked for what it must not give, or gets files.
+
+    Beside its folder lies a file that a link in it leads to.
+    """
+    folder = tmp_path_factory.mktemp("served") / "project"
+    (folder / "logs").mkdir(parents=True)
+    (folder.parent / "secret.csv").write_text(SECRET)
+    (folder / "logs" / "out.csv").symlink_to(folder.parent / "secret.csv")
+    with served(folder) as running:
         yield running
+
+
+@pytest.fixture(scope="session")
+def cookie(studio: Served) -> str:
+    return let_in(studio)
 
 
 @pytest.fixture(scope="module")

@@ -2,31 +2,12 @@
 
 import asyncio
 import re
-from typing import Any
 
 import pytest
 
-from modeler.studio.access import Guard
+from tests.studio.conftest import SECRET
 from tests.studio.requests import ask, let_in, port_of, websocket_status
 from tests.studio.window import Served
-
-SECRET = "what nobody may read"
-
-
-@pytest.fixture(scope="module")
-def studio(served_studio: Served) -> Served:
-    """Beside its folder a file that a link in it leads to."""
-    secret = served_studio.folder.parent / "secret.csv"
-    secret.write_text(SECRET)
-    (served_studio.folder / "logs").mkdir(exist_ok=True)
-    (served_studio.folder / "logs" / "out.csv").symlink_to(secret)
-    return served_studio
-
-
-@pytest.fixture(scope="module")
-def cookie(studio: Served) -> str:
-    return let_in(studio)
-
 
 EVERYWHERE = ("/", "/fit", "/studio.js", "/drop/logs", "/sheet/x.html", "/_nicegui/x",
               "/favicon.ico", "/no-such-place",
@@ -51,11 +32,8 @@ def test_the_token_becomes_a_cookie_and_leaves_the_address(studio: Served) -> No
     token = path.partition("token=")[2]
     assert len(token) >= 43 and token not in answer.headers["set-cookie"]
     assert ask(studio, cookie=answer.headers["set-cookie"].partition(";")[0]).status == 200
-
-
-def test_where_a_page_led_here_the_page_goes_on_by_itself(studio: Served) -> None:
-    """A strict cookie would not be sent after a redirect."""
-    path = studio.address.removeprefix(studio.root)
+    # Where a page led here, the page goes on by itself: a strict cookie would not be sent after a
+    # redirect.
     seen = {"sec_fetch_site": "cross-site", "sec_fetch_mode": "navigate"}
     answer = ask(studio, path, sec_fetch_dest="document", **seen)
     assert answer.status == 200 and "refresh" in answer.text and "set-cookie" in answer.headers
@@ -163,6 +141,8 @@ def test_pages_say_what_they_may_do_and_are_not_kept(studio: Served, cookie: str
 
 
 def test_the_address_for_the_browser_is_good_once() -> None:
+    from modeler.studio.access import Guard
+
     async def app(scope, receive, send) -> None:
         raise AssertionError("nobody was let in")
 
@@ -174,7 +154,7 @@ def test_the_address_for_the_browser_is_good_once() -> None:
         async def send(message) -> None:
             sent.append(message)
 
-        scope: dict[str, Any] = {"type": "http", "method": "GET", "path": "/"}
+        scope = {"type": "http", "method": "GET", "path": "/"}
         scope |= {"headers": [(b"host", b"localhost:5")]}
         scope |= {"query_string": address.partition("?")[2].encode()}
         asyncio.run(guard(scope, lambda: None, send))

@@ -1,6 +1,6 @@
-"""The data screen as a person uses it: logs come in, are mapped, cut, doubted and played."""
+"""The data screen as a person uses it: a log comes in, is dragged, brushed and played."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,72 +9,12 @@ import pyarrow as pa
 import pyarrow.parquet
 import pytest
 
-from modeler.cli import main
-from modeler.core.builtin import builtin_text
+from modeler.api import load, simulate
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Stretch
 from tests.studio.window import Served, Window, served
 
 JOINTS = (1, 2, 3)
-
-
-@pytest.fixture(scope="module")
-def measured(tmp_path_factory: pytest.TempPathFactory) -> dict[str, np.ndarray]:
-    """A run of the arm: time, positions and torques, SI."""
-    place = tmp_path_factory.mktemp("run") / "run.parquet"
-    words = ["simulate", "demo-arm", "--duration", "8", "--seed", "11", "--out", str(place)]
-    assert main([*words, "--quiet"]) == 0
-    read = pa.parquet.read_table(place).to_pydict()
-    return {name: np.array(values) for name, values in read.items()}
-
-
-def as_logged(run: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """As a German logger might write it: its own names, degrees."""
-    found = {"Zeit": run["time"]}
-    found |= {f"Winkel_{j}": np.rad2deg(run[f"q{j}"]) for j in JOINTS}
-    return found | {f"Drehmoment_{j}": run[f"tau{j}"] for j in JOINTS}
-
-
-def german(place: Path, columns: dict[str, np.ndarray]) -> Path:
-    rows = np.column_stack(list(columns.values())).tolist()
-    lines = [";".join(columns), *(";".join(repr(x).replace(".", ",") for x in row) for row in rows)]
-    place.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    return place
-
-
-def parquet(place: Path, columns: dict[str, np.ndarray]) -> Path:
-    pa.parquet.write_table(pa.table(columns), place)
-    return place
-
-
-@pytest.fixture
-def studio(tmp_path: Path) -> Iterator[Served]:
-    folder = tmp_path / "arm"
-    folder.mkdir()
-    (folder / "robot.toml").write_text(builtin_text("demo-arm"), encoding="utf-8")
-    Workspace(folder).save(Project("robot.toml"))
-    with served(folder) as running:
-        yield running
-
-
-def drop(w: Window, files: list[Path]) -> None:
-    """On the page; the files are chosen as the browser's dialog does, which is the same request."""
-    w.page.set_input_files(".data-drop input[type=file]", [str(file) for file in files])
-    w.page.wait_for_function(
-        f"document.querySelectorAll('.data-log .data-name').length >= {len(files)}"
-    )
-
-
-def pictured(w: Window) -> None:
-    w.page.wait_for_selector(".data-pictures .main-svg .scatterlayer .trace")
-
-
-def curves(w: Window) -> dict[str, Any]:
-    """What the picture draws: name and panel -> x and y."""
-    return w.page.evaluate(
-        """() => Object.fromEntries(document.querySelector('.data-pictures .js-plotly-plot').data
-             .map((d) => [d.name + d.yaxis, {x: [...d.x], y: [...d.y]}]))"""
-    )
 
 
 def until(w: Window, served_: Served, holds: Callable[[Any], bool]) -> Any:
@@ -87,39 +27,36 @@ def until(w: Window, served_: Served, holds: Callable[[Any], bool]) -> Any:
 
 
 @pytest.mark.rotating("screens of the studio")
-def test_logs_are_dropped_dragged_brushed_and_played(
-    window: Callable[..., Window], studio: Served, measured: dict[str, np.ndarray], tmp_path: Path
+def test_a_log_is_dropped_dragged_brushed_and_played(
+    window: Callable[..., Window], tmp_path: Path
 ) -> None:
-    w = window().open(studio)
-    page = w.page
-    w.go("Data")
-    clean = as_logged(measured)
-    spoilt = {**clean, "Drehmoment_2": clean["Drehmoment_2"].copy()}
-    spoilt["Drehmoment_2"][3000] += 300.0
-    drop(w, [german(tmp_path / "a.csv", spoilt), parquet(tmp_path / "b.parquet", clean)])
-    pictured(w)
-    found = studio.project
-    assert found.mapping == ("time=Zeit", "q<j>=Winkel_{j}:deg", "tau<j>=Drehmoment_{j}")
-    drawn = curves(w)["joint 1y"]
-    at = np.interp(drawn["x"], measured["time"], measured["q1"])
-    np.testing.assert_allclose(drawn["y"], at, atol=1e-5)
-    assert len(drawn["x"]) <= 1500
+    run, folder = simulate(load("demo-arm"), duration=8.0, seed=11), tmp_path / "arm"
+    columns = {"Zeit": run.time}
+    columns |= {f"Winkel_{j}": np.rad2deg(run.q[:, j - 1]) for j in JOINTS}
+    columns |= {f"Drehmoment_{j}": run.tau[:, j - 1] for j in JOINTS}
+    pa.parquet.write_table(pa.table(columns), tmp_path / "a.parquet")
+    folder.mkdir()
+    (folder / "robot.toml").write_text(load("demo-arm").text, encoding="utf-8")
+    Workspace(folder).save(Project("robot.toml"))
+    with served(folder) as studio:
+        w = window().open(studio)
+        w.go("Data")
+        w.page.set_input_files(".data-drop input[type=file]", str(tmp_path / "a.parquet"))
+        w.page.wait_for_selector(".data-pictures .main-svg .scatterlayer .trace")
+        drags_and_brushes(w, studio)
+        plays(w, run)
+        assert w.complaints == []
 
+
+def drags_and_brushes(w: Window, studio: Served) -> None:
+    page, found = w.page, studio.project
     # By dragging a column onto our name, and back.
     page.locator(".mapping-chip", has_text="Winkel_1").drag_to(page.locator("[data-own=q2]"))
     until(w, studio, lambda p: "q2=Winkel_1:deg" in p.mapping)
     page.locator(".mapping-chip", has_text="Winkel_2").drag_to(page.locator("[data-own=q2]"))
     until(w, studio, lambda p: p.mapping == found.mapping)
 
-    # The spike is a mark on the line: why, and leave it out.
-    mark = page.locator(".timeline-active .timeline-mark")
-    mark.first.click()
-    w.sees("No machine does that")
-    page.get_by_role("dialog").get_by_role("button", name="Leave out").click()
-    log = until(w, studio, lambda p: p.logs[0].out).logs[0]
-    assert len(log.out) == 1 and log.out[0].start < 3.0 < log.out[0].end < 3.1
-    # Half of what comes before is held out, by brushing.
-    page.get_by_role("dialog").wait_for(state="detached")
+    # A stretch is held out, by brushing.
     page.locator(".timeline-active").scroll_into_view_if_needed()
     box = page.locator(".timeline-active").bounding_box()
     y = box["y"] + box["height"] / 2
@@ -128,21 +65,18 @@ def test_logs_are_dropped_dragged_brushed_and_played(
     page.mouse.move(box["x"] + 0.3 * box["width"], y, steps=4)
     page.mouse.up()
     page.get_by_role("button", name="held out", exact=True).click()
-    log = until(w, studio, lambda p: p.logs[0].test).logs[0]
+    log = until(w, studio, lambda p: p.logs[0].test[0].start < 5.0).logs[0]
     assert log.test[0].start == pytest.approx(0.8, abs=0.03)
     assert log.test[0].end == pytest.approx(2.4, abs=0.03)
     # By the keyboard: numbers, and a key on the line.
     page.get_by_label("from s").fill("5")
     page.get_by_label("to s").fill("6.5")
     page.locator(".timeline-active").press("o")
-    log = until(w, studio, lambda p: len(p.logs[0].out) == 2).logs[0]
-    assert log.out[1] == Stretch(5.0, 6.5)
-
-    plays(w, measured)
-    assert w.complaints == []
+    log = until(w, studio, lambda p: p.logs[0].out).logs[0]
+    assert log.out == (Stretch(5.0, 6.5),)
 
 
-def plays(w: Window, run: dict[str, np.ndarray]) -> None:
+def plays(w: Window, run: Any) -> None:
     """The robot stands where the log says, at the cursor and while it plays."""
     page = w.page
     page.wait_for_function("document.querySelector('iframe.studio-robot')?.ready")
@@ -163,7 +97,7 @@ def plays(w: Window, run: dict[str, np.ndarray]) -> None:
         at = float(line.get_attribute("aria-valuenow"))
         assert own and at == pytest.approx(8.0 * share, abs=0.02)
         for j in JOINTS:
-            expected = np.interp(at, run["time"], run[f"q{j}"])
+            expected = np.interp(at, run.time, run.q[:, j - 1])
             assert message["q"][str(j)] == pytest.approx(expected, abs=1e-3)
         stands = page.frames[-1].evaluate(
             "Object.fromEntries(robot.free.map((n, k) => [n, modelerShow.u[k]]))"

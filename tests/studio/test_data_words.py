@@ -2,23 +2,32 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+from modeler.api import load, simulate
 from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.logs import map_from_table, map_from_words
-from modeler.studio import timeline
 from modeler.studio.log_mapping import Choice, as_mapped, choices, units_of, words_of
-from modeler.studio.project import ProjectLog
+from modeler.studio.project import Project, ProjectLog
 from modeler.studio.tasks import Stretch
 from modeler.studio.viewing import log_film, log_guess, log_window
 
 
 def joints(*names: str) -> tuple[JointSpec, ...]:
     return tuple(JointSpec(name, "revolute", "rad", "N m", True, None) for name in names)
+
+
+@pytest.fixture(scope="module")
+def timeline() -> Any:
+    """The module, which imports NiceGUI."""
+    from modeler.studio import timeline
+
+    return timeline
 
 
 FIVE = joints("1", "2", "3", "4", "5")
@@ -77,10 +86,9 @@ def test_names_that_no_word_can_say_are_refused(column: str) -> None:
 
 
 def test_units_that_cannot_be_are_refused() -> None:
-    with pytest.raises(DataError, match='q1: got unit "N m"'):
-        as_mapped(np.ones(2), "", Choice("x", "N m"), "q1", FIVE)
-    with pytest.raises(DataError, match='got unit "furlong"; expected one such as rad'):
-        as_mapped(np.ones(2), "", Choice("x", "furlong"), "q1", FIVE)
+    for unit, expected in (("N m", ""), ("furlong", "; expected one such as rad")):
+        with pytest.raises(DataError, match=f'q1: got unit "{unit}"{expected}'):
+            as_mapped(np.ones(2), "", Choice("x", unit), "q1", FIVE)
 
 
 def test_pictures_have_the_numbers_that_commands_read(tmp_path: Path) -> None:
@@ -129,13 +137,12 @@ def test_a_film_passes_through_the_rows(tmp_path: Path) -> None:
 # Stretches: an algebra of sets, with instants as its elements.
 
 
-def drawn_log(rng: np.random.Generator) -> ProjectLog:
+def drawn_log(timeline: Any, rng: np.random.Generator) -> ProjectLog:
     log = ProjectLog("a.csv", train=(Stretch(),))
     for _ in range(int(rng.integers(1, 9))):
         start, end = np.sort(rng.uniform(0.0, 10.0, 2)).round(2)
         role = str(rng.choice(["train", "test", "out", "in"]))
-        held = Stretch(float(start), float(end))
-        log = timeline.painted(log, held, role)
+        log = timeline.painted(log, Stretch(float(start), float(end)), role)
     return log
 
 
@@ -145,9 +152,9 @@ def inside(parts: tuple[Stretch, ...], times: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_every_instant_has_one_role(seed: int) -> None:
+def test_every_instant_has_one_role(timeline: Any, seed: int) -> None:
     rng = np.random.default_rng(seed)
-    log, times = drawn_log(rng), np.arange(-1.0, 12.0, 0.005) + 0.0017
+    log, times = drawn_log(timeline, rng), np.arange(-1.0, 12.0, 0.005) + 0.0017
     train, test, out = (inside(getattr(log, role), times) for role in timeline.ROLES)
     assert not (train & test).any() and (train | test).all()
     start, end = np.sort(rng.uniform(0.0, 10.0, 2)).round(2)
@@ -165,18 +172,12 @@ def test_every_instant_has_one_role(seed: int) -> None:
     np.testing.assert_array_equal(inside(timeline.painted(left, held, "in").out, times), out & ~own)
 
 
-def words(log: ProjectLog, role: str) -> list[str]:
-    return [part.word for part in log.parts(role)]
-
-
-def test_first_roles() -> None:
+def test_first_roles(timeline: Any) -> None:
     a, b, c = (ProjectLog(name) for name in ("a", "b", "c"))
     ends = {"a": (0.0, 10.0), "b": (5.0, 6.0)}
-    (only,) = timeline.by_default((a,), ends)
-    assert words(only, "train") == ["a@:7"] and words(only, "test") == ["a@7:"]
-    first, second, broken = timeline.by_default((a, b, c), ends)
-    assert words(first, "train") == ["a"] and words(second, "test") == ["b"]
-    assert words(broken, "train") == words(broken, "test") == []
+    for logs, train, test in (((a,), "a@:7", "a@7:"), ((a, b, c), "a", "b")):
+        project = Project(logs=timeline.by_default(logs, ends))
+        assert (project.words("train"), project.words("test")) == ([train], [test])
 
 
 # Where doubts lie.
@@ -186,31 +187,27 @@ def test_marks_of_a_log_lie_where_it_was_spoilt(
     tmp_path: Path, capsys: pytest.CaptureFixture
 ) -> None:
     rng = np.random.default_rng(3)
-    run = tmp_path / "run.csv"
-    words = ["simulate", "demo-arm", "--duration", "6", "--seed", "3", "--out", str(run)]
-    assert main(words) == 0
-    lines = run.read_text(encoding="utf-8").split("\n")
-    names = lines[0].split(",")
+    measured, run = simulate(load("emps"), duration=6.0, rate=1000.0, seed=3), tmp_path / "run.csv"
+    columns = (measured.time, measured.q[:, 0], measured.tau[:, 0])
+    cells = [[repr(float(x)) for x in row] for row in zip(*columns, strict=True)]
     spike, hole, gap = rng.integers([500, 2000, 4000], [1500, 3000, 5000])
-    cells = [line.split(",") for line in lines[1:] if line]
-    cells[spike][names.index("tau2")] = "400"
+    cells[spike][2] = "4000"
     for row in cells[hole : hole + 3]:
-        row[names.index("q1")] = ""
-    kept = cells[:gap] + cells[gap + 150 :]
-    run.write_text("\n".join([lines[0], *map(",".join, kept)]) + "\n", encoding="utf-8")
+        row[1] = ""
+    left = cells[:gap] + cells[gap + 150 :]
+    run.write_text("\n".join(["time,q1,tau1", *map(",".join, left)]) + "\n", encoding="utf-8")
     said = tmp_path / "said.json"
-    assert main(["log", str(run), "--robot", "demo-arm", "--json", str(said)]) == 0
+    assert main(["log", str(run), "--robot", "emps", "--json", str(said)]) == 0
     capsys.readouterr()
     marks = json.loads(said.read_text(encoding="utf-8"))["marks"]
     places = {(mark["kind"], mark["channel"]): mark for mark in marks}
-    step = 1e-3
     for kind, channel, first, last in (
-        ("spike", "tau2", spike, spike + 1), ("missing", "q1", hole, hole + 2),
+        ("spike", "tau1", spike, spike + 1), ("missing", "q1", hole, hole + 2),
         ("gap", "time", gap - 1, gap + 150),
     ):  # fmt: skip
         mark = places[kind, channel]
-        assert mark["start"] == pytest.approx(first * step, abs=1.5 * step)
-        assert mark["end"] == pytest.approx(last * step, abs=1.5 * step)
+        assert mark["start"] == pytest.approx(first * 1e-3, abs=1.5e-3)
+        assert mark["end"] == pytest.approx(last * 1e-3, abs=1.5e-3)
     assert [mark["start"] for mark in marks] == sorted(mark["start"] for mark in marks)
 
 

@@ -10,46 +10,32 @@ import random
 import subprocess
 from collections.abc import Awaitable
 from pathlib import Path
-from typing import get_args
+from typing import Any, get_args
 
 import pytest
 
 from modeler import studio
 from modeler.cli import main
 from modeler.cli.commands import parser
-from modeler.core.builtin import builtin_text
 from modeler.core.errors import DataError, ModelerError
 from modeler.estimation import load_model, save_model
 from modeler.studio.places import Roots
 from modeler.studio.project import Project, ProjectLog, Workspace, project_from_text, project_text
 from modeler.studio.recipe import notebook, recipe, script
-from modeler.studio.studio import Hub, Studio
 from modeler.studio.tasks import FIELDS, LogPart, Step, Stretch, Task, Verb, command_line
-from tests.studio.in_process import without_processes
+from tests.studio.hubs import hub_of, run_tasks
 
 # What a project of somebody else may do, once it is accepted: these commands, with these options.
-FIT = (
-    "--map --method --derivatives --cutoff --parallel-cutoff --low-speed --essential-below "
-    "--effects"
-)
+FIT = "--map --method --derivatives --cutoff --parallel-cutoff --low-speed --essential-below "
 ALLOWED = {
-    "fit": f"{FIT} --out",
-    "add": "--holdout --map --joint --out",
-    "compare": "--map",
-    "contest": "--map",
-    "diagnose": "--holdout --map --without",
-    "excite": "--between --duration --limit --out",
-    "generate": "--precision --out",
-    "export": "--to --like --out",
-    "page": f"{FIT} --holdout --without --joint --out --report",
-    "log": "--robot --map",
-    "new": "--joints --template --convention --force",
-    "convert": "--out --force",
-    "derive": "--no-terms",
-    "simulate": "--duration --noise --hide --seed --out",
-    "fleet": "--name --map",
-}
-
+    "fit": f"{FIT} --effects --out", "add": "--holdout --map --joint --out", "compare": "--map",
+    "contest": "--map", "diagnose": "--holdout --map --without",
+    "excite": "--between --duration --limit --out", "generate": "--precision --out",
+    "export": "--to --like --out", "log": "--robot --map", "convert": "--out --force",
+    "page": f"{FIT} --effects --holdout --without --joint --out --report",
+    "new": "--joints --template --convention --force", "derive": "--no-terms",
+    "simulate": "--duration --noise --hide --seed --out", "fleet": "--name --map",
+}  # fmt: skip
 WORDS = {
     "mapping": "q1=a:deg", "limit": "1=-1,1,2,3", "between": "a@1,b@2", "effects": "viscous",
     "without": "spring@1", "effect": "spring", "joint": "2", "method": "robust",
@@ -65,23 +51,14 @@ MAY_BE = {"file", "like", "logs", "held", "mapping", "limit", "between", "name",
 
 def task_of(verb: Verb, **harm: object) -> Task:
     """One with all the values that its verb may have."""
+    logs = (LogPart("logs/a.csv", Stretch(0.0, 2.0)),)
+    known = {"logs": logs, "held": logs, "file": "logs/a.csv", "robot": True, "models": (1, 2)}
     own: dict[str, object] = {}
     for field in dataclasses.fields(Task)[1:]:
-        if field.name not in FIELDS[verb].split():
-            continue
-        if field.name in ("logs", "held"):
-            own[field.name] = (LogPart("logs/a.csv", Stretch(0.0, 2.0)),)
-        elif field.name == "file":
-            own["file"] = "logs/a.csv"
-        elif field.name == "robot":
-            own["robot"] = True
-        elif field.name == "models":
-            own["models"] = (1, 2)
-        elif field.name in WORDS:
-            many = isinstance(field.default, tuple)
-            own[field.name] = (WORDS[field.name],) if many else WORDS[field.name]
-        else:
-            own[field.name] = 1
+        if field.name in FIELDS[verb].split():
+            word = known.get(field.name, WORDS.get(field.name, 1))
+            many = field.name in WORDS and isinstance(field.default, tuple)
+            own[field.name] = (word,) if many else word
     if verb == "export":
         del own["like"]
     return Task(verb, **{**own, **harm})  # type: ignore[arg-type]
@@ -162,16 +139,13 @@ __attribute__((constructor)) static void harm(void) {{
 """
 
 
-def test_changed_c_of_a_model_is_never_run(tmp_path: Path) -> None:
+def test_changed_c_of_a_model_is_never_run(axis_project: Path, tmp_path: Path) -> None:
     """All that a project may do with its model, and all that is drawn of it."""
-    folder, mark = tmp_path / "p", tmp_path / "harmed"
-    (folder / "logs").mkdir(parents=True)
-    (folder / "robot.toml").write_text(builtin_text("emps"))
+    from modeler.studio.studio import Studio
+
+    folder, mark = axis_project, tmp_path / "harmed"
     place, log = folder / "models/1.json", (LogPart("logs/a.csv"),)
-    place.parent.mkdir()
-    for words in ("simulate emps --duration 4 --rate 200 --out LOG", "fit emps LOG --out MODEL"):
-        given = words.replace("LOG", str(folder / "logs/a.csv")).replace("MODEL", str(place))
-        assert main(given.split()) == 0
+    assert main(["fit", "emps", str(folder / "logs/a.csv"), "--out", str(place)]) == 0
     model, code = load_model(place), CONSTRUCTOR.format(mark)
     changed = {**model.sources, "emps.c": model.sources["emps.c"] + code}
     save_model(place, dataclasses.replace(model, sources=changed))  # with its checksum
@@ -179,23 +153,11 @@ def test_changed_c_of_a_model_is_never_run(tmp_path: Path) -> None:
     assert mark.exists()  # it would do harm
     mark.unlink()
     Workspace(folder).save(Project("robot.toml", 1, steps=(Step(1, 0, Task("fit", log)),)))
-    hub = Hub(Workspace(folder), (), {})
-
-    async def work() -> None:
-        with without_processes():
-            await worked()
-
-    async def worked() -> None:
-        done = await hub.run(Task("compare", log))
-        await hub.run(Task("page", step=done.number))
-        await hub.run(Task("generate"))
-        await Studio(hub, "fails").view("verdict", "models/1.json", ["logs/a.csv"])
-
-    try:
-        asyncio.run(work())
-    finally:
-        hub.close()
-    assert [step.verb for step in hub.project.steps] == ["fit", "compare", "page", "generate"]
+    with hub_of(folder) as hub:
+        run_tasks(hub, lambda _: Task("compare", log), lambda _: Task("page", step=2),
+                  lambda _: Task("generate"))  # fmt: skip
+        asyncio.run(Studio(hub, "fails").view("verdict", "models/1.json", ["logs/a.csv"]))
+        assert [step.verb for step in hub.project.steps] == ["fit", "compare", "page", "generate"]
     assert not mark.exists()
     written = [path.read_text() for path in (folder / "taken").rglob("*.[ch]")]
     assert written and not any(str(mark) in text for text in written)
@@ -212,7 +174,7 @@ def test_nor_do_the_values_beside_the_steps(place: str, harm: str) -> None:
         project_from_text(project_text(project), "project.toml")
 
 
-def test_numbers_name_files(tmp_path: Path) -> None:
+def test_numbers_name_files() -> None:
     for number, parent in ((0, 0), (-1, 0), (10**9, 0), (1, -3)):
         text = project_text(Project(steps=(Step(number, parent, Task("derive")),)))
         with pytest.raises(DataError, match="expected 1 to 999999999"):
@@ -246,81 +208,69 @@ def test_thousands_of_mutated_projects_end_in_a_line(tmp_path: Path) -> None:
 
 def test_logs_outside_are_neither_run_nor_drawn(tmp_path: Path) -> None:
     """One rule for commands and for what is drawn, whoever lists the log."""
+    from modeler.studio.studio import Studio
+
     folder = tmp_path / "project"
-    for name in ("project/logs", "data", "other"):
-        (tmp_path / name).mkdir(parents=True)
     rows = "\n".join(f"{0.01 * k},{0.1 * k},{k % 7}" for k in range(50))
     for name in ("project/logs", "data", "other"):
+        (tmp_path / name).mkdir(parents=True)
         (tmp_path / name / "a.csv").write_text(f"time,q1,tau1\n{rows}\n")
-    (folder / "linked").symlink_to(tmp_path / "other")
-    (folder / "logs/link.csv").symlink_to(tmp_path / "other/a.csv")
-    (folder / "logs/run_q.csv").symlink_to(tmp_path / "other/a.csv")
     (folder / "logs/many").mkdir()
-    (folder / "logs/many/a.csv").symlink_to(tmp_path / "other/a.csv")
-    hub = Hub(Workspace(folder), (tmp_path / "data",), {})
+    (folder / "linked").symlink_to(tmp_path / "other")
+    for name in ("logs/link.csv", "logs/run_q.csv", "logs/many/a.csv"):
+        (folder / name).symlink_to(tmp_path / "other/a.csv")
 
-    async def told(asked: Awaitable[object]) -> str:
+    async def error_of(asked: Awaitable[object]) -> str:
         try:
             await asked
         except ModelerError as error:
             return str(error)
         return ""
 
-    async def every() -> None:
+    async def ask_all(hub: Any) -> None:
         view = Studio(hub, "data").view
         for file in ("logs/a.csv", f"{tmp_path}/data/a.csv"):
-            assert await told(view("log_facts", str(folder / file))) == ""
+            assert await error_of(view("log_facts", str(folder / file))) == ""
         for file in (
-            f"{tmp_path}/other/a.csv",
-            "linked/a.csv",
-            "logs/link.csv",
-            "logs/many",
-            "logs/run",
-        ):
+            f"{tmp_path}/other/a.csv", "linked/a.csv", "logs/link.csv", "logs/many", "logs/run",
+        ):  # fmt: skip
             for asked in (hub.run(Task("log", file=file)), view("log_facts", str(folder / file))):
-                line = await told(asked)
+                line = await error_of(asked)
                 assert "outside the folders that this studio may use; start it with" in line
 
-    try:
-        asyncio.run(every())
-    finally:
-        hub.close()
+    with hub_of(folder, (tmp_path / "data",)) as hub:
+        asyncio.run(ask_all(hub))
 
 
 @pytest.mark.parametrize(
     "name",
-    [
-        "robot.toml",
-        "robot.draft.toml",
-        "models",
-        "robots/1.toml",
-        "taken/3_c",
-        "logs",
-        "originals",
-        "taken/4_c/deep/model.c",
-    ],
-)
+    ["robot.toml", "robot.draft.toml", "models", "robots/1.toml", "taken/3_c", "logs", "originals",
+     "taken/4_c/deep/model.c"],
+)  # fmt: skip
 def test_a_project_whose_places_are_links_is_not_opened(tmp_path: Path, name: str) -> None:
     """They would be written over: a robot that is edited ended in somebody's profile."""
-    place = tmp_path / "project" / name
-    place.parent.mkdir(parents=True)
-    place.symlink_to(tmp_path / ".profile")
     folder = tmp_path / "project"
-    with pytest.raises(DataError, match=r"outside the folders that this studio may use"):
-        Hub(Workspace(folder), (), {})
-    Hub(Workspace(folder), (tmp_path,), {}).close()  # --allow
+    (folder / name).parent.mkdir(parents=True)
+    (folder / name).symlink_to(tmp_path / ".profile")
+    with (
+        pytest.raises(DataError, match=r"outside the folders that this studio may use"),
+        hub_of(folder),
+    ):
+        pass
+    with hub_of(folder, (tmp_path,)):  # --allow
+        pass
 
 
 def test_no_file_outside_is_downloaded(tmp_path: Path) -> None:
-    (tmp_path / "secret").write_text("x")
     (tmp_path / "p" / "sub").mkdir(parents=True)
-    (tmp_path / "p/own").write_text("x")
+    for name in ("secret", "p/own"):
+        (tmp_path / name).write_text("x")
     (tmp_path / "p/sub/link").symlink_to(tmp_path / "secret")
-    hub = Hub(Workspace(tmp_path / "p"), (), {})
-    assert hub.download(tmp_path / "p/own", "own").startswith("/download/")
-    for name in ("../secret", "sub/link", "none"):
-        with pytest.raises(DataError, match=r"outside|no such file"):
-            hub.download(tmp_path / "p" / name, "x")
+    with hub_of(tmp_path / "p") as hub:
+        assert hub.download(tmp_path / "p/own", "own").startswith("/download/")
+        for name in ("../secret", "sub/link", "none"):
+            with pytest.raises(DataError, match=r"outside|no such file"):
+                hub.download(tmp_path / "p" / name, "x")
 
 
 def test_a_notebook_and_a_script_hold_values_as_values(tmp_path: Path) -> None:
@@ -338,13 +288,9 @@ def test_a_notebook_and_a_script_hold_values_as_values(tmp_path: Path) -> None:
                 assert not (isinstance(node, ast.Name) and node.id == "__import__")
     (tmp_path / "steps.sh").write_text(script(own))
     environment = {"PATH": os.environ["PATH"], "MODELER": "true"}
-    done = subprocess.run(["sh", "../steps.sh"], cwd=empty(tmp_path), env=environment)
+    (tmp_path / "fresh").mkdir()
+    done = subprocess.run(["sh", "../steps.sh"], cwd=tmp_path / "fresh", env=environment)
     assert done.returncode == 0 and not list(tmp_path.rglob("evil"))
-
-
-def empty(folder: Path) -> Path:
-    (folder / "fresh").mkdir()
-    return folder / "fresh"
 
 
 # Parts of an attribute that are no names of anybody's.

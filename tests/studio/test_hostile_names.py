@@ -1,18 +1,15 @@
 """Names that are programs: of folder, files, columns, robot, steps. No screen runs one of them."""
 
-import asyncio
 import csv
 from pathlib import Path
 
 import pytest
 
-from modeler.cli import main
 from modeler.core.builtin import builtin_text
 from modeler.studio import commands
-from modeler.studio.app import JOBS
 from modeler.studio.project import Project, ProjectLog, Workspace
-from modeler.studio.studio import Hub
 from modeler.studio.tasks import Stretch
+from tests.studio.hubs import hub_of, run_tasks
 from tests.studio.window import served
 
 RUN = "window.pwned=1"
@@ -29,16 +26,14 @@ pytestmark = [pytest.mark.slow, pytest.mark.rotating("screens of the studio")]
 
 
 @pytest.fixture(scope="module")
-def hostile(tmp_path_factory) -> Path:
+def hostile(axis: Path, tmp_path_factory) -> Path:
     """A project with a fit, a comparison and a diagnosis, in which every free name is harmful."""
     folder = tmp_path_factory.mktemp("names") / FOLDER
     (folder / "logs").mkdir(parents=True)
     told = (HARM + CLOSING).replace("\\", "").replace('"', "'")
     text = builtin_text("emps").replace("EMPS, one", f"{told} one")
     (folder / "robot.toml").write_text(text)
-    plain = folder.parent / "plain.csv"
-    words = "simulate emps --duration 6 --rate 250 --hide spring:stiffness=40,rest=0.1 --out"
-    assert main([*words.split(), str(plain)]) == 0
+    plain = axis / "logs/a.csv"
     with plain.open(newline="") as file:
         head, *rows = csv.reader(file)
     name = f"logs/{TAG} {TEMPLATE} {QUOTED}.csv"
@@ -49,18 +44,15 @@ def hostile(tmp_path_factory) -> Path:
     log = ProjectLog(name, (Stretch(0.0, 3.0),), (Stretch(3.5, 6.0),), (Stretch(1.0, 1.1),))
     project = Project("robot.toml", logs=(log,), without=(TAG, QUOTED, SINGLE), mapping=())
 
-    async def work() -> None:
-        hub = Hub(Workspace(folder), (), {})
-        hub.workspace.save(project)
-        for asked in (commands.fit, commands.compare):
-            await hub.run(asked(hub.project))
-        hub.close()
-
-    asyncio.run(work())
+    Workspace(folder).save(project)
+    with hub_of(folder) as hub:
+        run_tasks(hub, commands.fit, commands.compare)
     return folder
 
 
 def test_no_screen_runs_a_name(hostile: Path, window) -> None:
+    from modeler.studio.app import JOBS
+
     with served(hostile) as studio:
         page = window()
         page.open(studio)
@@ -97,9 +89,7 @@ def test_a_report_that_somebody_wrote_reaches_nothing(hostile: Path, window) -> 
         page.sees("Open the report page")
         (report,) = (hostile / "pages").glob("*.html")
         ours = report.read_text(encoding="utf-8")
-        free = ours.replace(
-            "Content-Security-Policy", "x-none"
-        )  # what a page of ours forbids itself
+        free = ours.replace("Content-Security-Policy", "x-none")  # what ours forbids itself
         report.write_text(free + REACHING, encoding="utf-8")
         page.go("Watch it fall")
         page.go("Take away")

@@ -1,11 +1,9 @@
 """The studio killed at any moment: the project opens, and at most the step that ran is lost."""
 
-import asyncio
 import contextlib
 import json
 import random
 import resource
-import shutil
 import subprocess
 import sys
 import time
@@ -13,17 +11,13 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli import main
-from modeler.core.builtin import builtin_text
 from modeler.core.errors import ModelerError
 from modeler.estimation import load_model
 from modeler.studio import commands
 from modeler.studio.places import folder_lock
-from modeler.studio.project import FILE, FOLDERS, Project, ProjectLog, Workspace
-from modeler.studio.studio import Hub
-from modeler.studio.tasks import Stretch
+from modeler.studio.project import FILE, Workspace
 from tests.rotation import ROTATING
-from tests.studio.in_process import without_processes
+from tests.studio.hubs import hub_of, run_tasks
 from tests.studio.test_dropped import wait_until
 
 # What windows do to a project, without windows: a fit, an effect more, back again, and so on.
@@ -49,20 +43,6 @@ with folder_lock(folder) as own:
     print("open", flush=True)
     asyncio.run(work(Hub(Workspace(folder), (), {})))
 """
-
-
-@pytest.fixture(scope="module")
-def begun(tmp_path_factory) -> Path:
-    """A project that may be worked on."""
-    folder = tmp_path_factory.mktemp("killed") / "begun"
-    for name in FOLDERS:
-        (folder / name).mkdir(parents=True)
-    (folder / "robot.toml").write_text(builtin_text("emps"))
-    words = "simulate emps --duration 6 --rate 250 --hide spring:stiffness=40,rest=0.1 --out"
-    assert main([*words.split(), str(folder / "logs/a.csv")]) == 0
-    project = Project("robot.toml", logs=(ProjectLog("logs/a.csv", (Stretch(),)),))
-    Workspace(folder).save(project)
-    return folder
 
 
 def check(folder: Path, told: int) -> int:
@@ -97,10 +77,9 @@ def working_in(folder: Path) -> list[str]:
 @pytest.mark.rotating("long tests of studio")
 @pytest.mark.skipif(not Path("/proc/self/cwd").exists(), reason="NOT CHECKED: needs /proc")
 @pytest.mark.parametrize("times", [1, pytest.param(10, marks=ROTATING)])
-def test_killed_at_random_moments(begun: Path, tmp_path: Path, times: int) -> None:
+def test_killed_at_random_moments(axis_project: Path, times: int) -> None:
     """Of one project, so that each studio goes on where the one before was killed."""
-    folder = tmp_path / "project"
-    shutil.copytree(begun, folder)
+    folder = axis_project
     rng = random.Random()
     words = [sys.executable, "-c", WORKING, str(folder)]
     held = 0
@@ -116,27 +95,20 @@ def test_killed_at_random_moments(begun: Path, tmp_path: Path, times: int) -> No
     assert (held > 0 or times < 10) and (folder / FILE).exists()
 
 
-def test_a_full_disk_is_a_line_and_the_project_stays(begun: Path, tmp_path: Path) -> None:
+def test_a_full_disk_is_a_line_and_the_project_stays(axis_project: Path) -> None:
     """Larger files than so are not written, by the command neither: what needs no rights for it."""
-    folder = tmp_path / "project"
-    shutil.copytree(begun, folder)
-
-    async def work() -> None:
-        hub = Hub(Workspace(folder), (), {})
-        await hub.run(commands.fit(hub.project))
-        held, kept = hub.project, (folder / FILE).read_bytes()
-        before = resource.getrlimit(resource.RLIMIT_FSIZE)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
+    folder = axis_project
+    with hub_of(folder) as hub:
+        run_tasks(hub, commands.fit)
+        before, text = hub.project, (folder / FILE).read_bytes()
+        limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, limit[1]))
         try:
             with pytest.raises(ModelerError, match=r"^models/2.json: cannot be written \("):
-                await hub.run(commands.fit(hub.project))
+                run_tasks(hub, commands.fit)
         finally:
-            resource.setrlimit(resource.RLIMIT_FSIZE, before)
-        assert hub.project == held and (folder / FILE).read_bytes() == kept
+            resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+        assert hub.project == before and (folder / FILE).read_bytes() == text
         assert check(folder, 1) == 1
-        await hub.run(commands.fit(hub.project))
-        hub.close()
-
-    with without_processes():
-        asyncio.run(work())
+        run_tasks(hub, commands.fit)
     assert check(folder, 2) == 2

@@ -15,13 +15,10 @@ from modeler.api import load, simulate
 from modeler.cli.commands import parser
 from modeler.core.builtin import builtin_text
 from modeler.studio import commands, recipe
-from modeler.studio.fit_screen import lost_effects
-from modeler.studio.missing_screen import tried
 from modeler.studio.project import Project, ProjectLog, Workspace
-from modeler.studio.studio import Hub, Studio
 from modeler.studio.tasks import LogPart, Step, Stretch, Task, bookkeeping
 from tests.rotation import rotating_with
-from tests.studio.in_process import run_command, without_processes
+from tests.studio.hubs import hub_of, run_tasks
 
 LOGS = (
     ProjectLog("logs/day one.csv", (Stretch(0.0, 4.0), Stretch(4.5)), out=(Stretch(2.0, 2.5),)),
@@ -38,10 +35,9 @@ PROJECT = Project(
     "task",
     [
         commands.fit(PROJECT),
-        commands.fit(
-            PROJECT, (("method", "robust"), ("cutoff", 30.0), ("low_speed", 0), ("joint", ""))
-        ),
+        commands.fit(PROJECT, (("method", "robust"), ("cutoff", 30.0), ("low_speed", 0))),
         commands.fit(PROJECT, (("effects", ("viscous", "coulomb")), ("derivatives", "position"))),
+        commands.fit(PROJECT, (("joint", ""),)),
         commands.compare(PROJECT),
         commands.contest(PROJECT, (1, 1)),
         commands.diagnose(PROJECT),
@@ -71,6 +67,8 @@ def test_what_is_typed_parses(task):
 
 
 def test_a_step_is_known_again_but_for_its_number():
+    from modeler.studio.missing_screen import tried
+
     one = commands.add(PROJECT, "spring", "1")
     step = Step(2, 1, one)
     later = dataclasses.replace(PROJECT, steps=(*PROJECT.steps, step))
@@ -106,18 +104,16 @@ def worked(tmp_path_factory) -> Workspace:
     project = dataclasses.replace(PROJECT, current=0, steps=())
     workspace.save(dataclasses.replace(project, without=("backlash", "time_delay")))
 
-    async def work() -> None:
-        hub = Hub(workspace, (), {})
-        await hub.run(commands.fit(hub.project, OPTIONS))
-        await hub.run(commands.diagnose(hub.project))
-        await hub.run(commands.add(hub.project, "offset", "2"), current=False)  # a preview
+    def added(project: Project) -> Task:
         (found,) = json.loads((folder / "results/2.json").read_text())["effects"][:1]
-        await hub.run(commands.add(hub.project, found["effect"], found["joint"]))
-        await hub.run(commands.compare(hub.project))
+        return commands.add(project, found["effect"], found["joint"])
 
-    with without_processes():
-        asyncio.run(work())
-    return workspace
+    with hub_of(folder) as hub:
+        run_tasks(hub, lambda project: commands.fit(project, OPTIONS), commands.diagnose)
+        preview = commands.add(hub.project, "offset", "2")
+        asyncio.run(hub.run(preview, current=False))
+        run_tasks(hub, added, commands.compare)
+    return Workspace(folder)
 
 
 def retold(workspace: Workspace) -> recipe.Recipe:
@@ -147,6 +143,8 @@ def check_same(workspace: Workspace, fresh: Path) -> None:
 @pytest.mark.rotating("long tests of studio")
 def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
     """A shell reads it, so that its words are known; they are carried out here."""
+    from tests.studio.in_process import run_command
+
     before = {p: p.stat().st_mtime_ns for p in worked.folder.rglob("*") if p.is_file()}
     (tmp_path / "steps.sh").write_text(recipe.script(retold(worked)), encoding="utf-8")
     fresh, recorder = tmp_path / "fresh", tmp_path / "recorder"
@@ -181,44 +179,33 @@ def test_the_notebook_makes_the_same_in_an_empty_folder(worked, tmp_path):
     assert float(said.split()[-1]) == pytest.approx(compared["relative_error"], rel=1e-12)
 
 
-@pytest.mark.rotating("long tests of studio")
-def test_going_back_and_forth_loses_nothing(worked):
-    every = worked.project.steps
-    fit, preview, added = (s for s in every if s.model)
-    for number in (fit.number, preview.number, added.number):
-        worked.save(dataclasses.replace(worked.project, current=number))
-        again = Workspace(worked.folder).project
-        assert again.steps == every and again.current == number
-        assert all((worked.folder / step.model).is_file() for step in again.path())
-    assert worked.project.path() == [fit, added]
-
-
-def test_a_fit_after_an_effect_was_added_keeps_it(worked):
+def test_going_back_and_forth_loses_nothing(axis_project):
     """The robot file goes along with the model that is looked at, unless it was edited."""
-    fit, _, added = (step for step in worked.project.steps if step.model)
-    plain = (worked.folder / fit.robot).read_text(encoding="utf-8")
-    hub = Hub(worked, (), {})
-    hub.take(added)
-    text = (worked.folder / "robot.toml").read_text(encoding="utf-8")
-    assert "load_friction" in text and "load_friction" not in plain
-    with without_processes():
-        refit = asyncio.run(hub.run(commands.fit(hub.project), keep=False))
-    made = json.loads((worked.folder / refit.model).read_text(encoding="utf-8"))
-    assert made["robot_text"] == text
-    hub.take(fit)  # and back
-    assert (worked.folder / "robot.toml").read_text(encoding="utf-8") == plain
-    hub.take(added)
-    edited = text.replace("[effects]", "# edited\n[effects]")
-    (worked.folder / "robot.toml").write_text(edited, encoding="utf-8")
-    hub.take(fit)
-    assert (worked.folder / "robot.toml").read_text(encoding="utf-8") == edited
-    lost = [*lost_effects(Studio(hub, "fit"), commands.fit(hub.project))]
-    assert lost == []
-    hub.take(added)
-    (worked.folder / "robot.toml").write_text(plain + "# edited\n", encoding="utf-8")
-    (line,) = lost_effects(Studio(hub, "fit"), commands.fit(hub.project))
-    assert line.startswith("this fit leaves out load_friction of joint 1, which the current model")
-    hub.close()
+    from modeler.studio.fit_screen import lost_effects
+    from modeler.studio.studio import Studio
+
+    folder, place = axis_project, axis_project / "robot.toml"
+    with hub_of(folder) as hub:
+        fit, added = run_tasks(hub, commands.fit, lambda p: commands.add(p, "spring", "1"))
+        plain, text = (folder / fit.robot).read_text(encoding="utf-8"), place.read_text("utf-8")
+        assert "spring" in text and "spring" not in plain
+        (refit,) = run_tasks(hub, commands.fit, keep=False)
+        assert json.loads((folder / refit.model).read_text("utf-8"))["robot_text"] == text
+        for step in (fit, added):  # back, and forth
+            hub.take(step)
+            again = Workspace(folder).project
+            assert again.steps == (fit, added) and again.path() == [fit, added][: step.number]
+            assert all((folder / step.model).is_file() for step in again.path())
+            assert place.read_text("utf-8") == (plain if step == fit else text)
+        edited = text.replace("[effects]", "# edited\n[effects]")
+        place.write_text(edited, encoding="utf-8")
+        hub.take(fit)
+        assert place.read_text("utf-8") == edited
+        assert [*lost_effects(Studio(hub, "fit"), commands.fit(hub.project))] == []
+        hub.take(added)
+        place.write_text(plain + "# edited\n", encoding="utf-8")
+        (line,) = lost_effects(Studio(hub, "fit"), commands.fit(hub.project))
+    assert line.startswith("this fit leaves out spring of joint 1, which the current model")
 
 
 def test_the_notebook_guesses_where_the_commands_guess():

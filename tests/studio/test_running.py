@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -86,14 +87,34 @@ def test_notes_are_no_errors(tmp_path: Path) -> None:
     assert any("[mdh]" in line for line in outcome.lines)
 
 
-def test_a_fault_of_the_program_says_how_to_report_it(tmp_path: Path, monkeypatch) -> None:
-    (tmp_path / "sitecustomize.py").write_text(
-        "import modeler.cli.lists as l\ndef fails(args): raise ZeroDivisionError('by zero')\n"
-        "l.run_robots = fails\n"
-    )
-    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
+@pytest.fixture
+def sabotage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    """Lines of Python that every process begins with; a body is that of `modeler robots`."""
+
+    def spoil(lines: str = "", body: str = "") -> None:
+        if body:
+            lines += "import modeler.cli.lists as l, sys\ndef run(args):\n"
+            lines += "".join(f"    {line}\n" for line in body.splitlines()) + "l.run_robots = run\n"
+        (tmp_path / "sitecustomize.py").write_text(lines)
+        path = f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}"
+        monkeypatch.setenv("PYTHONPATH", path)
+
+    return spoil
+
+
+def test_a_fault_of_the_program_says_how_to_report_it(tmp_path: Path, sabotage) -> None:
+    sabotage(body="raise ZeroDivisionError('by zero')")
     outcome, _ = run(tmp_path, "robots")
     assert "(ZeroDivisionError: by zero); run `modeler robots --verbose`" in outcome.error
+
+
+def test_endless_lines_are_no_trouble(tmp_path: Path, sabotage) -> None:
+    sabotage(
+        body="print('x' * 3_000_000); print('modeler: ' + 'y' * 300_000, file=sys.stderr)\n"
+        "print('\\udc80z' * 30_000); return []"
+    )
+    outcome, _ = run(tmp_path, "robots")
+    assert outcome.status == 0 and len(outcome.lines[0]) == 3_000_000
 
 
 @pytest.mark.parametrize("given", ["", pytest.param(os.pathsep, marks=pytest.mark.rotating)])
@@ -111,20 +132,20 @@ def test_files_of_the_project_are_no_modules(tmp_path: Path, monkeypatch, given)
     [pytest.param(True, id="groups"),
      pytest.param(False, id="as on Windows", marks=pytest.mark.rotating)],
 )  # fmt: skip
-def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path, monkeypatch, groups) -> None:
+def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path, monkeypatch, sabotage, groups) -> None:
     """Where there are no groups of processes, the command ends itself when its pipe ends."""
     work = tmp_path / "work"
     work.mkdir()
     if not groups:
-        (tmp_path / "sitecustomize.py").write_text("import os\ndel os.killpg\n")
-        monkeypatch.setenv(
-            "PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}"
-        )
+        sabotage("import os\ndel os.killpg\n")
         monkeypatch.delattr(os, "killpg")
 
     async def cancelled() -> Outcome:
         running = Running((*LONG, str(work / "cancelled.csv")), work, "simulate")
-        await begun(running)
+        while "simulating" not in running.doing:
+            assert running.doing != "done"
+            await asyncio.sleep(0.02)
+        assert alive(running.words[-1])
         running.cancel()
         running.cancel()
         return await running.wait()
@@ -134,13 +155,6 @@ def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path, monkeypatch, groups)
     assert outcome.status == INTERRUPTED and outcome.error == "simulate: cancelled"
     assert outcome.cancelled and time.monotonic() - begin < 20
     assert gone(str(work), 1.0) and not list(work.iterdir())
-
-
-async def begun(running: Running) -> None:
-    while "simulating" not in running.doing:
-        assert running.doing != "done"
-        await asyncio.sleep(0.02)
-    assert alive(running.words[-1])
 
 
 def test_cancel_before_it_is_started(tmp_path: Path) -> None:
@@ -153,21 +167,16 @@ def test_cancel_before_it_is_started(tmp_path: Path) -> None:
     assert gone(str(tmp_path), 1.0) and not list(tmp_path.iterdir())
 
 
-def test_what_does_not_heed_an_interrupt_is_killed(tmp_path: Path, monkeypatch) -> None:
+def test_what_does_not_heed_an_interrupt_is_killed(tmp_path: Path, monkeypatch, sabotage) -> None:
     """With the processes that it started."""
-    (tmp_path / "sitecustomize.py").write_text(
-        "import sys\nif 'modeler.cli.followed' in ' '.join(sys.orig_argv):\n"
-        " import modeler.cli.lists as l\n"
-        " def stubborn(args):\n"
-        "  import signal, subprocess, time\n"
-        "  signal.signal(signal.SIGINT, signal.SIG_IGN)\n"
-        "  code = 'import signal, time; signal.signal(2, 1); time.sleep(60)'\n"
-        f"  subprocess.Popen([sys.executable, '-c', code, {str(tmp_path / 'below')!r}])\n"
-        "  print('deaf', flush=True)\n"
-        "  time.sleep(60)\n"
-        " l.run_robots = stubborn\n"
+    sabotage(
+        body="import signal, subprocess, time\n"
+        "signal.signal(signal.SIGINT, signal.SIG_IGN)\n"
+        "code = 'import signal, time; signal.signal(2, 1); time.sleep(60)'\n"
+        f"subprocess.Popen([sys.executable, '-S', '-c', code, {str(tmp_path / 'below')!r}])\n"
+        "print('deaf', flush=True)\n"
+        "time.sleep(60)"
     )
-    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
     monkeypatch.setattr("modeler.studio.running._PATIENCE", 0.3)
 
     async def cancelled() -> Outcome:
@@ -179,20 +188,6 @@ def test_what_does_not_heed_an_interrupt_is_killed(tmp_path: Path, monkeypatch) 
         return await running.wait()
 
     assert asyncio.run(cancelled()).cancelled and gone(str(tmp_path / "below"))
-
-
-def test_endless_lines_are_no_trouble(tmp_path: Path, monkeypatch) -> None:
-    (tmp_path / "sitecustomize.py").write_text(
-        "import modeler.cli.lists as l\n"
-        "def loud(args):\n"
-        " import sys\n"
-        " print('x' * 3_000_000); print('modeler: ' + 'y' * 300_000, file=sys.stderr)\n"
-        " print('\\udc80z' * 30_000); return []\n"
-        "l.run_robots = loud\n"
-    )
-    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
-    outcome, _ = run(tmp_path, "robots")
-    assert outcome.status == 0 and len(outcome.lines[0]) == 3_000_000
 
 
 SERVER = """
