@@ -96,10 +96,19 @@ class Page:
         await self.idle()
         return self
 
-    def every(self, kind: type[Any] = ui.element, text: str | None = None) -> list[Any]:
-        """What is visible, of that kind, with that text in it."""
+    def every(self, kind: str = "element", text: str | None = None) -> list[Any]:
+        """What is visible, of that kind of `nicegui.ui`, with that text in it."""
+        own = getattr(ui, kind)
         with self.user:
-            return [*ElementFilter(kind=kind, content=text, local_scope=False, only_visible=True)]
+            return [*ElementFilter(kind=own, content=text, local_scope=False, only_visible=True)]
+
+    def listeners(self, event: str) -> list[Any]:
+        """What is told of an event, in the order of the page."""
+        return [
+            one
+            for one in self.user.client.elements.values()
+            if event in {listener.type for listener in one._event_listeners.values()}
+        ]
 
     def texts(self) -> str:
         """All that is written."""
@@ -116,6 +125,12 @@ class Page:
         with self.user:
             element.value = value
 
+    def choose(self, kind: str, value: Any, text: str | None = None) -> None:
+        """Another value of the first of that kind and text: tabs, a switch, a toggle."""
+        element = self.every(kind, text)[0]
+        with self.user:
+            element.value = value
+
     def trigger(self, element: Any, event: str, args: Any = None) -> None:
         """What the script of an element tells."""
         UserInteraction(self.user, {element}, None).trigger(event, args)
@@ -128,7 +143,7 @@ class Page:
             return name in (*texts, button.props.get("aria-label"))
 
         def ready() -> list[Any]:
-            return [one for one in self.every(ui.button) if one.enabled and named(one)]
+            return [one for one in self.every("button") if one.enabled and named(one)]
 
         await self.until(ready, name)
         self.trigger(ready()[0], event)
@@ -136,7 +151,7 @@ class Page:
 
     async def go(self, job: str) -> None:
         """To one of the nine jobs."""
-        await self.click(next(b.text for b in self.every(ui.button) if b.text.endswith(f"  {job}")))
+        await self.click(next(b.text for b in self.every("button") if b.text.endswith(f"  {job}")))
 
     async def saves(self, button: str) -> bytes:
         """What a button downloads."""
@@ -148,7 +163,7 @@ class Page:
 
     async def drops(self, *files: Path) -> None:
         """Files on the screen, as the browser sends them and tells of it."""
-        zone = self.every(ui.upload)[-1]
+        zone = self.every("upload")[-1]
         kind = zone.props["url"]
         sent = [
             await self.user.http_client.post(

@@ -11,7 +11,6 @@ import pytest
 from modeler.core.figure import Curve, Panel, Picture, Points
 from modeler.core.style import BLUE, Style
 from modeler.studio.figures import figure, x_range
-from tests.browser.chromium import found
 from tests.studio.drawn import CLOUD, EVERY_KIND, SHARED, X, Y
 
 
@@ -121,38 +120,30 @@ document.title = "drawn";
 
 
 @pytest.mark.rotating("screens of the studio")
-def test_a_browser_draws_them_without_complaint(tmp_path) -> None:
-    playwright = pytest.importorskip("playwright.sync_api", reason="NOT CHECKED: no playwright")
-    nicegui = pytest.importorskip("nicegui", reason="NOT CHECKED: no nicegui")
-    program = found()
-    if program is None:
-        pytest.skip("NOT CHECKED: no browser is on the path")
+def test_a_browser_draws_them_without_complaint(window) -> None:
+    import nicegui
+
     dist = Path(nicegui.__file__).parent / "elements" / "plotly" / "dist"
     figures = json.dumps([figure(EVERY_KIND), figure(SHARED, "t")]).replace("<", "\\u003c")
     data = f'<script type="application/json" id="data">{figures}</script>'
-    complaints: list[str] = []
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        page = browser.new_page()
-        page.on("console", lambda m: m.type in ("error", "warning") and complaints.append(m.text))
-        page.on("pageerror", lambda error: complaints.append(str(error)))
+    own = window()
+    own.page.on("console", lambda m: m.type == "warning" and own.complaints.append(m.text))
 
-        def served(route: Any) -> None:
-            name = route.request.url.rpartition("/")[2]
-            if name == "index.html":
-                body = PAGE.replace("DIST", "index.js") + data
-                route.fulfill(body=body, content_type="text/html")
-            elif (dist / name).is_file():
-                route.fulfill(path=str(dist / name), content_type="text/javascript")
-            else:
-                route.fulfill(status=204)
+    def answer(route: Any) -> None:
+        name = route.request.url.rpartition("/")[2]
+        if name == "index.html":
+            body = PAGE.replace("DIST", "index.js") + data
+            route.fulfill(body=body, content_type="text/html")
+        elif (dist / name).is_file():
+            route.fulfill(path=str(dist / name), content_type="text/javascript")
+        else:
+            route.fulfill(status=204)
 
-        page.route("**/*", served)
-        page.goto("http://localhost/index.html")
-        page.wait_for_function("document.title === 'drawn'")
-        assert page.locator("#a .scatterlayer .trace").count() >= 5
-        assert page.locator("#a .barlayer .trace").count() == 2
-        assert page.locator("#a .heatmaplayer image").count() == 1
-        assert page.locator("#b .xaxislayer-above path, #b .xaxislayer-above text").count() > 0
-        browser.close()
-    assert complaints == []
+    own.page.route("**/*", answer)
+    own.page.goto("http://localhost/index.html")
+    own.page.wait_for_function("document.title === 'drawn'")
+    assert own.page.locator("#a .scatterlayer .trace").count() >= 5
+    assert own.page.locator("#a .barlayer .trace").count() == 2
+    assert own.page.locator("#a .heatmaplayer image").count() == 1
+    assert own.page.locator("#b .xaxislayer-above path, #b .xaxislayer-above text").count() > 0
+    assert own.complaints == []

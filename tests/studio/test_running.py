@@ -12,16 +12,11 @@ from pathlib import Path
 import pytest
 
 from modeler.studio.running import INTERRUPTED, Outcome, Running
+from tests.studio.texts import URDF
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="NOT CHECKED: process groups are POSIX")
 
 LONG = ("simulate", "demo-arm", "--duration", "3000", "--out")
-
-URDF = """<robot name="arm"><link name="base"/><link name="upper"><inertial><mass value="2"/>
-<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
-<joint name="turn" type="continuous"><parent link="base"/><child link="upper"/>
-<axis xyz="0 1 0"/></joint></robot>
-"""
 
 
 def run(folder: Path, *words: str) -> tuple[Outcome, list[tuple[float | None, str]]]:

@@ -8,28 +8,30 @@ import shutil
 import zipfile
 from collections.abc import Awaitable, Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import scipy.io
-from nicegui import ui
 
 from modeler.api import load, simulate
 from modeler.robot import robot_from_text, written_limits
 from modeler.studio.commands import words_of
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Stretch
-from modeler.studio.timeline import Timeline
-from tests.studio.in_process import Page, windows
+from tests.studio.texts import GERMAN, URDF
 
-Told = Callable[[Page], Awaitable[None]]
+if TYPE_CHECKING:
+    from tests.studio.in_process import Page
+
+Told = Callable[["Page"], Awaitable[None]]
 
 
 def story(folder: Path, told: Told, place: str = "/") -> None:
     """What one person does in one window."""
+    from tests.studio.in_process import windows
 
     async def all_of_it() -> None:
         async with windows(folder) as window:
@@ -40,7 +42,7 @@ def story(folder: Path, told: Told, place: str = "/") -> None:
 
 @pytest.mark.rotating("long tests of studio")
 def test_a_fit_is_judged_joint_by_joint(arm: Path) -> None:
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         text = page.texts()
         assert "doubtful: joint 2" in text and "25 values" in text
         assert text.count("\ngood\n") == 2 and text.count("not essential") >= 1
@@ -67,7 +69,7 @@ def test_a_fit_is_judged_joint_by_joint(arm: Path) -> None:
 
 @pytest.mark.rotating("long tests of studio")
 def test_an_effect_is_banned_previewed_and_added(arm: Path) -> None:
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         project = page.project
         tried = project.steps[-1]
         assert tried.verb == "add" and (arm / tried.model).is_file() and project.current == 5
@@ -94,7 +96,7 @@ def test_an_effect_is_banned_previewed_and_added(arm: Path) -> None:
 
 
 def test_the_error_falls_and_undo_loses_nothing(arm: Path) -> None:
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         await page.click("Add")
         steps, last = page.project.steps, page.project.current
         await page.sees("Error after every effect")
@@ -104,11 +106,7 @@ def test_the_error_falls_and_undo_loses_nothing(arm: Path) -> None:
         await page.click(f"Go to step {last}")
         assert (page.project.steps, page.project.current) == (steps, last)
         await page.sees("joint 2: error")
-        bars = next(
-            one
-            for one in page.every(ui.plotly)
-            if "plotly_click" in str([listener.type for listener in one._event_listeners.values()])
-        )
+        (bars,) = page.listeners("plotly_click")
         page.trigger(bars, "plotly_click", {"points": [{"pointNumber": 0}]})  # "as fitted"
         await page.sees("Set aside")
         assert page.project.path()[-1].verb == "fit"
@@ -118,7 +116,7 @@ def test_the_error_falls_and_undo_loses_nothing(arm: Path) -> None:
 
 @pytest.mark.rotating("long tests of studio")
 def test_what_is_taken_away(arm: Path) -> None:
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         await page.click("Write C")
         content = await page.saves("Download demo-arm_c.zip")
         names = zipfile.ZipFile(io.BytesIO(content)).namelist()
@@ -134,10 +132,10 @@ def test_what_is_taken_away(arm: Path) -> None:
         await page.sees("Open the report page")
         step = page.project.steps[-1]
         assert step.parent == 5 and "models/5.json" not in words_of(page.project, step)
-        (link,) = page.every(ui.link, "Open the report page")
+        (link,) = page.every("link", "Open the report page")
         shown = await page.user.http_client.get(link.props["href"])
         assert "<title>demo-arm" in shown.text
-        await page.click(next(b.text for b in page.every(ui.button) if b.text.startswith("Tidy")))
+        await page.click(next(b.text for b in page.every("button") if b.text.startswith("Tidy")))
         assert 7 not in [step.number for step in page.project.steps]
         assert not (arm / "models/7.json").exists()
         for name in ("x", "robot.toml"):  # no address but that of what was made
@@ -146,18 +144,18 @@ def test_what_is_taken_away(arm: Path) -> None:
     story(arm, told, "/take")
 
 
-def plots(page: Page, name: str) -> list[Any]:
+def plots(page: "Page", name: str) -> list[Any]:
     """Pictures with a series of that name."""
     return [
         plot
-        for plot in page.every(ui.plotly)
+        for plot in page.every("plotly")
         if any(trace.get("name") == name for trace in plot.figure["data"])
     ]
 
 
 @pytest.mark.rotating("long tests of studio")
 def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         await page.sees("Joint 2: measured and predicted")  # the worst one at first
         await page.sees("modeler compare models/5.json logs/held_out.parquet")
         joints = [one for one in page.every() if "fails-joint" in one.classes]
@@ -166,7 +164,7 @@ def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
         page.trigger(joints[0], "click")
         await page.sees("Joint 1: measured and predicted")
         heat = next(
-            one for one in page.every(ui.plotly) if one.figure["data"][0]["type"] == "heatmap"
+            one for one in page.every("plotly") if one.figure["data"][0]["type"] == "heatmap"
         )
         page.trigger(heat, "plotly_click", {"points": [{"x": "load", "y": "2"}]})
         await page.sees("Joint 2: residual over |predicted| x direction of motion [N m]")
@@ -186,18 +184,12 @@ def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
         await page.until(lambda: min(times()) > 1.9 and max(times()) < 3.1)
         page.trigger(plot, "plotly_relayout", {"xaxis.autorange": True})
         await page.until(lambda: max(times()) > 6.0)
-        (switch,) = page.every(ui.switch)
-        with page.user:
-            switch.value = True
+        page.choose("switch", True)
         await page.until(lambda: len(plots(page, "measured")) == 3)
         await page.click("Compare")
-        (more,) = page.every(ui.expansion, "All that the command drew")
-        with page.user:
-            more.value = True
+        page.choose("expansion", True, "All that the command drew")
         await page.sees("Joint 3: does the residual still have structure?")
-        (role,) = page.every(ui.toggle)
-        with page.user:
-            role.value = "train"
+        page.choose("toggle", "train")
         await page.sees("modeler compare models/5.json logs/train.parquet")
         # A log that went away is told in place.
         (arm / "logs/train.parquet").rename(arm / "away")
@@ -212,12 +204,11 @@ def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
 
 @pytest.mark.rotating("long tests of studio")
 def test_days_and_models_are_compared(arm: Path) -> None:
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         await page.sees("Joint 1: residual over velocity")
         assert re.search(r"joint 2\s+[\d.]+ %\s+[\d.]+ %", page.texts())
-        page.trigger(page.every(ui.tab, "Two models")[0], "click")
-        with page.user:
-            page.every(ui.tabs)[0].value = "models"
+        page.trigger(page.every("tab", "Two models")[0], "click")
+        page.choose("tabs", "models")
         await page.click("Compare both")
         await page.sees("7.json predicts joint 2 best, beyond doubt")
         await page.sees("Joint 2: measured and predicted")
@@ -230,9 +221,8 @@ def test_days_and_models_are_compared(arm: Path) -> None:
 
 @pytest.mark.rotating("screens of the studio")
 def test_what_drifts_is_looked_for(arm: Path) -> None:
-    async def told(page: Page) -> None:
-        with page.user:
-            page.every(ui.tabs)[0].value = "drift"
+    async def told(page: "Page") -> None:
+        page.choose("tabs", "drift")
         await page.sees("how paths end")
         page.change("how paths end", "{period}.parquet")
         await page.click("Look for drift")
@@ -244,7 +234,7 @@ def test_what_drifts_is_looked_for(arm: Path) -> None:
 
 @pytest.mark.rotating("screens of the studio")
 def test_a_motion_is_found_and_taken(arm: Path) -> None:
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         page.change("duration, s", 2.0)
         await page.sees("modeler excite models/5.json --duration 2 --out")
         await page.click("Find the motion")
@@ -259,38 +249,16 @@ def test_a_motion_is_found_and_taken(arm: Path) -> None:
     story(arm, told, "/motion")
 
 
-GERMAN = "Achse\t\u03b8 [deg]\td [mm]\ta [mm]\t\u03b1 [deg]\n" + "\n".join([
-    "1\t0\t290\t0\t-90", "2\t-90\t0\t270,5\t0", "3\t0\t0\t70,5\t-90",
-    "4\t0\t302\t0\t90", "5\t0\t0\t0\t-90", "6\t180\t72\t0\t0",
-])  # fmt: skip
-URDF = """<robot name="two">
-<link name="base"/>
-<link name="one"><inertial>
-<mass value="2"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
-<joint name="waist" type="revolute"><parent link="base"/><child link="one"/><axis xyz="0 0 1"/>
-<limit lower="-1" upper="1" effort="9" velocity="2"/></joint>
-</robot>"""
-
-
-def tables(page: Page) -> dict[str, Any]:
-    """What is heard of edits: the elements of the table, the letters and the limits."""
-    with page.user:
-        every = page.user.client.elements.values()
-        heard = [
-            one
-            for one in every
-            if "cell" in {listener.type for listener in one._event_listeners.values()}
-        ]
-    return dict(zip(("table", "letters", "limits"), heard, strict=True))
+TABLES = ("table", "letters", "limits")
 
 
 def test_a_table_is_pasted_edited_and_nothing_is_lost(tmp_path: Path) -> None:
     folder = tmp_path / "arm"
     file, draft = folder / "robot.toml", folder / "robot.draft.toml"
 
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         async def edit(table: str, event: str, **detail: Any) -> str:
-            page.trigger(tables(page)[table], event, {"detail": detail})
+            page.trigger(page.listeners("cell")[TABLES.index(table)], event, {"detail": detail})
             await page.idle()
             await asyncio.sleep(0.05)
             return file.read_text()
@@ -320,8 +288,7 @@ def test_a_table_is_pasted_edited_and_nothing_is_lost(tmp_path: Path) -> None:
         for column, value in enumerate(("-0.1", "0.2", "1", "2"), start=1):
             text = await edit("limits", "cell", row=0, column=column, text=value)
         assert written_limits(text)["1"] == ("-0.1", "0.2", "1", "2")
-        with page.user:
-            page.every(ui.tabs)[0].value = "Effects"
+        page.choose("tabs", "Effects")
         page.change("viscous of joint 1", False)
         await page.idle()
         await page.until(
@@ -339,27 +306,23 @@ def test_a_table_is_pasted_edited_and_nothing_is_lost(tmp_path: Path) -> None:
 
 
 def test_base_parameters_are_derived_of_a_built_in_robot(tmp_path: Path) -> None:
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         page.change("robot", "five-bar")
         await page.click("Take it")
-        (tabs,) = page.every(ui.tabs)
-        with page.user:
-            tabs.value = "Base parameters"
+        page.choose("tabs", "Base parameters")
         await page.click("Derive")
         step = page.project.steps[-1]
         found = json.loads((tmp_path / step.result).read_text())
-        with page.user:
-            page.every(ui.tabs)[0].value = "Base parameters"
+        page.choose("tabs", "Base parameters")
         await page.sees(f"{len(found['base'])} base parameters (")
         assert page.texts().count("of an earlier table: derive again") == 0
         (tmp_path / "robot.toml").rename(tmp_path / "kept")
         (tmp_path / "robot.toml").mkdir()  # nothing can be written there
-        with page.user:
-            page.every(ui.tabs)[0].value = "Text"
-        page.every(ui.codemirror)[0].value += "# more\n"
+        page.choose("tabs", "Text")
+        page.every("codemirror")[0].value += "# more\n"
         await page.sees("robot.toml: ")
         (tmp_path / "robot.toml").rmdir()
-        page.every(ui.codemirror)[0].value += "# and more\n"
+        page.every("codemirror")[0].value += "# and more\n"
         await page.until(lambda: (tmp_path / "robot.toml").is_file(), "the robot file")
         assert "and more" in (tmp_path / "robot.toml").read_text()
 
@@ -384,7 +347,7 @@ def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
     scipy.io.savemat(tmp_path / "c.mat", columns)
     (tmp_path / "broken.parquet").write_bytes(b"PAR1 this is none")
 
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         def mapping() -> str:
             return " ".join(page.project.mapping)
 
@@ -433,7 +396,7 @@ def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
         await page.click("Leave out")
         (out,) = page.project.logs[0].out
         assert out.start < 3.0 < out.end < 3.1
-        line = next(one for one in page.every(Timeline) if one.props["active"])
+        line = next(one for one in page.every() if one.props.get("active") is True)
         page.trigger(line, "brush", [0.5, 1.5])
         page.trigger(line, "role", "test")
         assert page.project.logs[0].test == (Stretch(0.5, 1.5),)
@@ -454,9 +417,7 @@ def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
         shutil.copy(folder / "logs/b.parquet", folder / "far.parquet")
         await page.click("Choose where it lies")
         await page.click(str(folder))
-        (box,) = page.every(ui.checkbox, "far.parquet")
-        with page.user:
-            box.value = True
+        page.choose("checkbox", True, "far.parquet")
         await page.click("Take")
         await page.until(lambda: page.project.logs[-1].file == "far.parquet", "the log")
 
@@ -464,6 +425,8 @@ def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
 
 
 def test_a_second_window_reads_until_it_takes_over(tmp_path: Path) -> None:
+    from tests.studio.in_process import windows
+
     async def both() -> None:
         async with windows(tmp_path / "arm") as window:
             first, second = await window().open(), await window().open()
@@ -474,7 +437,7 @@ def test_a_second_window_reads_until_it_takes_over(tmp_path: Path) -> None:
             await first.sees("this window only reads")
             await second.until(lambda: not second.every(text="Take over"))
             await first.go("Robot")
-            assert not [b for b in first.every(ui.button, "undo the edit") if b.enabled]
+            assert not [b for b in first.every("button", "undo the edit") if b.enabled]
 
     asyncio.run(both())
 
@@ -485,10 +448,10 @@ def test_nothing_of_a_foreign_project_is_run_before_it_is_accepted(
 ) -> None:
     monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "theirs"))
 
-    async def told(page: Page) -> None:
+    async def told(page: "Page") -> None:
         steps = page.project.steps
         await page.sees("the project was made by another user or on another machine")
-        assert not [b for b in page.every(ui.button, "Fit") if b.text == "Fit" and b.enabled]
+        assert not [b for b in page.every("button", "Fit") if b.text == "Fit" and b.enabled]
         assert page.project.steps == steps
         await page.click("Accept the project")
         await page.click("Fit")

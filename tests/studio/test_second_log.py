@@ -1,14 +1,13 @@
 """A log that comes later changes neither the split nor the mapping of those that were there."""
 
 from pathlib import Path
+from typing import Any
 
 from modeler.logs import map_from_words
-from modeler.studio.data_screen import DataScreen
 from modeler.studio.log_mapping import LogGuess, anybody, choices
 from modeler.studio.project import Project, ProjectLog, Workspace
-from modeler.studio.project_logs import KnownLog
-from modeler.studio.studio import Hub, Studio
 from modeler.studio.tasks import Stretch
+from tests.studio.hubs import hub_of
 
 ENDS = (0.0, 10.0)
 GERMAN, ROS = ("Zeit", "Winkel_1", "Winkel_2"), ("stamp", "pos[0]", "pos[1]")
@@ -22,20 +21,23 @@ def guess(columns: tuple[str, ...]) -> LogGuess:
     return LogGuess(dict.fromkeys(columns, ""), found, (), 2, "", ())
 
 
-def screen(folder: Path, project: Project) -> DataScreen:
-    """As it is drawn, with the logs of the project read."""
-    workspace = Workspace(folder)
-    workspace.save(project)
-    hub = Hub(workspace, (), {})
-    studio = Studio(hub, "data")
-    hub.studios.append(studio)
-    own = DataScreen(studio)
+def screen(folder: Path, project: Project) -> Any:
+    """The data screen as it is drawn, with the logs of the project read."""
+    from modeler.studio.data_screen import DataScreen
+    from modeler.studio.studio import Studio
+
+    Workspace(folder).save(project)
+    with hub_of(folder) as hub:
+        hub.studios.append(Studio(hub, "data"))
+    own = DataScreen(hub.studios[0])
     own.joints = anybody(2)
     return own
 
 
-def come(own: DataScreen, **logs: tuple[str, ...]) -> Project:
+def come(own: Any, **logs: tuple[str, ...]) -> Project:
     """Logs are there, read, and settled."""
+    from modeler.studio.project_logs import KnownLog
+
     studio = own.studio
     for name, columns in logs.items():
         own.logs[name] = KnownLog(guess(columns), rows=100, ends=ENDS)
@@ -49,12 +51,14 @@ def come(own: DataScreen, **logs: tuple[str, ...]) -> Project:
 def test_the_split_of_the_first_log_stays(tmp_path: Path) -> None:
     own = screen(tmp_path, Project())
     first = come(own, a=GERMAN)
+    assert first.mapping == ("time=Zeit", "q<j>=Winkel_{j}:deg")
     assert (first.words("train"), first.words("test")) == (["a@:7"], ["a@7:"])
     second = come(own, b=GERMAN)
     assert second.logs[0] == first.logs[0]
     assert second.words("train") == ["a@:7", "b"]
     third = come(own, c=ROS)
     assert third.logs[:2] == second.logs
+    assert third.mapping == ("auto",)  # a guess for each log
 
 
 def test_logs_that_come_together_hold_out_the_last_one(tmp_path: Path) -> None:
@@ -68,12 +72,6 @@ def test_the_mapping_that_was_chosen_stays(tmp_path: Path) -> None:
         logs = (ProjectLog("a", (Stretch(),)),)
         own = screen(tmp_path, Project(mapping=chosen, mapped=True, logs=logs))
         assert come(own, a=GERMAN, b=ROS).mapping == chosen
-
-
-def test_a_guess_becomes_a_guess_for_each_log(tmp_path: Path) -> None:
-    own = screen(tmp_path, Project())
-    assert come(own, a=GERMAN).mapping == ("time=Zeit", "q<j>=Winkel_{j}:deg")
-    assert come(own, b=ROS).mapping == ("auto",)
 
 
 def test_each_by_its_own_guess_keeps_what_was_chosen(tmp_path: Path) -> None:

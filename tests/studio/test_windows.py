@@ -8,11 +8,10 @@ import pytest
 
 from modeler.core.builtin import builtin_text
 from modeler.studio.commands import words_of
-from modeler.studio.motion_screen import changed_limits
 from modeler.studio.project import Project, ProjectLog, Workspace
-from modeler.studio.studio import Hub, Studio
 from modeler.studio.tasks import Step, Stretch, Task
 from tests.rotation import rotating_with
+from tests.studio.hubs import hub_of
 from tests.studio.window import served
 
 
@@ -40,23 +39,25 @@ def test_a_second_studio_reads_and_follows_and_takes_over_when_the_first_ends(
 
 
 def test_a_motion_keeps_to_the_limits_that_the_robot_file_has_now(tmp_path: Path) -> None:
-    text = builtin_text("demo-arm")
-    model = {"robot_text": text}
-    (tmp_path / "robot.toml").write_text(
+    from modeler.studio.motion_screen import changed_limits
+    from modeler.studio.studio import Studio
+
+    text, place = builtin_text("demo-arm"), tmp_path / "robot.toml"
+    place.write_text(
         text.replace("1 = [-2.6, 2.6, 2.5, 10.0]", "1 = [-0.3, 0.3, 0.5, 4]"), encoding="utf-8"
     )
     (tmp_path / "models").mkdir()
-    (tmp_path / "models/1.json").write_text(json.dumps(model), encoding="utf-8")
-    steps = (Step(1, 0, Task("fit")),)
-    workspace = Workspace(tmp_path)
-    workspace.project = Project(robot="robot.toml", steps=steps, current=1)
-    studio = Studio(Hub(workspace, (), {}), "motion")
+    (tmp_path / "models/1.json").write_text(json.dumps({"robot_text": text}), encoding="utf-8")
+    fit = Step(1, 0, Task("fit"))
+    Workspace(tmp_path).save(Project(robot="robot.toml", steps=(fit,), current=1))
+    with hub_of(tmp_path) as hub:
+        studio = Studio(hub, "motion")
     assert changed_limits(studio) == ["1=-0.3,0.3,0.5,4"]
     task = Task("excite", duration=5.0, limit=tuple(changed_limits(studio)))
     words = words_of(studio.project, task)
     assert words[:2] == ("excite", "models/1.json")
     assert words[words.index("--limit") + 1] == "1=-0.3,0.3,0.5,4"
-    (tmp_path / "robot.toml").write_text(text, encoding="utf-8")
+    place.write_text(text, encoding="utf-8")
     assert changed_limits(studio) == []
 
 
