@@ -18,9 +18,11 @@ import scipy.io
 
 from modeler.api import load, simulate
 from modeler.robot import robot_from_text, written_limits
+from modeler.studio import commands
 from modeler.studio.commands import words_of
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Stretch
+from tests.studio.hubs import hub_of, run_tasks
 from tests.studio.texts import GERMAN, URDF
 
 if TYPE_CHECKING:
@@ -95,23 +97,25 @@ def test_an_effect_is_banned_previewed_and_added(arm: Path) -> None:
     story(arm, told, "/missing")
 
 
-def test_the_error_falls_and_undo_loses_nothing(arm: Path) -> None:
+def test_the_error_falls_and_undo_loses_nothing(axis_project: Path) -> None:
+    with hub_of(axis_project) as hub:
+        run_tasks(hub, commands.fit, lambda project: commands.add(project, "spring", "1"))
+
     async def told(page: "Page") -> None:
-        await page.click("Add")
-        steps, last = page.project.steps, page.project.current
+        steps = page.project.steps
         await page.sees("Error after every effect")
-        await page.click("Undo to step 5")
+        await page.click("Undo to step 1")
         await page.sees("Set aside")
-        assert page.project.steps == steps and page.project.path()[-1].verb == "fit"
-        await page.click(f"Go to step {last}")
-        assert (page.project.steps, page.project.current) == (steps, last)
-        await page.sees("joint 2: error")
+        assert page.project.steps == steps and page.project.path() == [steps[0]]
+        await page.click("Go to step 2")
+        assert (page.project.steps, page.project.current) == (steps, 2)
+        await page.sees("joint 1: error")
         (bars,) = page.listeners("plotly_click")
         page.trigger(bars, "plotly_click", {"points": [{"pointNumber": 0}]})  # "as fitted"
         await page.sees("Set aside")
-        assert page.project.path()[-1].verb == "fit"
+        assert page.project.path() == [steps[0]]
 
-    story(arm, told, "/missing")
+    story(axis_project, told, "/fall")
 
 
 @pytest.mark.rotating("long tests of studio")
