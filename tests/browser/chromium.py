@@ -1,165 +1,90 @@
-"""A headless Chromium, driven by the DevTools protocol over a pair of pipes: no other package."""
+"""A headless Chromium, driven by Playwright: pages in files, and windows that open any address."""
 
-import base64
-import fcntl
-import itertools
-import json
-import os
-import select
 import shutil
-import subprocess
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
+import pytest
+
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-_FLAGS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-          "--no-first-run", "--disable-background-networking", "--disable-component-update",
-          "--disable-sync", "--hide-scrollbars", "--remote-debugging-pipe")  # fmt: skip
-_PATIENCE = 60.0  # s
+_FLAGS = (
+    "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+)  # fmt: skip
+PATIENCE = 60.0  # s
 
 
-def found() -> str | None:
-    """The program; None if this machine has none."""
-    return next((path for name in NAMES if (path := shutil.which(name))), None)
+@contextmanager
+def chromium() -> Iterator[Any]:
+    """The browser of Playwright; while it runs, its process can run no event loop."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="NOT CHECKED: no playwright")
+    program = next((path for name in NAMES if (path := shutil.which(name))), None)
+    if program is None:
+        pytest.skip(f"NOT CHECKED: no browser, none of {', '.join(NAMES)} is on the path")
+    with playwright.sync_playwright() as running:
+        browser = running.chromium.launch(executable_path=program, args=[*_FLAGS])
+        yield browser
+        browser.close()
+
+
+def until(frame: Any, condition: str) -> None:
+    """Waits for a condition in a page whose policy lets nothing be evaluated by its scripts."""
+    end = time.monotonic() + PATIENCE
+    while not frame.evaluate(condition):
+        if time.monotonic() > end:
+            raise TimeoutError(condition)
+        time.sleep(0.03)
 
 
 class Chromium:
     """One page in one browser.
 
     Attributes:
+        page: of Playwright.
         requests: addresses that were asked for, the file itself included.
         complaints: errors and warnings of the console, uncaught exceptions, refused loads.
     """
 
-    def __init__(self, program: str, profile: Path) -> None:
-        ours_read, theirs_write = os.pipe()
-        theirs_read, ours_write = os.pipe()
-        # Out of the way of 3 and 4, which the protocol reads and writes.
-        above = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (theirs_read, theirs_write)]
-        self._process = subprocess.Popen(
-            [program, *_FLAGS, f"--user-data-dir={profile}", "about:blank"],
-            preexec_fn=lambda: (os.dup2(above[0], 3), os.dup2(above[1], 4)),
-            pass_fds=(3, 4),
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
-        for end in (theirs_read, theirs_write, *above):
-            os.close(end)
-        self._read, self._write = ours_read, ours_write
-        self._buffer = b""
-        self._numbers = itertools.count(1)
-        self._session: str | None = None
+    def __init__(self, browser: Any) -> None:
+        self._browser = browser
+        self.page: Any = None
+        self._pages: dict[tuple[int, str], Any] = {}
         self.requests: list[str] = []
         self.complaints: list[str] = []
-        try:
-            self._attach()
-        except BaseException:
-            self.close()
-            raise
 
-    def __enter__(self) -> "Chromium":
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:  # fmt: skip
-        self.close()
-
-    def close(self) -> None:
-        """End the browser."""
-        os.close(self._write)  # it ends when the pipe does
-        os.close(self._read)
-        try:
-            self._process.wait(10.0)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
-
-    def open(self, page: Path, width: int, height: int) -> None:
-        """Load a file into a window of that size and wait until it is at rest."""
+    def open(self, place: Path, width: int, height: int, script: str = "") -> None:
+        """Loads a file into a window of that size; a script runs before those of the page."""
+        if (width, script) not in self._pages:
+            mobile = {"is_mobile": True} if width < 600 else {}
+            page = self._pages[width, script] = self._browser.new_context(**mobile).new_page()
+            page.on("request", lambda request: self.requests.append(request.url))
+            page.on("console", self._heard)
+            page.on("pageerror", lambda error: self.complaints.append(str(error)))
+            page.add_init_script(script)
+        self.page = self._pages[width, script]
+        self.page.set_viewport_size({"width": width, "height": height})
         self.requests.clear()
         self.complaints.clear()
-        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600}
-        self.ask("Emulation.setDeviceMetricsOverride", size)
-        self.ask("Page.navigate", {"url": page.resolve().as_uri()})
-        self.until("document.readyState === 'complete'")
+        self.page.goto(place.resolve().as_uri())
+
+    def _heard(self, message: Any) -> None:
+        if message.type in ("error", "warning"):
+            self.complaints.append(message.text)
 
     def until(self, condition: str) -> None:
-        """Wait until a condition in JavaScript holds."""
-        end = time.monotonic() + _PATIENCE
-        while not self.value(condition):
-            if time.monotonic() > end:
-                raise TimeoutError(condition)
-            time.sleep(0.1)
+        """Waits until a condition in JavaScript holds."""
+        until(self.page, condition)
 
     def value(self, expression: str) -> Any:
-        """The value of a JavaScript expression, as JSON carries it."""
-        options = {"expression": expression, "returnByValue": True, "awaitPromise": True}
-        answer = self.ask("Runtime.evaluate", options)
-        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
-        return answer["result"].get("value")
-
-    def picture(self, place: Path) -> None:
-        """The whole page as PNG."""
-        options = {"format": "png", "captureBeyondViewport": True}
-        place.write_bytes(base64.b64decode(self.ask("Page.captureScreenshot", options)["data"]))
+        """The value of a JavaScript expression."""
+        return self.page.evaluate(expression)
 
     def download(self, folder: Path, link: int) -> Path:
-        """Click the n-th link that downloads something; the file that the browser saved."""
-        options = {"behavior": "allow", "downloadPath": str(folder)}
-        self.ask("Browser.setDownloadBehavior", options)
-        links = f"document.querySelectorAll('a[download]')[{link}]"
-        place = folder / str(self.value(f"{links}.download"))
-        self.value(f"{links}.click()")
-        end = time.monotonic() + _PATIENCE
-        while not place.exists() or list(folder.glob("*.crdownload")):
-            if time.monotonic() > end:
-                raise TimeoutError(f"{place} was not saved")
-            time.sleep(0.05)
-        return place
-
-    def ask(self, method: str, options: dict[str, Any] | None = None) -> dict[str, Any]:
-        """One command and its answer; what happens meanwhile is noted."""
-        number = next(self._numbers)
-        message: dict[str, Any] = {"id": number, "method": method, "params": options or {}}
-        if self._session is not None:
-            message["sessionId"] = self._session
-        os.write(self._write, json.dumps(message).encode() + b"\0")
-        while True:
-            answer = self._next()
-            if answer.get("id") == number:
-                assert "error" not in answer, answer["error"]
-                return dict(answer["result"])
-            self._note(answer)
-
-    def _attach(self) -> None:
-        pages = [t for t in self.ask("Target.getTargets")["targetInfos"] if t["type"] == "page"]
-        options = {"targetId": pages[0]["targetId"], "flatten": True}
-        self._session = self.ask("Target.attachToTarget", options)["sessionId"]
-        for domain in ("Page", "Runtime", "Network", "Log"):
-            self.ask(f"{domain}.enable")
-
-    def _next(self) -> dict[str, Any]:
-        end = time.monotonic() + _PATIENCE
-        while b"\0" not in self._buffer:
-            ready, _, _ = select.select([self._read], [], [], max(0.0, end - time.monotonic()))
-            data = os.read(self._read, 1 << 20) if ready else b""
-            if not data:
-                raise TimeoutError("the browser does not answer")
-            self._buffer += data
-        message, _, self._buffer = self._buffer.partition(b"\0")
-        return dict(json.loads(message))
-
-    def _note(self, event: dict[str, Any]) -> None:
-        method, content = event.get("method"), event.get("params", {})
-        if method == "Network.requestWillBeSent":
-            self.requests.append(content["request"]["url"])
-        elif method == "Runtime.exceptionThrown":
-            self.complaints.append(json.dumps(content["exceptionDetails"]))
-        elif method == "Runtime.consoleAPICalled" and content["type"] in ("error", "warning"):
-            self.complaints.append(json.dumps(content["args"]))
-        elif method == "Log.entryAdded" and content["entry"]["level"] in ("error", "warning"):
-            self.complaints.append(json.dumps(content["entry"]))
+        """Clicks the n-th link that downloads something; the file that the browser saved."""
+        with self.page.expect_download() as coming:
+            self.value(f"document.querySelectorAll('a[download]')[{link}].click()")
+        coming.value.save_as(folder / coming.value.suggested_filename)
+        return folder / coming.value.suggested_filename

@@ -1,16 +1,13 @@
-"""One browser for all tests of a process."""
+"""One browser for all tests of the folder: while it runs, those of others could run no loop."""
 
 from collections.abc import Iterator
 
 import pytest
 
-from tests.browser.chromium import NAMES, Chromium, found
+from tests.browser.chromium import Chromium, chromium
 
 
-@pytest.fixture(scope="session")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium]:
-    program = found()
-    if program is None:
-        pytest.skip(f"NOT CHECKED: no browser, none of {', '.join(NAMES)} is on the path")
-    with Chromium(program, tmp_path_factory.mktemp("profile")) as running:
-        yield running
+@pytest.fixture(scope="package")
+def browser() -> Iterator[Chromium]:
+    with chromium() as running:
+        yield Chromium(running)

@@ -147,13 +147,11 @@ def check_colours(browser: Chromium) -> None:
         ".map((e) => getComputedStyle(e).fill)"
     )
     pairs = [(fill, "rgb(255, 255, 255)") for fill in fills]  # pictures stay on white
-    dark = {"features": [{"name": "prefers-color-scheme", "value": "dark"}]}
-    for media, darkest in (({"features": []}, 1.0), (dark, 0.1)):
-        browser.ask("Emulation.setEmulatedMedia", media)
+    for scheme, darkest in (("dark", 0.1), ("light", 1.1)):
+        browser.page.emulate_media(color_scheme=scheme)
         found = browser.value(_COLOURS)
         assert len(found) > 20 and any(luminance(ground) < darkest for _, ground in found)
         pairs += map(tuple, found)
-    browser.ask("Emulation.setEmulatedMedia", {"features": []})
     for color, ground in {*pairs}:
         high, low = sorted((luminance(color), luminance(ground)), reverse=True)
         assert (high + 0.05) / (low + 0.05) >= 4.5, (color, ground)
@@ -207,14 +205,9 @@ def check_waterfall(
 
 
 def test_a_browser_that_cannot_unpack_says_so(browser: Chromium, page_of) -> None:
-    script = {"source": "delete window.DecompressionStream"}
-    added = browser.ask("Page.addScriptToEvaluateOnNewDocument", script)
-    try:
-        browser.open(page_of("compare"), *NARROW)
-        browser.until("document.querySelector('.plot').textContent.trim() !== ''")
-        text = text_of(browser)
-    finally:
-        browser.ask("Page.removeScriptToEvaluateOnNewDocument", added)
+    browser.open(page_of("compare"), *NARROW, "delete window.DecompressionStream")
+    browser.until("document.querySelector('.plot').textContent.trim() !== ''")
+    text = text_of(browser)
     assert "This browser cannot draw the picture: it lacks DecompressionStream" in text
     assert "other.parquet" in text and browser.complaints == []
 

@@ -15,7 +15,7 @@ from modeler.core.builtin import builtin_text
 from modeler.studio.project import FOLDERS, Project, ProjectLog, Workspace
 from modeler.studio.tasks import Stretch
 from tests.studio.requests import let_in
-from tests.studio.window import Served, Window, opened, served, without_browser
+from tests.studio.window import Served, Window, opened, served
 
 SECRET = "what nobody may read"
 
@@ -91,7 +91,5 @@ def window() -> Iterator[Callable[..., Window]]:
 
     Of a module: while Playwright runs, the tests of others could run no event loop.
     """
-    if why := without_browser():
-        pytest.skip(why)
     with opened() as open_window:
         yield open_window

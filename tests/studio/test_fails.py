@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.studio.window import Window, served, until
+from tests.browser.chromium import until
+from tests.studio.window import Window, served
 
 RANGES = """() => [...document.querySelectorAll('.js-plotly-plot')]
     .filter((p) => p._fullLayout && p._fullLayout.meta.time)

@@ -16,7 +16,7 @@ from modeler.report.robot_closing import gaps_of, home_posture
 from modeler.report.robot_page import page_content, posture_json, robot_html
 from modeler.report.robot_skeleton import Skeleton, poses, skeleton_of
 from modeler.robot.read import robot_from_text
-from tests.studio.window import until
+from tests.browser.chromium import until
 
 PARENT = """<!DOCTYPE html><title>parent</title><link rel="icon" href="data:,">
 <style>html, body {margin: 0; height: 100%}</style>

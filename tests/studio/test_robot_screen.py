@@ -16,9 +16,10 @@ from modeler.robot import robot_from_text
 from modeler.studio.commands import words_of
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Step, Task
+from tests.browser.chromium import until
 from tests.rotation import rotating_with
 from tests.studio.texts import GERMAN
-from tests.studio.window import Window, served, until
+from tests.studio.window import Window, served
 
 STANDING = "document.querySelector('iframe.studio-robot').standing"
 

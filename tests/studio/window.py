@@ -3,11 +3,9 @@
 import json
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -15,13 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from modeler.studio.project import FILE, Project, Step, project_from_text
-from tests.browser.chromium import found
-
-_FLAGS = (
-    "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--disable-quic", "--no-first-run",
-    "--disable-background-networking", "--disable-component-update", "--disable-sync",
-)  # fmt: skip
-PATIENCE = 60_000.0  # ms
+from tests.browser.chromium import PATIENCE, chromium
 
 
 @dataclass
@@ -89,15 +81,6 @@ def served(folder: Path, *options: str) -> Iterator[Served]:
         process.stdout.close()
 
 
-def until(frame: Any, condition: str) -> None:
-    """Waits for a condition in a page whose policy lets nothing be evaluated by its scripts."""
-    end = time.monotonic() + PATIENCE / 1000.0
-    while not frame.evaluate(condition):
-        if time.monotonic() > end:
-            raise TimeoutError(condition)
-        time.sleep(0.03)
-
-
 class Window:
     """A window of the browser, as a person uses it.
 
@@ -109,7 +92,7 @@ class Window:
     def __init__(self, page: Any) -> None:
         self.page = page
         self.complaints: list[str] = []
-        page.set_default_timeout(PATIENCE)
+        page.set_default_timeout(1000.0 * PATIENCE)
         page.on("console", self._heard)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
 
@@ -144,40 +127,10 @@ class Window:
         """Until this stands on the page."""
         self.page.get_by_text(text).first.wait_for()
 
-    def picture(self, place: Path) -> None:
-        """What is seen, as PNG."""
-        self.page.screenshot(path=str(place))
-
 
 @contextmanager
-def opened(width: int = 1280, height: int = 800, dark: bool = False) -> Iterator[Any]:
-    """A function that opens windows of one browser."""
-    from playwright.sync_api import sync_playwright
-
-    program = found()
-    assert program is not None
-    with sync_playwright() as running:
-        browser = running.chromium.launch(executable_path=program, args=list(_FLAGS))
-        try:
-
-            def window(**more: Any) -> Window:
-                given = {
-                    "viewport": {"width": width, "height": height},
-                    "color_scheme": "dark" if dark else "light",
-                } | more
-                return Window(browser.new_context(**given).new_page())
-
-            yield window
-        finally:
-            browser.close()
-
-
-def without_browser() -> str:
-    """Why no window can be opened; "" if one can."""
-    try:
-        import playwright.sync_api  # noqa: F401
-    except ImportError:
-        return "NOT CHECKED: playwright is not installed"
-    if found() is None and shutil.which("chromium") is None:
-        return "NOT CHECKED: no browser is on the path"
-    return ""
+def opened() -> Iterator[Any]:
+    """A function that opens windows of one browser, each as of another person."""
+    with chromium() as browser:
+        size = {"width": 1280, "height": 800}
+        yield lambda **more: Window(browser.new_context(**{"viewport": size} | more).new_page())
