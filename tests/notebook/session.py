@@ -6,70 +6,47 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Any
 
-from modeler.api import (
-    auto,
-    compare,
-    compile_model,
-    contest,
-    derive,
-    diagnose,
-    effects,
-    estimators,
-    excite,
-    export,
-    fit,
-    fleet,
-    free_run,
-    generate,
-    home,
-    load,
-    observe,
-    physical,
-    read_logs,
-    robots,
-    side_by_side,
-    simulate,
-)
+from modeler import api
 
 HIDDEN = "load_friction@2"
 
 
 MOTION = {"duration": 6.0, "rate": 250.0}
 MADE: dict[str, Callable[["Session"], Any]] = {
-    "robot": lambda s: load("demo-arm"),
-    "derivation": lambda s: derive(s["robot"]),
+    "robot": lambda s: api.load("demo-arm"),
+    "derivation": lambda s: api.derive(s["robot"]),
     "relations": lambda s: s["derivation"].relations,
     "closed form": lambda s: s["derivation"].closed_form(),
-    "emitted": lambda s: generate(s["derivation"]),
-    "compiled": lambda s: compile_model(s["emitted"]),
-    "runs": lambda s: [simulate(s["robot"], hide=[HIDDEN], **MOTION, seed=n) for n in (1, 2)],
-    "logs": lambda s: list(read_logs(s["compiled"], s["runs"])),
+    "emitted": lambda s: api.generate(s["derivation"]),
+    "compiled": lambda s: api.compile_model(s["emitted"]),
+    "runs": lambda s: [api.simulate(s["robot"], hide=[HIDDEN], **MOTION, seed=n) for n in (1, 2)],
+    "logs": lambda s: list(api.read_logs(s["compiled"], s["runs"])),
     "simulated": lambda s: s["runs"][0],
     "log": lambda s: s["logs"][0],
-    "observation": lambda s: observe(s["compiled"], s["logs"][:1]),
+    "observation": lambda s: api.observe(s["compiled"], s["logs"][:1]),
     "report": lambda s: s["observation"].report,
-    "model": lambda s: fit(s["derivation"], s["emitted"], s["observation"]),
+    "model": lambda s: api.fit(s["derivation"], s["emitted"], s["observation"]),
     "fit": lambda s: s["model"].fit,
-    "better": lambda s: auto(s["model"], s["logs"][:1], s["logs"][1:]),
+    "better": lambda s: api.auto(s["model"], s["logs"][:1], s["logs"][1:]),
     "addition": lambda s: s["better"].history[-1],
-    "comparison": lambda s: compare(s["model"], s["logs"][1:]),
-    "better comparison": lambda s: compare(s["better"], s["logs"][1:]),
-    "diagnosis": lambda s: diagnose(s["model"], s["logs"][:1], s["logs"][1:]),
-    "fleet": lambda s: fleet(s["robot"], {"one": {"1": s["runs"][0], "2": s["runs"][1]}}),
-    "free run": lambda s: free_run(
-        s["better"], [simulate(s["robot"], hide=[HIDDEN], duration=2.0, rate=250.0, seed=3)]
+    "comparison": lambda s: api.compare(s["model"], s["logs"][1:]),
+    "better comparison": lambda s: api.compare(s["better"], s["logs"][1:]),
+    "diagnosis": lambda s: api.diagnose(s["model"], s["logs"][:1], s["logs"][1:]),
+    "fleet": lambda s: api.fleet(s["robot"], {"one": {"1": s["runs"][0], "2": s["runs"][1]}}),
+    "free run": lambda s: api.free_run(
+        s["better"], [api.simulate(s["robot"], hide=[HIDDEN], duration=2.0, rate=250.0, seed=3)]
     ),
-    "contest": lambda s: contest({"first": s["model"], "better": s["better"]}, s["logs"][1:]),
-    "estimators": lambda s: side_by_side(
+    "contest": lambda s: api.contest({"first": s["model"], "better": s["better"]}, s["logs"][1:]),
+    "estimators": lambda s: api.side_by_side(
         s["compiled"], s["logs"][:1], s["logs"][1:], ["weighted", "ridge"]
     ),
-    "modes": lambda s: home(load("five-bar")),
-    "motion": lambda s: excite(load("two-link"), duration=4.0, harmonics=3, starts=1),
-    "physical": lambda s: physical(load("wrist")),
-    "exported": lambda s: export(s["better"], to="urdf"),
-    "list of robots": lambda s: robots(),
-    "list of effects": lambda s: effects(),
-    "list of estimators": lambda s: estimators(),
+    "modes": lambda s: api.home(api.load("five-bar")),
+    "motion": lambda s: api.excite(api.load("two-link"), duration=4.0, harmonics=3, starts=1),
+    "physical": lambda s: api.physical(api.load("wrist")),
+    "exported": lambda s: api.export(s["better"], to="urdf"),
+    "list of robots": lambda s: api.robots(),
+    "list of effects": lambda s: api.effects(),
+    "list of estimators": lambda s: api.estimators(),
 }
 
 

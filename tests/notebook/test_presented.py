@@ -19,14 +19,15 @@ from modeler.core.errors import DataError
 from modeler.core.result import Presented, presented
 from modeler.robot.read import robot_from_text
 from tests.notebook.session import HIDDEN, reached, session
+from tests.rotation import rotating
 
 ALWAYS = ("log", "model")
 NAMES = (
-    "robot", "derivation", "emitted", "compiled", "simulated", "log", "observation", "report",
-    "model", "fit", "better", "addition", "comparison", "diagnosis", "estimators", "modes",
-    "contest", "free run", "motion", "physical",
+    "robot", "derivation", "emitted", "compiled", "simulated", "observation", "report", "fit",
+    "better", "addition", "comparison", "diagnosis", "estimators", "modes", "contest", "free run",
+    "motion", "physical",
 )  # fmt: skip
-EACH = [pytest.param(name, marks=() if name in ALWAYS else pytest.mark.rotating) for name in NAMES]
+EACH = [*ALWAYS, *rotating(*NAMES)]
 
 
 @pytest.mark.slow
@@ -39,51 +40,31 @@ def test_every_object_that_is_reached_prints_one_short_line() -> None:
 
 
 @pytest.mark.parametrize("name", EACH)
-def test_all_results_have_a_summary(name: str) -> None:
-    thing = session()[name]
-    assert isinstance(thing, Presented)
-    first, *_ = thing.summary().splitlines()
-    assert 10 < len(first) < 250 and "object at 0x" not in thing.summary()
-
-
-@pytest.mark.parametrize("name", EACH)
-def test_every_table_is_text_html_latex_and_markdown(name: str) -> None:
+def test_a_result_has_a_summary_tables_figures_data_and_files(name: str, tmp_path: Path) -> None:
     thing = session()[name]
     shown = presented(type(thing))
-    assert shown is not None
+    assert isinstance(thing, Presented) and shown is not None
+    first, *_ = thing.summary().splitlines()
+    assert 10 < len(first) < 250 and "object at 0x" not in thing.summary()
     for table_name in shown.tables(thing):
         table = thing.table(table_name)
         assert len(table.text().splitlines()) >= len(table) + 2
         assert table.markdown().count("\n") == len(table) + 1
         assert table.latex().count(r"\\") >= len(table) + 1
-        assert _checked(table.to_html()) <= 64
-
-
-@pytest.mark.parametrize("name", EACH)
-def test_every_figure_is_drawn(name: str) -> None:
-    thing = session()[name]
-    shown = presented(type(thing))
-    assert shown is not None
+        assert rows_of(table.to_html()) <= 64
     for figure_name in list(shown.figures(thing))[1:2]:
         assert thing.plot(figure_name).axes
     if shown.figures(thing):
         figure = thing.plot()
         png = figure._repr_png_()
         assert figure.axes and png.startswith(b"\x89PNG") and len(png) > 5000
-
-
-@pytest.mark.parametrize("name", EACH)
-def test_every_result_is_plain_data_a_page_and_files(name: str, tmp_path: Path) -> None:
-    thing = session()[name]
     data = thing.to_dict()
     assert data and json.loads(json.dumps(data, allow_nan=False)) == data
     page = thing.to_html()
     assert page.lower().startswith("<!doctype html>") and "<title>" in page
     assert not re.search(r"(?:src|href)=\"?https?:", page)  # it needs no other file
-    first = thing.summary().splitlines()[0]
     assert thing.save(tmp_path / "a.txt").read_text().splitlines()[0] == first
     assert thing.save(str(tmp_path / "a.html")) == tmp_path / "a.html"
-    shown = presented(type(thing))
     if ".json" not in shown.files:
         assert json.loads(thing.save(tmp_path / "a.json").read_text()) == data
     if shown.tables(thing) and ".csv" not in shown.files:
@@ -119,46 +100,29 @@ def test_endings_of_their_own_and_figures(tmp_path: Path) -> None:
         write_report(made["log"], tmp_path / "p.html")
 
 
-def test_a_figure_is_saved_as_any() -> None:
-    figure = session()["robot"].plot()
-    figure.savefig(svg := io.BytesIO(), format="svg")
-    assert b"</svg>" in svg.getvalue()
-
-
 @pytest.mark.rotating("results of the session")
-def test_which_have_figures() -> None:
-    for name in ("robot", "log", "model", "comparison", "diagnosis", "simulated", "better"):
-        assert presented(type(session()[name])).figures(session()[name]), name
-    assert "waterfall" in presented(type(session()["better"])).figures(session()["better"])
+def test_what_a_result_does_not_have_is_refused_with_what_it_has() -> None:
+    made = session()
+    assert "waterfall" in presented(type(made["better"])).figures(made["better"])
     with pytest.raises(DataError, match="a model has no waterfall; expected one of parameters"):
-        session()["model"].plot("waterfall")
+        made["model"].plot("waterfall")
     with pytest.raises(DataError, match="an addition has none"):
-        session()["addition"].plot()
-
-
-def test_an_unknown_table_is_refused_with_those_there_are() -> None:
+        made["addition"].plot()
     with pytest.raises(DataError, match="a comparison has no errrors; expected one of er"):
-        session()["comparison"].table("errrors")
+        made["comparison"].table("errrors")
+
+
+SHOWN = {"robot": "<table", "derivation": "$", "comparison": "<table", "diagnosis": "mu2",
+         "better": "load_friction"}  # fmt: skip
 
 
 @pytest.mark.parametrize(
-    "name",
-    ["robot", "derivation",
-     *(pytest.param(name, marks=pytest.mark.rotating)
-       for name in ("better", "comparison", "diagnosis"))],
-)  # fmt: skip
+    "name", ["robot", "derivation", *rotating("better", "comparison", "diagnosis")]
+)
 def test_the_html_of_a_notebook_is_small_and_well_formed(name: str) -> None:
     text = session()[name]._repr_html_()
-    assert len(text) < 100_000 and _checked(text) > 0
+    assert len(text) < 100_000 and rows_of(text) > 0 and SHOWN[name] in text
     assert "http" not in text  # no network
-
-
-@pytest.mark.rotating("results of the session")
-def test_html_says_what_was_found() -> None:
-    better = session()["better"]._repr_html_()
-    assert "load_friction" in better and "relative_sigma_percent" in better
-    assert "mu2" in session()["diagnosis"]._repr_html_()
-    assert "$" in session()["derivation"]._repr_html_()  # relations are typeset
 
 
 EVIL = '<script>alert("x")</script> & "more"'
@@ -171,7 +135,7 @@ def test_what_a_user_wrote_is_escaped() -> None:
     assert robot.title == EVIL
     for thing in (robot, derive(robot)):
         html = thing._repr_html_()
-        assert "<script" not in html and _checked(html)
+        assert "<script" not in html and rows_of(html)
     assert "&lt;script&gt;" in robot._repr_html_()
 
 
@@ -179,6 +143,7 @@ def test_what_a_user_wrote_is_escaped() -> None:
 def test_tables_hold_the_numbers_of_the_results() -> None:
     made = session()
     model, comparison, better = made["model"], made["comparison"], made["better"]
+    np.testing.assert_array_equal(made["log"].table("data").column("q2"), made["log"].q[:, 1])
     np.testing.assert_array_equal(model.table("parameters").column("value"), model.beta)
     e = np.array(comparison.table("residuals").rows, dtype=object)[:, 2:].astype(float)
     rms = np.sqrt(np.nanmean(e**2, axis=0))
@@ -193,13 +158,6 @@ def test_tables_hold_the_numbers_of_the_results() -> None:
     errors = better.table("waterfall").column("error")
     assert errors[-1] < 0.3 * errors[0]
     assert better.table("waterfall").column("effect") == ["as fitted", HIDDEN.split("@")[0]]
-
-
-def test_the_table_of_a_log_is_the_log() -> None:
-    log = session()["log"]
-    data = log.table("data")
-    np.testing.assert_array_equal(data.column("q2"), log.q[:, 1])
-    np.testing.assert_array_equal(data.column("time"), log.time)
 
 
 def test_relations_and_closed_forms_are_latex() -> None:
@@ -253,7 +211,7 @@ class _Checker(HTMLParser):
         assert self.open.pop() == tag
 
 
-def _checked(text: str) -> int:
+def rows_of(text: str) -> int:
     """Rows of all tables of well-formed HTML."""
     checker = _Checker()
     checker.feed(text)
