@@ -1,5 +1,6 @@
 """The gallery of effects: every effect has its page, and what stands on it can be done."""
 
+import contextlib
 import re
 import shlex
 import struct
@@ -19,7 +20,7 @@ from modeler.core.builtin import builtin_text
 from modeler.effects import CATALOGUE, Effect, effect_named
 from modeler.robot import robot_from_text, with_effects
 from modeler.simulation import HIDDEN
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 QUICK = ("stribeck", "payload")
 """A column and a body; the others rotate."""
@@ -28,12 +29,6 @@ QUICK = ("stribeck", "payload")
 @cache
 def made(name: str) -> Portrait:
     return portrait(name)
-
-
-def named(name: str) -> Effect:
-    effect = effect_named(name)
-    assert effect is not None
-    return effect
 
 
 def code_blocks(page: str, language: str) -> list[str]:
@@ -46,12 +41,9 @@ def size(png: bytes) -> tuple[int, int]:
     return width, height
 
 
-def test_scenes_are_of_effects_that_there_are() -> None:
-    assert set(SCENES) <= {effect.id for effect in CATALOGUE}
-
-
 @pytest.mark.parametrize("effect", CATALOGUE, ids=lambda effect: effect.id)
 def test_the_commands_of_every_effect_parse(effect: Effect) -> None:
+    assert {*SCENES} <= {effect.id for effect in CATALOGUE}
     commands = SCENES.get(effect.id, Scene()).commands(effect.id)
     parsed = [parser().parse_args(shlex.split(line)[1:]) for line in commands]
     hidden = next(words for words in parsed if getattr(words, "hide", None))
@@ -62,15 +54,12 @@ def test_the_commands_of_every_effect_parse(effect: Effect) -> None:
 @pytest.mark.rotating("long tests of docsite")
 @pytest.mark.parametrize(
     "name",
-    [
-        "stribeck",
-        pytest.param("payload", marks=pytest.mark.rotating),
-        *(pytest.param(e.id, marks=ROTATING) for e in CATALOGUE if e.id not in QUICK),
-    ],
-)
+    ["stribeck", *rotating("payload"),
+     *(pytest.param(e.id, marks=ROTATING) for e in CATALOGUE if e.id not in QUICK)],
+)  # fmt: skip
 def test_an_effect_has_its_page(name: str) -> None:
-    effect, found = named(name), made(name)
-    page = found.page
+    found = made(name)
+    effect, page = found.effect, found.page
     assert page.startswith(f"# {effect.title[0].upper()}") and f"`{name}`" in page
     assert code_blocks(page, "text")[0].strip() == effect.equation
     for column in effect.columns if effect.acts.name in ("JOINT", "MOTOR", "POSITION") else ():
@@ -91,9 +80,7 @@ def test_an_effect_has_its_page(name: str) -> None:
 
 
 @pytest.mark.rotating("long tests of docsite")
-@pytest.mark.parametrize(
-    "name", ["stribeck", pytest.param("position_friction", marks=pytest.mark.rotating)]
-)
+@pytest.mark.parametrize("name", ["stribeck", *rotating("position_friction")])
 def test_the_lines_of_a_robot_file_are_those_of_a_robot(name: str) -> None:
     (lines,) = code_blocks(made(name).page, "toml")
     text = with_effects(builtin_text("two-link"), tomllib.loads(lines)["effects"])
@@ -119,16 +106,13 @@ def test_pictures_of_effects_take_turns(monkeypatch: pytest.MonkeyPatch) -> None
     """Every effect has its page on any day, and its picture on one of so many."""
     drawn: list[str] = []
 
-    class Pool:
-        def __enter__(self) -> "Pool":
-            return self
-
+    class Pool(contextlib.AbstractContextManager):
         def __exit__(self, *_: object) -> None:
-            pass
+            """Nothing runs."""
 
         def map(self, _: object, names: list[str]) -> list[Portrait]:
             drawn.extend(names)
-            return [Portrait(named(name), f"drawn {name}", b"", b"") for name in names]
+            return [Portrait(effect_named(name), f"drawn {name}", b"", b"") for name in names]
 
     monkeypatch.setattr(effects, "ProcessPoolExecutor", Pool)
     monkeypatch.setenv("EVERY", "3")
@@ -154,12 +138,8 @@ def test_the_indices_lead_to_all() -> None:
     for name in QUICK:
         assert f"]({name}.md)" in index and f"](effects/{name}.md)" in front
     assert "](robots/two-link.md)" in front and "studies/measured-sets.md" in front
+    assert "](../../robots/wrist.md)" in exhibit("wrist").page
+    assert "../../robots/" not in exhibit("scara").page
     config = {"nav": [{"Effects": ["gallery/effects/index.md"]}]}
     entries = on_config(type("Config", (), config)()).nav[0]["Effects"][1:]
     assert entries == [{e.id: f"gallery/effects/{e.id}.md"} for e in CATALOGUE]
-
-
-@pytest.mark.rotating("pages of effects")
-def test_robots_lead_to_the_pages_about_them() -> None:
-    assert "](../../robots/wrist.md)" in exhibit("wrist").page
-    assert "../../robots/" not in exhibit("scara").page

@@ -19,7 +19,6 @@ from docsite.markdown import cell, code, fenced, table
 from docsite.notebook import executed, notebook_page
 from modeler.api import derive, generate, load
 from modeler.cli import main
-from modeler.core.builtin import builtin_names
 from tests.repository import ROOT
 
 DOCS = ROOT / "docs"
@@ -32,18 +31,10 @@ def listed() -> list[str]:
     return re.findall(r"- (?:\w+: )?([\w/-]+\.md)$", text[text.index("\nnav:") :], re.MULTILINE)
 
 
-@pytest.mark.parametrize("page", WRITTEN)
-def test_every_page_has_its_place(page: str) -> None:
-    assert listed().count(page) == 1, f"mkdocs.yml: nav has no line for docs/{page}; add it there"
-
-
-def test_every_place_has_its_page() -> None:
-    made = {*BESIDE.values(), *notebooks()}
-    made |= {
-        f"{section}/index.md"
-        for section in ("gallery", "gallery/robots", "gallery/effects", "commands", "python")
-    }
-    assert set(listed()) == made | set(WRITTEN)
+def test_every_page_has_its_place_and_every_place_its_page() -> None:
+    made = {*BESIDE.values(), *notebooks(), "gallery/robots/index.md", "gallery/effects/index.md"}
+    made |= {f"{section}/index.md" for section in ("gallery", "commands", "python")}
+    assert sorted(listed()) == sorted(made | set(WRITTEN)), "mkdocs.yml: nav has other pages"
 
 
 @pytest.mark.rotating("pages of the site")
@@ -102,6 +93,7 @@ def test_an_exhibit_says_what_the_robot_has() -> None:
     found, derivation = exhibit("scara"), derive(load("scara"))
     emitted = generate(derivation)
     assert found.picture.startswith(b"\x89PNG")
+    assert exhibit("emps").page.startswith("# emps\n\n**EMPS, one prismatic axis")
     assert (found.joints, found.base) == (4, derivation.base.rank)
     sources = [text for name, text in emitted.files.items() if name[-2:] in (".c", ".h")]
     assert found.lines == sum(len(text.splitlines()) for text in sources)
@@ -124,19 +116,16 @@ def test_coefficients_that_a_paper_numbers() -> None:
     assert "| PX5 | S223 | `1` | `PJ2` | `-2*XY3` | `2*cJ23 - 2*cm*ct2*ct3` |" in rows
 
 
-def test_robots_with_names_that_markdown_reads() -> None:
-    assert "kinova_gen3" in builtin_names()
-    page = exhibit("emps").page
-    assert page.startswith("# emps\n\n**EMPS, one prismatic axis")
-
-
 def test_signs_of_markdown_are_escaped() -> None:
     assert cell("a_b [x] <joint> |a| & *") == r"a\_b \[x\] &lt;joint> \|a\| &amp; \*"
     assert code("a|b") == r"`a\|b`" and code("") == ""
     assert table(("a", "b"), [("1", "2")]) == "| a | b |\n| --- | --- |\n| 1 | 2 |\n"
+    found = fenced('First.\n\n>>> a["1"]\n[1, 2]\n\nArgs:\n    a: b')  # no links in brackets
+    assert found == 'First.\n\n```python\n>>> a["1"]\n[1, 2]\n```\n\nArgs:\n    a: b'
+    assert fenced(">>> 1\n1") == "```python\n>>> 1\n1\n```" and fenced("None.") == "None."
 
 
-def test_a_notebook_becomes_a_page() -> None:
+def test_a_notebook_becomes_a_page(tmp_path, monkeypatch) -> None:
     outputs = [
         {"output_type": "stream", "text": ["fit\n", "done\n"]},
         {"output_type": "display_data", "data": {"image/png": "iVBO\nRw0=\n", "text/plain": "f"}},
@@ -154,21 +143,10 @@ def test_a_notebook_becomes_a_page() -> None:
     assert 'src="data:image/png;base64,iVBORw0="' in page and "```text\n2\n```" in page
     assert '<div class="result">\n<p>\n1</p>\n</div>\n' in page and "```latex\n$x$\n```" in page
     assert "left out" not in page
-
-
-def test_a_notebook_that_cannot_be_run_is_shown_as_it_is(tmp_path, monkeypatch) -> None:
     path = tmp_path / "a.ipynb"
     path.write_text('{"cells": []}')
     monkeypatch.setattr("docsite.notebook.RUNS_WITH", ("no_such_package",))
-    assert executed(path) == '{"cells": []}'
-
-
-def test_examples_in_docstrings_are_code() -> None:
-    """A quotation with links in brackets breaks a strict build."""
-    text = 'First.\n\n>>> a["1"]\n[1, 2]\n\nArgs:\n    a: b'
-    found = fenced(text)
-    assert found == 'First.\n\n```python\n>>> a["1"]\n[1, 2]\n```\n\nArgs:\n    a: b'
-    assert fenced(">>> 1\n1") == "```python\n>>> 1\n1\n```" and fenced("None.") == "None."
+    assert executed(path) == '{"cells": []}'  # one that cannot be run is shown as it is
 
 
 @pytest.mark.rotating("pages of the site")
