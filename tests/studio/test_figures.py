@@ -1,12 +1,9 @@
 """Figures of plotly.js: every kind of series, every setting of a panel, drawn once by a browser."""
 
-import json
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
 
 from modeler.core.figure import Curve, Panel, Picture, Points
 from modeler.core.style import BLUE, Style
@@ -89,16 +86,19 @@ def test_rows_of_one_time_share_their_axis() -> None:
     assert layout["meta"] == {"time": "log"} and layout["uirevision"] == "shared"
 
 
+def drawn(series: Curve | Points) -> dict[str, Any]:
+    """A series of a picture of it alone, as it is drawn."""
+    return figure(Picture("p", "", "", ((Panel("", "x", "y", (series,)),),), 300))["data"][0]
+
+
 def test_many_dots_are_drawn_by_the_graphics_processor() -> None:
     x = np.random.default_rng(3).normal(size=20_000)
-    panel = Panel("", "x", "y", (Points("many", x, x, Style(BLUE)),))
-    assert figure(Picture("p", "", "", ((panel,),), 300))["data"][0]["type"] == "scattergl"
+    assert drawn(Points("many", x, x, Style(BLUE)))["type"] == "scattergl"
 
 
 def test_numbers_keep_what_a_zoom_of_a_thousand_shows() -> None:
     x = 1.7e9 + np.linspace(0.0, 100.0, 200)  # seconds since 1970
-    panel = Panel("", "x", "y", (Curve("c", x, 1e-9 * np.sin(x), Style(BLUE)),))
-    own = figure(Picture("p", "", "", ((panel,),), 300))["data"][0]
+    own = drawn(Curve("c", x, 1e-9 * np.sin(x), Style(BLUE)))
     assert np.abs(np.array(own["x"]) - x).max() < 1e-6 * 100.0
     assert np.abs(np.array(own["y"]) - 1e-9 * np.sin(x)).max() < 1e-6 * 2e-9 * 1.01
 
@@ -108,42 +108,3 @@ def test_what_a_relayout_says_of_time() -> None:
     assert x_range({"xaxis2.range": [0, 3]}) == (0.0, 3.0)
     assert x_range({"xaxis.autorange": True, "yaxis.autorange": True}) is None
     assert x_range({"yaxis.range[0]": 1.0, "yaxis.range[1]": 2.0}) is False
-
-
-PAGE = """<!DOCTYPE html><meta charset="utf-8"><title>p</title><div id="a"></div><div id="b"></div>
-<script type="module">
-import { Plotly } from "./DIST";
-const [one, two] = JSON.parse(document.getElementById("data").textContent);
-await Plotly.newPlot("a", one); await Plotly.newPlot("b", two);
-document.title = "drawn";
-</script>"""
-
-
-@pytest.mark.rotating("screens of the studio")
-def test_a_browser_draws_them_without_complaint(window) -> None:
-    import nicegui
-
-    dist = Path(nicegui.__file__).parent / "elements" / "plotly" / "dist"
-    figures = json.dumps([figure(EVERY_KIND), figure(SHARED, "t")]).replace("<", "\\u003c")
-    data = f'<script type="application/json" id="data">{figures}</script>'
-    own = window()
-    own.page.on("console", lambda m: m.type == "warning" and own.complaints.append(m.text))
-
-    def answer(route: Any) -> None:
-        name = route.request.url.rpartition("/")[2]
-        if name == "index.html":
-            body = PAGE.replace("DIST", "index.js") + data
-            route.fulfill(body=body, content_type="text/html")
-        elif (dist / name).is_file():
-            route.fulfill(path=str(dist / name), content_type="text/javascript")
-        else:
-            route.fulfill(status=204)
-
-    own.page.route("**/*", answer)
-    own.page.goto("http://localhost/index.html")
-    own.page.wait_for_function("document.title === 'drawn'")
-    assert own.page.locator("#a .scatterlayer .trace").count() >= 5
-    assert own.page.locator("#a .barlayer .trace").count() == 2
-    assert own.page.locator("#a .heatmaplayer image").count() == 1
-    assert own.page.locator("#b .xaxislayer-above path, #b .xaxislayer-above text").count() > 0
-    assert own.complaints == []

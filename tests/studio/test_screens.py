@@ -207,11 +207,10 @@ def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
 
 
 @pytest.mark.rotating("long tests of studio")
-def test_days_and_models_are_compared(arm: Path) -> None:
+def test_days_and_models_are_compared_and_drift_is_looked_for(arm: Path) -> None:
     async def told(page: "Page") -> None:
         await page.sees("Joint 1: residual over velocity")
         assert re.search(r"joint 2\s+[\d.]+ %\s+[\d.]+ %", page.texts())
-        page.trigger(page.every("tab", "Two models")[0], "click")
         page.choose("tabs", "models")
         await page.click("Compare both")
         await page.sees("7.json predicts joint 2 best, beyond doubt")
@@ -219,13 +218,6 @@ def test_days_and_models_are_compared(arm: Path) -> None:
         words = ("compare", "models/5.json", "models/7.json", "logs/held_out.parquet")
         assert words_of(page.project, page.project.steps[-1]) == words
         assert page.project.current == 5  # a comparison makes no model
-
-    story(arm, told, "/days")
-
-
-@pytest.mark.rotating("screens of the studio")
-def test_what_drifts_is_looked_for(arm: Path) -> None:
-    async def told(page: "Page") -> None:
         page.choose("tabs", "drift")
         await page.sees("how paths end")
         page.change("how paths end", "{period}.parquet")

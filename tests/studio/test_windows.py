@@ -95,10 +95,4 @@ def test_a_project_of_somebody_else_with_the_long_names_of_ros(
         assert own.page.get_by_role("button", name="Fit", exact=True).is_disabled()
         assert own.page.evaluate("document.documentElement.scrollWidth") <= 1280
         assert studio.project.steps == () and not (folder / "results").exists()
-        own.click("Accept the project")
-        own.page.get_by_role("button", name="Accept the project").wait_for(state="hidden")
-        own.page.wait_for_function(
-            "() => [...document.querySelectorAll('button')].some("
-            "(b) => b.innerText.trim() === 'Fit' && !b.disabled)"
-        )
         assert own.complaints == []
