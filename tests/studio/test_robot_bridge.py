@@ -14,7 +14,7 @@ import pytest
 from modeler.core.builtin import builtin_text
 from modeler.report.robot_closing import gaps_of, home_posture
 from modeler.report.robot_page import page_content, posture_json, robot_html
-from modeler.report.robot_skeleton import Skeleton, poses, skeleton_of
+from modeler.report.robot_skeleton import Skeleton, skeleton_of
 from modeler.robot.read import robot_from_text
 from tests.browser.chromium import until
 
@@ -75,10 +75,6 @@ def test_postures_are_taken_and_loops_follow(opened) -> None:
     robot = skeleton(builtin_text("orthoglide-2003"))
     own, frame = opened(builtin_text("orthoglide-2003"))
     page, given, home = own.page, list(robot.given), home_posture(robot)
-    page.wait_for_function("last('ready') !== null")
-    told = page.evaluate("last('ready')")
-    for row, expected in zip(robot.rows, poses(robot, home.u), strict=True):
-        np.testing.assert_allclose(told["frames"][row.joint.name], expected, atol=1e-12)
     assert not frame.locator("header").is_visible() and not frame.locator("#mdh").is_visible()
     drives = [robot.free[k] for k in given]
     targets = dict(zip(drives, home.u[given] + [0.03, -0.05, 0.02], strict=True))

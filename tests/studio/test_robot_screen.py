@@ -188,22 +188,19 @@ def test_a_tie_of_a_diagnosis_becomes_the_words_of_a_motion() -> None:
     """Pairs on joints only, each once; the words are those that the command line takes."""
     from modeler.studio.motion_screen import questions
 
-    result = {
-        "effects": [
-            {"effect": "load_friction", "joint": "2", "ties": [{"effect": "spring", "joint": "2"}]},
-            {"effect": "spring", "joint": "2", "ties": [{"effect": "load_friction", "joint": "2"}]},
-            {"effect": "base_tilt", "joint": None, "ties": [{"effect": "offset", "joint": "1"}]},
-            {"effect": "drift", "joint": "3", "ties": []},
-        ]
-    }
-    pairs = dict(questions(result))
-    assert pairs == {
-        "load_friction@2,spring@2": "tell load friction on joint 2 from spring on joint 2"
-    }
-    made = Project("robot.toml", 3, steps=(Step(3, 0, Task("fit")),))
+    ties = (("load_friction", "2", "spring", "2"), ("spring", "2", "load_friction", "2"),
+            ("base_tilt", None, "offset", "1"))  # fmt: skip
+    effects = [
+        {"effect": one, "joint": j, "ties": [{"effect": other, "joint": k}]}
+        for one, j, other, k in ties
+    ]
+    pairs = dict(questions({"effects": [*effects, {"effect": "drift", "joint": "3", "ties": []}]}))
     (between,) = pairs
+    assert between == "load_friction@2,spring@2"
+    assert pairs[between] == "tell load friction on joint 2 from spring on joint 2"
+    made = Project("robot.toml", 3, steps=(Step(3, 0, Task("fit")),))
     parsed = parser().parse_args(words_of(made, Task("excite", between=between, duration=5.0)))
-    assert parsed.between == "load_friction@2,spring@2" and parsed.robot == "models/3.json"
+    assert (parsed.between, parsed.robot) == (between, "models/3.json")
     assert (parsed.duration, parsed.out) == (5.0, "motions/4.csv")
     first = words_of(Project("robot.toml"), Task("excite", duration=2.0))
     assert first[:2] == ("excite", "robots/1.toml")
