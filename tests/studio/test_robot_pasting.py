@@ -15,30 +15,17 @@ from modeler.robot import (
     with_pasted,
     written_symbols,
 )
-
-
-def rz(x: float) -> np.ndarray:
-    c, s = math.cos(x), math.sin(x)
-    return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
-
-
-def rx(x: float) -> np.ndarray:
-    c, s = math.cos(x), math.sin(x)
-    return np.array([[1, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1.0]])
-
-
-def t(x: float, z: float) -> np.ndarray:
-    found = np.eye(4)
-    found[0, 3], found[2, 3] = x, z
-    return found
+from tests.elementary_motions import row_pose
 
 
 def hand(kind: str, rows: np.ndarray, q: np.ndarray) -> np.ndarray:
     """The last frame by the book: rows are alpha, a (d of Khalil's), theta, d (r), rad and m."""
     pose = np.eye(4)
     for (alpha, a, theta, d), own in zip(rows, q, strict=True):
-        before, joint = rx(alpha) @ t(a, 0), rz(theta + own) @ t(0, d)
-        pose = pose @ (joint @ t(a, 0) @ rx(alpha) if kind == "classical" else before @ joint)
+        if kind == "classical":
+            pose = pose @ row_pose(gamma=theta + own, b=d, d=a, alpha=alpha)
+        else:
+            pose = pose @ row_pose(alpha=alpha, d=a, theta=theta + own, r=d)
     return pose
 
 
@@ -116,7 +103,7 @@ def test_one_table_in_many_dresses(text: str) -> None:
     table = pasted_table(text)
     assert table.convention == "khalil" and table.symbols == ()
     q = np.array([0.3, 0.15])
-    expected = rz(0.3) @ t(0, 0.2) @ rx(math.pi / 2) @ t(0, 0.15)
+    expected = row_pose(gamma=0.3, b=0.2, alpha=math.pi / 2, r=0.15)
     np.testing.assert_allclose(frame_of(pasted_robot(table, "x"), q), expected, atol=1e-12)
 
 
