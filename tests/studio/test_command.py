@@ -14,49 +14,25 @@ import pytest
 from modeler.cli import main
 from tests.json_schemas import check_schema
 from tests.studio.requests import ask, let_in, port_of, websocket_request
-from tests.studio.window import Served, served
+from tests.studio.test_dropped import wait_until
+from tests.studio.window import Served
 
 WORDS = [sys.executable, "-m", "modeler", "studio", "--no-open"]
-
-
-@pytest.mark.rotating("long tests of studio")
-def test_the_address_stands_in_the_json_and_an_open_window_does_not_hold_it(tmp_path: Path) -> None:
-    """Ctrl-C while a browser is connected."""
-    place = tmp_path / "address.json"
-    with (
-        served(tmp_path / "arm", "--json", str(place)) as studio,
-        socket.create_connection(("127.0.0.1", port_of(studio))) as line,
-    ):
-        raw = json.loads(place.read_text())
-        check_schema("studio", raw)
-        assert raw["address"] == studio.address and raw["folder"] == str(tmp_path / "arm")
-        assert raw["pid"] == studio.process.pid
-        assert place.stat().st_mode & 0o077 == 0  # who has the token is let in
-        cookie = let_in(studio)
-        assert ask(studio, cookie=cookie).status == 200
-        host = f"127.0.0.1:{port_of(studio)}"
-        line.sendall(websocket_request({"Host": host, "Cookie": cookie}))
-        assert line.recv(12) == b"HTTP/1.1 101"
-        begin = time.monotonic()
-        assert studio.end() == 130 and time.monotonic() - begin < 10
 
 
 @pytest.mark.rotating("ways to start a studio")
 @pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="finds the processes in /proc")
 def test_json_alone_on_stdout_and_ctrl_c_of_a_terminal_goes_to_all(tmp_path: Path) -> None:
-    """The process that draws logs says nothing of it."""
+    """While a browser is connected; the process that draws logs says nothing of it."""
     with subprocess.Popen(
         [*WORDS, str(tmp_path), "--json", "-"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
         text=True, start_new_session=True,
     ) as process:  # fmt: skip
         assert process.stdout is not None and process.stderr is not None
-        lines = []
-        for line in process.stdout:
-            lines.append(line)
-            if line == "}\n":
-                break
-        raw = json.loads("".join(lines))
-        assert ask(Served(tmp_path, raw["address"], process)).status == 403  # it answers
+        raw = json.loads("".join(iter(process.stdout.readline, "}\n")) + "}")
+        studio = Served(tmp_path, raw["address"], process)
+        cookie, host = let_in(studio), f"127.0.0.1:{port_of(studio)}"
+        assert (ask(studio).status, ask(studio, cookie=cookie).status) == (403, 200)
         begun, end = False, time.monotonic() + 20
         while not begun and time.monotonic() < end:
             lists = Path(f"/proc/{process.pid}/task").glob("*/children")
@@ -66,8 +42,11 @@ def test_json_alone_on_stdout_and_ctrl_c_of_a_terminal_goes_to_all(tmp_path: Pat
             )
             time.sleep(0.3)
         assert begun
-        os.killpg(process.pid, signal.SIGINT)
-        assert process.wait(20) == 130
+        with socket.create_connection(("127.0.0.1", port_of(studio))) as line:
+            line.sendall(websocket_request({"Host": host, "Cookie": cookie}))
+            assert line.recv(12) == b"HTTP/1.1 101"
+            os.killpg(process.pid, signal.SIGINT)
+            assert process.wait(10) == 130
         assert process.stdout.read() == "" and process.stderr.read() == "modeler: interrupted\n"
 
 
@@ -107,7 +86,7 @@ def test_where_it_is_not_installed_it_says_what_to_install(tmp_path: Path, packa
 @pytest.mark.rotating("ways to start a studio")
 def test_the_browser_gets_an_address_that_is_good_once(tmp_path: Path, monkeypatch) -> None:
     """What a browser is started with stands in the list of processes; what is printed does not."""
-    opener = tmp_path / "opener"
+    opener, place, folder = (tmp_path / name for name in ("opener", "address.json", "p"))
     opener.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/opened.part\n'
                       f"mv {tmp_path}/opened.part {tmp_path}/opened\n")  # fmt: skip
     opener.chmod(0o755)
@@ -115,20 +94,22 @@ def test_the_browser_gets_an_address_that_is_good_once(tmp_path: Path, monkeypat
     environment.pop("SSH_CONNECTION", None)
     words = [word for word in WORDS if word != "--no-open"]
     with subprocess.Popen(
-        [*words, str(tmp_path / "p")], stdout=subprocess.PIPE, text=True, env=environment
-    ) as process:
+        [*words, str(folder), "--json", str(place)], stdout=subprocess.PIPE, text=True,
+        env=environment,
+    ) as process:  # fmt: skip
         assert process.stdout is not None
         first, second = process.stdout.readline(), process.stdout.readline()
-        printed = first.rpartition(" ")[2].strip()
+        raw = json.loads(place.read_text())
+        check_schema("studio", raw)
+        assert (raw["folder"], raw["pid"]) == (str(folder), process.pid)
+        assert place.stat().st_mode & 0o077 == 0  # who has the token is let in
         port = first.partition("127.0.0.1:")[2].partition("/")[0]
-        assert f"studio of {tmp_path / 'p'}: http://127.0.0.1:{port}/?token=" in first
+        assert raw["address"].startswith(f"http://127.0.0.1:{port}/?token=")
+        assert f"studio of {folder}: {raw['address']}\n" in first
         assert f"ssh -L {port}:127.0.0.1:{port} HOST" in second
-        end = time.monotonic() + 20
-        while not (tmp_path / "opened").exists() and time.monotonic() < end:
-            time.sleep(0.05)
-        opened = (tmp_path / "opened").read_text().strip()
-        studio = Served(tmp_path, opened, process)
-        path = opened.removeprefix(studio.root)
-        assert opened != printed and [ask(studio, path).status for _ in range(2)] == [303, 403]
-        process.send_signal(signal.SIGINT)
-        process.wait(20)
+        wait_until((tmp_path / "opened").exists)
+        studio = Served(tmp_path, (tmp_path / "opened").read_text().strip(), process)
+        path = studio.address.removeprefix(studio.root)
+        assert studio.address != raw["address"]
+        assert [ask(studio, path).status for _ in range(2)] == [303, 403]
+        assert studio.end() == 130

@@ -1,6 +1,5 @@
 """A studio as a process, and windows of a real browser that look at it."""
 
-import json
 import os
 import re
 import signal
@@ -12,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeler.studio.project import FILE, Project, Step, project_from_text
+from modeler.studio.project import FILE, Project, project_from_text
 from tests.browser.chromium import PATIENCE, chromium
 
 
@@ -42,11 +41,6 @@ class Served:
         text = place.read_text(encoding="utf-8") if place.exists() else ""
         return project_from_text(text, str(place))
 
-    def result(self, step: Step) -> dict[str, Any]:
-        """What the JSON of a step says."""
-        found: dict[str, Any] = json.loads((self.folder / step.result).read_text(encoding="utf-8"))
-        return found
-
     def end(self, number: int = signal.SIGINT) -> int:
         """Its status, after a signal."""
         self.process.send_signal(number)
@@ -58,27 +52,20 @@ def served(folder: Path, *options: str) -> Iterator[Served]:
     """A studio of a folder, as the command starts it."""
     words = [sys.executable, "-m", "modeler", "studio", str(folder), "--no-open", *options]
     environment = os.environ | {"PYTHONUNBUFFERED": "1"}
-    process = subprocess.Popen(
+    with subprocess.Popen(
         words, stdout=subprocess.PIPE, text=True, env=environment, start_new_session=True
-    )
-    assert process.stdout is not None
-    try:
-        address = ""
-        for line in process.stdout:
-            if match := re.search(r"http://\S+", line):
-                address = match[0]
-                break
-        assert address, "the studio printed no address"
-        yield Served(folder, address, process)
-    finally:
-        if process.poll() is None:
+    ) as process:
+        try:
+            assert process.stdout is not None
+            found = next((m for x in process.stdout if (m := re.search(r"http://\S+", x))), None)
+            assert found, "the studio printed no address"
+            yield Served(folder, found[0], process)
+        finally:
             process.send_signal(signal.SIGINT)
             try:
                 process.wait(20)
             except subprocess.TimeoutExpired:
                 process.kill()
-                process.wait()
-        process.stdout.close()
 
 
 class Window:
