@@ -70,9 +70,6 @@ def test_patterns_are_found_and_what_is_so_is_not_said() -> None:
     own = {f"q{j.name}": Choice(f"q{j.name}") for j in FIVE}
     assert words_of(own, own, FIVE) == ()
     assert words_of(own | {"q2": Choice("q2", "deg")}, own, FIVE) == ("q2=q2:deg",)
-
-
-def test_a_robot_file_that_says_it_needs_no_words() -> None:
     table = {"q<j>": {"column": "enc{n}", "unit": "deg", "scale": 0.01, "offset": 3.0}}
     stated = choices(map_from_table(table, "[log]"), FIVE, [f"enc{k}" for k in range(1, 6)])
     assert stated["q2"] == Choice("enc2", "0.01 deg", 1, 3.0)

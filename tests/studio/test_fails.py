@@ -1,34 +1,31 @@
 """Where it fails, in a browser: zoom and cursor are shared, the robot plays along."""
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from tests.browser.chromium import until
-from tests.studio.window import Window, served
+from tests.studio.window import served
 
 RANGES = """() => [...document.querySelectorAll('.js-plotly-plot')]
     .filter((p) => p._fullLayout && p._fullLayout.meta.time)
     .map((p) => p._fullLayout.xaxis.range.map(Number))"""
 
 
-def drawn(window: Window, title: str) -> None:
-    """Until a picture of that title is drawn."""
-    window.page.locator(".picture", has_text=title).locator(".main-svg").first.wait_for()
-
-
 @pytest.mark.rotating("screens of the studio")
 def test_one_zoom_one_cursor_and_the_robot_plays_along(arm: Path, window) -> None:
     with served(arm) as studio:
-        one_zoom(window(viewport={"width": 1280, "height": 2400}).open(studio))
+        own = window(viewport={"width": 1280, "height": 2400}).open(studio)
+        own.go("Where it fails")
+        one_zoom(own.page)
+        assert own.complaints == []
 
 
-def one_zoom(own: Window) -> None:
-    page = own.page
-    own.go("Where it fails")
-    drawn(own, "Joint 2: measured and predicted")
+def one_zoom(page: Any) -> None:
+    page.locator(".picture", has_text="Joint 2: measured").locator(".main-svg").first.wait_for()
     page.get_by_role("switch", name="all joints").click()
-    drawn(own, "Joint 3: measured and predicted")
+    page.locator(".picture", has_text="Joint 3: measured").locator(".main-svg").first.wait_for()
     page.wait_for_function(f"({RANGES})().length === 3")
     whole = page.evaluate(RANGES)[0]
     box = page.locator(".picture", has_text="Joint 1: measured").locator(".nsewdrag").first
@@ -68,4 +65,3 @@ def one_zoom(own: Window) -> None:
     page.get_by_role("button", name="play").click()
     frame.evaluate("tell('joint', { name: '3' })")  # what a click on it does
     until(frame, "[...modelerShow.view.lit].join() === '2'")
-    assert own.complaints == []

@@ -72,14 +72,11 @@ def test_a_panel_has_its_axes_lines_and_spans() -> None:
     assert heights[0][0] > heights[1][1] > heights[1][0] > heights[2][1]
 
 
-def test_the_legend_names_each_series_once() -> None:
+def test_rows_of_one_time_share_their_axis_and_their_legend() -> None:
     named = [trace["name"] for trace in figure(SHARED)["data"] if trace["showlegend"]]
     assert sorted(named) == ["band", "low speed", "measured", "predicted"]
     alone = Picture("one", "", "", ((Panel("", "x", "y", (CLOUD.series[0],)),),), 300)
     assert not figure(alone)["layout"]["showlegend"]
-
-
-def test_rows_of_one_time_share_their_axis() -> None:
     layout = figure(SHARED, time="log")["layout"]
     assert layout["xaxis2"]["matches"] == "x" and "matches" not in layout["xaxis"]
     assert layout["xaxis"]["showticklabels"] is False

@@ -29,14 +29,9 @@ def inside(window: Window) -> Any:
     drawn = "window.modelerShow && modelerShow.view.items.length > 0"
     for _ in range(300):
         window.page.wait_for_timeout(100)
-        found = window.page.query_selector("iframe.studio-robot")
         with suppress(Exception):  # a screen that is drawn anew has another frame
-            frame = None if found is None else found.content_frame()
-            if (
-                frame
-                and window.page.evaluate(f"{STANDING} !== undefined")
-                and frame.evaluate(drawn)
-            ):
+            frame = window.page.query_selector("iframe.studio-robot").content_frame()
+            if window.page.evaluate(f"{STANDING} !== undefined") and frame.evaluate(drawn):
                 return frame
     raise TimeoutError("no robot is drawn")
 
