@@ -2,19 +2,17 @@
 
 import asyncio
 import contextlib
+import resource
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Step, Task
 
-if TYPE_CHECKING:
-    from modeler.studio.studio import Hub
-
 
 @contextlib.contextmanager
-def hub_of(folder: Path, allow: Sequence[Path] = ()) -> Iterator["Hub"]:
+def hub_of(folder: Path, allow: Sequence[Path] = ()) -> Iterator[Any]:
     """One whose commands and questions start no process."""
     from modeler.studio.studio import Hub
     from tests.studio.in_process import without_processes
@@ -27,10 +25,21 @@ def hub_of(folder: Path, allow: Sequence[Path] = ()) -> Iterator["Hub"]:
             hub.close()
 
 
-def run_tasks(hub: "Hub", *tasks: Callable[[Project], Task], keep: bool = True) -> list[Step]:
+def run_tasks(hub: Any, *tasks: Callable[[Project], Task], keep: bool = True) -> list[Step]:
     """Tasks one after the other, each made for the project as it is then."""
 
     async def run_all() -> list[Step]:
         return [await hub.run(task(hub.project), keep=keep) for task in tasks]
 
     return asyncio.run(run_all())
+
+
+@contextlib.contextmanager
+def full_disk(size: int) -> Iterator[None]:
+    """No file may be larger: it needs no rights, and fails in the same place."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)

@@ -1,11 +1,11 @@
 """The studio in this process: its commands, its viewer and its windows, without a browser."""
 
 import asyncio
-import contextlib
 import io
 import re
 import time
 from collections.abc import AsyncIterator, Callable, Iterator, Sequence
+from contextlib import asynccontextmanager, chdir, contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -49,11 +49,7 @@ class InProcess:
 def run_command(folder: Path, words: Sequence[str]) -> tuple[int, tuple[str, ...], str]:
     """Status of a command in a folder, what it prints, and its last word on what went wrong."""
     out, error = io.StringIO(), io.StringIO()
-    with (
-        contextlib.chdir(folder),
-        contextlib.redirect_stdout(out),
-        contextlib.redirect_stderr(error),
-    ):
+    with chdir(folder), redirect_stdout(out), redirect_stderr(error):
         status = main([*words])
     line = error.getvalue().strip().rpartition("\n")[2].removeprefix("modeler: ")
     return status, tuple(out.getvalue().splitlines()), line if status else ""
@@ -64,13 +60,13 @@ async def answer(asked: viewer.Viewer, function: str, arguments: tuple[Any, ...]
     folder, allowed = asked._places
     before, places.READABLE = places.READABLE, places.Roots(allowed)
     try:
-        with contextlib.chdir(folder):
+        with chdir(folder):
             return viewer.answer(function, arguments)
     finally:
         places.READABLE = before
 
 
-@contextlib.contextmanager
+@contextmanager
 def without_processes() -> Iterator[None]:
     """Commands and questions of a studio start no process."""
     with pytest.MonkeyPatch.context() as patch:
@@ -199,7 +195,7 @@ class Page:
             await asyncio.sleep(0.01)
 
 
-@contextlib.asynccontextmanager
+@asynccontextmanager
 async def windows(folder: Path, allow: Sequence[Path] = ()) -> AsyncIterator[Callable[[], Page]]:
     """A function that makes windows of the studio of a folder."""
     folder.mkdir(parents=True, exist_ok=True)

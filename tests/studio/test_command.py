@@ -37,9 +37,8 @@ def test_json_alone_on_stdout_and_ctrl_c_of_a_terminal_goes_to_all(tmp_path: Pat
         while not begun and time.monotonic() < end:
             lists = Path(f"/proc/{process.pid}/task").glob("*/children")
             children = [name for text in lists for name in text.read_text().split()]
-            begun = any(
-                b"spawn_main" in Path(f"/proc/{name}/cmdline").read_bytes() for name in children
-            )
+            words = (Path(f"/proc/{name}/cmdline").read_bytes() for name in children)
+            begun = any(b"spawn_main" in one for one in words)
             time.sleep(0.3)
         assert begun
         with socket.create_connection(("127.0.0.1", port_of(studio))) as line:

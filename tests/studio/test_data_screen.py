@@ -17,15 +17,6 @@ from tests.studio.window import Served, Window, served
 JOINTS = (1, 2, 3)
 
 
-def until(w: Window, served_: Served, holds: Callable[[Any], bool]) -> Any:
-    """The project, as soon as its file says so."""
-    for _ in range(1200):
-        if holds(served_.project):
-            return served_.project
-        w.page.wait_for_timeout(50)
-    raise AssertionError(served_.project)
-
-
 @pytest.mark.rotating("screens of the studio")
 def test_a_log_is_dropped_dragged_brushed_and_played(
     window: Callable[..., Window], tmp_path: Path
@@ -52,9 +43,9 @@ def drags_and_brushes(w: Window, studio: Served) -> None:
     page, found = w.page, studio.project
     # By dragging a column onto our name, and back.
     page.locator(".mapping-chip", has_text="Winkel_1").drag_to(page.locator("[data-own=q2]"))
-    until(w, studio, lambda p: "q2=Winkel_1:deg" in p.mapping)
+    w.until(lambda: "q2=Winkel_1:deg" in studio.project.mapping)
     page.locator(".mapping-chip", has_text="Winkel_2").drag_to(page.locator("[data-own=q2]"))
-    until(w, studio, lambda p: p.mapping == found.mapping)
+    w.until(lambda: studio.project.mapping == found.mapping)
 
     # A stretch is held out, by brushing.
     page.locator(".timeline-active").scroll_into_view_if_needed()
@@ -65,15 +56,14 @@ def drags_and_brushes(w: Window, studio: Served) -> None:
     page.mouse.move(box["x"] + 0.3 * box["width"], y, steps=4)
     page.mouse.up()
     page.get_by_role("button", name="held out", exact=True).click()
-    log = until(w, studio, lambda p: p.logs[0].test[0].start < 5.0).logs[0]
-    assert log.test[0].start == pytest.approx(0.8, abs=0.03)
-    assert log.test[0].end == pytest.approx(2.4, abs=0.03)
+    w.until(lambda: studio.project.logs[0].test[0].start < 5.0)
+    (held, _) = studio.project.logs[0].test
+    assert (held.start, held.end) == pytest.approx((0.8, 2.4), abs=0.03)
     # By the keyboard: numbers, and a key on the line.
     page.get_by_label("from s").fill("5")
     page.get_by_label("to s").fill("6.5")
     page.locator(".timeline-active").press("o")
-    log = until(w, studio, lambda p: p.logs[0].out).logs[0]
-    assert log.out == (Stretch(5.0, 6.5),)
+    w.until(lambda: studio.project.logs[0].out == (Stretch(5.0, 6.5),))
 
 
 def plays(w: Window, run: Any) -> None:

@@ -4,7 +4,6 @@ import asyncio
 import json
 import os
 import random
-import resource
 import signal
 import socket
 import threading
@@ -18,6 +17,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from modeler.core.errors import ModelerError
+from tests.studio.hubs import full_disk
 from tests.studio.requests import Answer, ask, let_in, port_of
 from tests.studio.window import Served, served
 
@@ -187,14 +187,9 @@ def receive(dropped: Any, tmp_path: Path) -> Callable[..., str]:
 
 
 def test_a_full_disk_is_one_line_and_leaves_nothing(receive, tmp_path: Path) -> None:
-    """The limit of a file's size stands for it: it needs no rights, and fails in the same place."""
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (8 * 2**20, before[1]))
-    try:
-        with pytest.raises(ModelerError, match=r"large.csv: cannot be kept in .*logs \(.*\); make"):
-            receive(b"x" * 9 * 2**20)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    refused = pytest.raises(ModelerError, match=r"large.csv: cannot be kept in .*logs \(.*\); make")
+    with full_disk(8 * 2**20), refused:
+        receive(b"x" * 9 * 2**20)
     assert not list((tmp_path / "logs").iterdir())
     with pytest.raises(ModelerError, match=r"1e\+03 TB to come|1000 TB to come"):
         receive(b"x", 10**15)  # refused before it comes

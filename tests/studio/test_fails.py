@@ -53,9 +53,8 @@ def one_zoom(page: Any) -> None:
     assert len(told) == 1
     assert abs(float(told.pop().removesuffix(" s")) - 0.5 * (low + high)) < 0.1
     page.mouse.dblclick(where["x"] + 0.5 * where["width"], middle)
-    page.wait_for_function(
-        f"({RANGES})().every(([a, b]) => b - a > {0.95 * (whole[1] - whole[0])})"
-    )
+    length = 0.95 * (whole[1] - whole[0])
+    page.wait_for_function(f"({RANGES})().every(([a, b]) => b - a > {length})")
     frame = page.locator("iframe.studio-robot").element_handle().content_frame()
     until(frame, "window.modelerShow && modelerShow.view.lit.size === 1")
     before = frame.evaluate("[...modelerShow.u]")

@@ -5,7 +5,6 @@ With --regenerate the windows of the arm become the pictures of the studio page 
 
 import io
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 from tests.studio.window import Served, Window, served
@@ -32,18 +31,11 @@ class Person:
     def count(self, kind: str) -> int:
         return sum(step.verb == kind for step in self.studio.project.steps)
 
-    def until(self, holds: Callable[[], bool]) -> None:
-        for _ in range(600):
-            if holds():
-                return
-            self.page.wait_for_timeout(200)
-        raise TimeoutError
-
     def runs(self, button: str, kind: str) -> None:
         """A command by its button, until it is a step and the screen shows it."""
         before = self.count(kind)
         self.window.click(button, exact=True)
-        self.until(lambda: self.count(kind) > before)
+        self.window.until(lambda: self.count(kind) > before)
         self.window.idle()
 
     def draws(self, kind: str) -> None:
@@ -83,7 +75,7 @@ def do_jobs(person: Person) -> None:
     person.runs("Preview", "add")
     window.sees("Preview. ")
     window.click("Add", exact=True)
-    person.until(lambda: project().current != before)
+    person.window.until(lambda: project().current != before)
     window.go("6  Watch it fall")
     person.draws(".bars")
     person.keep("fall")
@@ -125,6 +117,6 @@ def test_an_arm_with_a_hidden_effect(tmp_path, request, regenerate: bool) -> Non
         person = Person(request.getfixturevalue("window")().open(studio), studio)
         person.window.click("Try the demo")
         person.page.wait_for_url("**/data")
-        person.until(lambda: person.count("log") == 2)
+        person.window.until(lambda: person.count("log") == 2)
         do_jobs(person)
     (DOCS / "story.png").write_bytes(story(DOCS))

@@ -3,7 +3,6 @@
 import contextlib
 import json
 import random
-import resource
 import subprocess
 import sys
 import time
@@ -17,7 +16,7 @@ from modeler.studio import commands
 from modeler.studio.places import folder_lock
 from modeler.studio.project import FILE, Workspace
 from tests.rotation import ROTATING
-from tests.studio.hubs import hub_of, run_tasks
+from tests.studio.hubs import full_disk, hub_of, run_tasks
 from tests.studio.test_dropped import wait_until
 
 # What windows do to a project, without windows: a fit, an effect more, back again, and so on.
@@ -96,18 +95,13 @@ def test_killed_at_random_moments(axis_project: Path, times: int) -> None:
 
 
 def test_a_full_disk_is_a_line_and_the_project_stays(axis_project: Path) -> None:
-    """Larger files than so are not written, by the command neither: what needs no rights for it."""
     folder = axis_project
     with hub_of(folder) as hub:
         run_tasks(hub, commands.fit)
         before, text = hub.project, (folder / FILE).read_bytes()
-        limit = resource.getrlimit(resource.RLIMIT_FSIZE)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, limit[1]))
-        try:
-            with pytest.raises(ModelerError, match=r"^models/2.json: cannot be written \("):
-                run_tasks(hub, commands.fit)
-        finally:
-            resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+        refused = pytest.raises(ModelerError, match=r"^models/2.json: cannot be written \(")
+        with full_disk(4096), refused:
+            run_tasks(hub, commands.fit)
         assert hub.project == before and (folder / FILE).read_bytes() == text
         assert check(folder, 1) == 1
         run_tasks(hub, commands.fit)

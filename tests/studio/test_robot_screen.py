@@ -36,11 +36,6 @@ def inside(window: Window) -> Any:
     raise TimeoutError("no robot is drawn")
 
 
-def picture(frame: Any) -> str:
-    frame.evaluate("new Promise((d) => requestAnimationFrame(() => requestAnimationFrame(d)))")
-    return str(frame.evaluate("document.getElementById('picture').toDataURL()"))
-
-
 def cell(window: Window, row: int, column: str) -> Any:
     name = f"row {row}, column {column}"
     return window.page.get_by_role("textbox", name=name, exact=True)
@@ -68,13 +63,13 @@ def test_a_pasted_table_is_edited_and_nothing_is_lost(window, tmp_path) -> None:
         assert cell(w, 2, "a").input_value() == "270.5 mm"
         poses_are_those_of(w, file)
         frame.evaluate("modelerShow.view.turn(0.4, 0.1), 0")
-        before, eye = picture(frame), frame.evaluate("modelerShow.view.rotation")
+        eye = frame.evaluate("modelerShow.view.rotation")
         # An edit moves the skeleton; the eye stays.
         w.page.evaluate(f"{STANDING.rpartition('.')[0]}.standing = undefined")
         cell(w, 2, "a").fill("400 mm")
         w.page.wait_for_function(f"{STANDING} !== undefined")
         poses_are_those_of(w, file)
-        assert '"400 mm"' in file.read_text() and picture(frame) != before
+        assert '"400 mm"' in file.read_text()
         assert frame.evaluate("modelerShow.view.rotation") == eye
         # A mistake is at its cell; picture and file stay, and so does what was typed.
         good, seen = file.read_text(), frame.evaluate("modelerShow.poses()")

@@ -8,13 +8,12 @@ import shutil
 import zipfile
 from collections.abc import Awaitable, Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-import scipy.io
 
 from modeler.api import load, simulate
 from modeler.robot import robot_from_text, written_limits
@@ -25,13 +24,8 @@ from modeler.studio.tasks import Stretch
 from tests.studio.hubs import hub_of, run_tasks
 from tests.studio.texts import GERMAN, URDF
 
-if TYPE_CHECKING:
-    from tests.studio.in_process import Page
 
-Told = Callable[["Page"], Awaitable[None]]
-
-
-def story(folder: Path, told: Told, place: str = "/") -> None:
+def story(folder: Path, told: Callable[[Any], Awaitable[None]], place: str = "/") -> None:
     """What one person does in one window."""
     from tests.studio.in_process import windows
 
@@ -44,7 +38,7 @@ def story(folder: Path, told: Told, place: str = "/") -> None:
 
 @pytest.mark.rotating("long tests of studio")
 def test_a_fit_is_judged_joint_by_joint(arm: Path) -> None:
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         text = page.texts()
         assert "doubtful: joint 2" in text and "25 values" in text
         assert text.count("\ngood\n") == 2 and text.count("not essential") >= 1
@@ -71,7 +65,7 @@ def test_a_fit_is_judged_joint_by_joint(arm: Path) -> None:
 
 @pytest.mark.rotating("long tests of studio")
 def test_an_effect_is_banned_previewed_and_added(arm: Path) -> None:
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         project = page.project
         tried = project.steps[-1]
         assert tried.verb == "add" and (arm / tried.model).is_file() and project.current == 5
@@ -101,7 +95,7 @@ def test_the_error_falls_and_undo_loses_nothing(axis_project: Path) -> None:
     with hub_of(axis_project) as hub:
         run_tasks(hub, commands.fit, lambda project: commands.add(project, "spring", "1"))
 
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         steps = page.project.steps
         await page.sees("Error after every effect")
         await page.click("Undo to step 1")
@@ -120,7 +114,7 @@ def test_the_error_falls_and_undo_loses_nothing(axis_project: Path) -> None:
 
 @pytest.mark.rotating("long tests of studio")
 def test_what_is_taken_away(arm: Path) -> None:
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         await page.click("Write C")
         content = await page.saves("Download demo-arm_c.zip")
         names = zipfile.ZipFile(io.BytesIO(content)).namelist()
@@ -148,7 +142,7 @@ def test_what_is_taken_away(arm: Path) -> None:
     story(arm, told, "/take")
 
 
-def plots(page: "Page", name: str) -> list[Any]:
+def plots(page: Any, name: str) -> list[Any]:
     """Pictures with a series of that name."""
     return [
         plot
@@ -159,7 +153,7 @@ def plots(page: "Page", name: str) -> list[Any]:
 
 @pytest.mark.rotating("long tests of studio")
 def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         await page.sees("Joint 2: measured and predicted")  # the worst one at first
         await page.sees("modeler compare models/5.json logs/held_out.parquet")
         joints = [one for one in page.every() if "fails-joint" in one.classes]
@@ -208,7 +202,7 @@ def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
 
 @pytest.mark.rotating("long tests of studio")
 def test_days_and_models_are_compared_and_drift_is_looked_for(arm: Path) -> None:
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         await page.sees("Joint 1: residual over velocity")
         assert re.search(r"joint 2\s+[\d.]+ %\s+[\d.]+ %", page.texts())
         page.choose("tabs", "models")
@@ -230,7 +224,7 @@ def test_days_and_models_are_compared_and_drift_is_looked_for(arm: Path) -> None
 
 @pytest.mark.rotating("screens of the studio")
 def test_a_motion_is_found_and_taken(arm: Path) -> None:
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         page.change("duration, s", 2.0)
         await page.sees("modeler excite models/5.json --duration 2 --out")
         await page.click("Find the motion")
@@ -252,7 +246,7 @@ def test_a_table_is_pasted_edited_and_nothing_is_lost(tmp_path: Path) -> None:
     folder = tmp_path / "arm"
     file, draft = folder / "robot.toml", folder / "robot.draft.toml"
 
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         async def edit(table: str, event: str, **detail: Any) -> str:
             page.trigger(page.listeners("cell")[TABLES.index(table)], event, {"detail": detail})
             await page.idle()
@@ -302,7 +296,7 @@ def test_a_table_is_pasted_edited_and_nothing_is_lost(tmp_path: Path) -> None:
 
 
 def test_base_parameters_are_derived_of_a_built_in_robot(tmp_path: Path) -> None:
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         page.change("robot", "five-bar")
         await page.click("Take it")
         page.choose("tabs", "Base parameters")
@@ -340,20 +334,20 @@ def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
     lines = [";".join(spoilt), *(";".join(repr(x).replace(".", ",") for x in row) for row in rows)]
     (tmp_path / "a.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
     pq.write_table(pa.table(columns), tmp_path / "b.parquet")
-    scipy.io.savemat(tmp_path / "c.mat", columns)
+    shutil.copy(tmp_path / "b.parquet", tmp_path / "c.parquet")
     (tmp_path / "broken.parquet").write_bytes(b"PAR1 this is none")
 
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         def mapping() -> str:
             return " ".join(page.project.mapping)
 
-        await page.drops(*(tmp_path / name for name in ("a.csv", "b.parquet", "c.mat")))
+        await page.drops(*(tmp_path / name for name in ("a.csv", "b.parquet", "c.parquet")))
         await page.until(lambda: page.project.mapping, "a mapping")
         guess = ("time=Zeit", "q<j>=Winkel_{j}:deg", "tau<j>=Drehmoment_{j}")
         await page.until(lambda: page.project.mapping == guess, "the guess")
         train = ["logs/a.csv", "logs/b.parquet"]
         await page.until(lambda: page.project.words("train") == train, "roles")
-        assert page.project.words("test") == ["logs/c.mat"]
+        assert page.project.words("test") == ["logs/c.parquet"]
         await page.sees("A guess by names")
         await page.until(lambda: plots(page, "joint 1") and page.hub.running is None, "curves")
         await page.until(lambda: page.every(text="why"), "a doubt")
@@ -444,7 +438,7 @@ def test_nothing_of_a_foreign_project_is_run_before_it_is_accepted(
 ) -> None:
     monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "theirs"))
 
-    async def told(page: "Page") -> None:
+    async def told(page: Any) -> None:
         steps = page.project.steps
         await page.sees("the project was made by another user or on another machine")
         assert not [b for b in page.every("button", "Fit") if b.text == "Fit" and b.enabled]

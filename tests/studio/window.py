@@ -5,7 +5,7 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -109,6 +109,14 @@ class Window:
             " && !document.querySelector('.studio-running:not(.hidden)')",
             polling=100,
         )
+
+    def until(self, holds: Callable[[], Any]) -> None:
+        """Waits for what the page brings about elsewhere."""
+        for _ in range(2400):
+            if holds():
+                return
+            self.page.wait_for_timeout(50)
+        raise TimeoutError
 
     def sees(self, text: str) -> None:
         """Until this stands on the page."""
