@@ -124,6 +124,7 @@ def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_pat
     with served(folder) as studio:
         w = window().open(studio)
         w.go("Robot")
+        inside(w)  # the screen stands
         robot = robot_from_text(text, "robot.toml")
         w.page.get_by_role("tab", name="Base parameters").click()
         w.click("Derive")
