@@ -65,12 +65,17 @@ class Functions:
     """The compiled functions of an emitted module, one sample a call."""
 
     def __init__(self, emitted: Emitted, **widths: float) -> None:
-        """Compile; widths by the end of their macro's name, `COULOMB_WIDTH_1=0.1`."""
+        """Compile; widths by the end of their macro's name, `COULOMB_WIDTH_1=0.1`.
+
+        With widths, and where no loops close, the unit that reads them is all that is compiled.
+        """
         self.spec = emitted.spec
-        macro = self.spec.prefix.upper()
-        defined = [f"-D{macro}_{name}={value}" for name, value in widths.items()]
-        with unoptimised(*defined):
-            path = build_library({name: emitted.files[name] for name in self.spec.sources})
+        macro, end = self.spec.prefix.upper(), ".c"
+        if widths and self.spec.closure is None:
+            end = f"{self.spec.prefix}_fitted.c"
+        units = [name for name in self.spec.sources if name.endswith((".h", end))]
+        with unoptimised(*(f"-D{macro}_{name}={value}" for name, value in widths.items())):
+            path = build_library({name: emitted.files[name] for name in units})
         self._library = ctypes.CDLL(str(path))
         fitted = self.spec.fitted.functions if self.spec.fitted is not None else ()
         known = (*self.spec.functions, *fitted)
@@ -106,17 +111,17 @@ class Functions:
         """A table of whole numbers."""
         return [*(ctypes.c_int * count).in_dll(self._library, f"{self.spec.prefix}_{name}")]
 
-    def __call__(self, role: str, given: Mapping[str, np.ndarray]) -> np.ndarray:
-        """The output over the samples; what the function reads is taken from `given`."""
+    def __call__(self, role: str, state: Mapping[str, np.ndarray]) -> np.ndarray:
+        """The output over the samples; what the function reads is taken from `state`."""
         function = self._known[role]
-        arrays = [given[argument.name] for argument in function.inputs]
+        arrays = [state[argument.name] for argument in function.inputs]
         call = getattr(self._library, function.name)
-        found = np.full((len(given["q"]), *function.outputs[0].shape), np.nan, self._number)
-        for i, out in enumerate(found):
+        result = np.full((len(state["q"]), *function.outputs[0].shape), np.nan, self._number)
+        for i, out in enumerate(result):
             rows = [np.ascontiguousarray(a if a.ndim == 1 else a[i], self._number) for a in arrays]
             status = call(*(a.ctypes.data_as(ctypes.c_void_p) for a in (*rows, out)))
             assert not function.status or status == 0
-        return found
+        return result
 
 
 def motion(name: str, samples: int = 12, seed: int = 6) -> dict[str, np.ndarray]:
