@@ -101,6 +101,11 @@ def test_numbers_of_single_precision_and_those_beyond_a_precision():
         says = f"too large for {target.precision} precision, which has .* rescale"
         with pytest.raises(EmitError, match=says):
             number_text(Fraction(10**size), target)
+    for number, what in ((1e60, "large"), (-4e-50, "small")):
+        says = rf"too {what} for single precision.* or generate in double"
+        with pytest.raises(EmitError, match=says):
+            SINGLE.literal(number)
+        assert DOUBLE.literal(number) == repr(number)
 
 
 def test_what_has_no_form_in_c_is_refused():
