@@ -16,9 +16,8 @@ from modeler.codegen.package import write_emitted
 from modeler.codegen.workflow import Derivation, derive, generate, load
 from modeler.core.errors import BuildError, EmitError, ManifestError
 from modeler.core.manifest import Emitted, module_from_json
-from modeler.runtime.model import load_folder
 from tests.csrc.emitted_folders import CPP, built, make, run
-from tests.modules import STRICT, compiler, unoptimised
+from tests.modules import STRICT, compiler, loaded
 
 PROGRAMS = Path(__file__).with_name("programs")
 TUNED = ["-O3", "-fno-tree-slp-vectorize", "-fno-math-errno", "-fno-trapping-math",
@@ -59,46 +58,43 @@ def test_what_only_many_samples_need_is_a_library_of_its_own(name, tmp_path):
 
 
 ONLY = [
-    ("demo-arm", "forward_derivatives", {"forward_derivatives"}, True),
     ("demo-arm", "inverse_dynamics,gravity", {"inverse_dynamics", "gravity"}, False),
-    ("five-bar", "inverse_dynamics,close", {"inverse_dynamics", "close"}, False),
-    pytest.param("demo-arm", "regressor,observation",
-                 {"regressor", "base_regressor", "base_regressor_nonzeros"}, True,
-                 marks=pytest.mark.rotating),
-    pytest.param("five-bar", "observation", {"base_regressor"}, True, marks=pytest.mark.rotating),
+    *(pytest.param(*case, marks=pytest.mark.rotating)
+      for case in (("demo-arm", "forward_derivatives", {"forward_derivatives"}, True),
+                   ("demo-arm", "regressor,observation",
+                    {"regressor", "base_regressor", "base_regressor_nonzeros"}, True),
+                   ("five-bar", "inverse_dynamics,close", {"inverse_dynamics", "close"}, False),
+                   ("five-bar", "observation", {"base_regressor"}, True))),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "only", "kept", "vectors"), ONLY)
-def test_some_functions_alone(name, only, kept, vectors, tmp_path):
+@pytest.mark.parametrize(("name", "only", "wanted", "vectors"), ONLY)
+def test_some_functions_alone(name, only, wanted, vectors, tmp_path):
     """What they call comes along; all of it compiles without a warning and is what it was."""
     module = emitted(name, only, vectors=vectors)
     spec = module.spec
     write_emitted(module, tmp_path)
-    told = make(tmp_path, "check", *["vectors"] * vectors)
-    assert "agree with the stored states" in told and (" 0 fail" in told) == vectors
-    roles = {f.name.removeprefix(f"{spec.prefix}_") for f in spec.every_function}
-    assert kept <= roles
-    assert roles - kept <= {"inverse_dynamics", "derivatives", "inertia_matrix", "forward_dynamics"}
+    said = make(tmp_path, "check", *["vectors"] * vectors)
+    assert "agree with the stored states" in said and (" 0 fail" in said) == vectors
+    names = {f.name for f in spec.every_function}
+    others = {n.removeprefix(f"{spec.prefix}_") for n in names} - wanted
+    assert names >= {f"{spec.prefix}_{role}" for role in wanted}
+    assert others <= {"inverse_dynamics", "derivatives", "inertia_matrix", "forward_dynamics"}
     header = "".join(path.read_text() for path in tmp_path.glob("*.h"))
     for each in emitted(name).spec.every_function:
-        declared = f" {each.name}(" in header
-        assert declared == (each.name in {f.name for f in spec.every_function}), each.name
+        assert (f" {each.name}(" in header) == (each.name in names), each.name
     present = {path.name for path in tmp_path.glob("*.[ch]")}
     assert present == {n for n in module.files if n[-2:] in (".c", ".h") and "/" not in n}
     assert {*spec.sources, *spec.tile_sources} <= present
 
 
-def test_python_calls_what_there_is_and_says_what_there_is_not(tmp_path):
-    write_emitted(emitted("demo-arm", "inverse_dynamics,gravity"), tmp_path)
-    with unoptimised():
-        model = load_folder(tmp_path)
+def test_python_calls_what_there_is_and_says_what_there_is_not():
+    model = loaded(emitted("demo-arm", "inverse_dynamics,gravity"))
     beta = np.random.default_rng().uniform(1, 2, len(model.spec.base))
     q = np.random.default_rng().uniform(-2, 2, (3, len(model.spec.joints)))
     tau = model.inverse_dynamics(q, 0 * q, 0 * q, beta)
-    assert model.evaluate("inverse_dynamics", q=q, qd=0 * q, qdd=0 * q, beta=beta) == (
-        pytest.approx(tau)
-    )
+    evaluated = model.evaluate("inverse_dynamics", q=q, qd=0 * q, qdd=0 * q, beta=beta)
+    assert evaluated == pytest.approx(tau)
     for call in (lambda: model.coriolis(q, q, beta), lambda: model.observation(q, q, q),
                  lambda: model.base_parameters(np.ones(len(model.spec.standard)))):  # fmt: skip
         with pytest.raises(ManifestError, match=r"has no function .*generated with --only"):
@@ -119,15 +115,11 @@ def test_an_array_that_is_too_short_warns(words, tmp_path):
                program("short.c", tmp_path)]  # fmt: skip
     run(*command, "-DSHORTER=0", where=tmp_path)
     if words[0] == "gcc":
-        told = run(*command, "-DSHORTER=1", where=tmp_path, fails=True)
-        assert "demo_arm_gravity" in told and "[-Werror=stringop-over" in told
+        warning = run(*command, "-DSHORTER=1", where=tmp_path, fails=True)
+        assert "demo_arm_gravity" in warning and "[-Werror=stringop-over" in warning
 
 
-@pytest.mark.parametrize(
-    "words",
-    [["gcc", *STRICT], ["clang", *STRICT], ["g++", *CPP, "-x", "c++"],
-     ["clang++", *CPP, "-x", "c++"]],
-)  # fmt: skip
+@pytest.mark.parametrize("words", [["gcc", *STRICT], ["clang++", *CPP, "-x", "c++"]])
 def test_joints_limits_and_versions_are_constants(words, tmp_path):
     """Beside the robot file and the manifest."""
     robot, spec = derivation("demo-arm").robot, emitted("demo-arm").spec
@@ -143,8 +135,8 @@ def test_joints_limits_and_versions_are_constants(words, tmp_path):
         assert np.array_equal(np.array(limits, float), wanted, equal_nan=True)
     origin = module_from_json((tmp_path / "manifest.json").read_text(), "").origin
     signature = spec.signature()
-    told = [origin.interface, origin.license, origin.generator, signature, signature]
-    assert last == "|".join(map(str, told))
+    words = [origin.interface, origin.license, origin.generator, signature, signature]
+    assert last == "|".join(map(str, words))
     assert origin.license == "MIT" and origin.generator.startswith("modeler ")
 
 
@@ -191,6 +183,7 @@ def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
     assert "0 outputs" in told([])
 
 
+@pytest.mark.rotating("headers for C++")
 @pytest.mark.parametrize("cc", ["g++", "clang++"])
 def test_the_header_for_cpp_returns_what_the_c_writes(cc, tmp_path):
     built(emitted("demo-arm"), tmp_path, "all", "batch")
@@ -204,6 +197,7 @@ def test_the_header_for_cpp_returns_what_the_c_writes(cc, tmp_path):
     assert "no matching function" in run(*command, f"-DSPOIL={short}", where=tmp_path, fails=True)
 
 
+@pytest.mark.rotating("headers for C++")
 def test_the_header_for_cpp_has_the_state_of_loops(tmp_path):
     write_emitted(emitted("five-bar", "inverse_dynamics", "single"), tmp_path)
     make(tmp_path)
@@ -237,14 +231,6 @@ def test_the_stack_of_a_call_is_a_bound_of_what_it_uses(tmp_path):
     for painted, role in zip(both, BOTH.split(","), strict=True):
         stack = found[f"five_bar_{role}"]["stack"]
         assert painted - nothing - 1500 <= stack <= 2 * (painted - nothing), role
-
-
-def test_what_one_function_costs_alone():
-    """A function that calls nothing: its frame and its section, as the compiler states them."""
-    found = costs("demo-arm", "friction,inverse_dynamics")
-    friction, torque = found["demo_arm_friction"], found["demo_arm_inverse_dynamics"]
-    assert friction["outside"] == [] and 0 < friction["flash"] < torque["flash"]
-    assert friction["stack"] < torque["stack"] and torque["outside"]
 
 
 @pytest.mark.parametrize("name", ["two-link", pytest.param("five-bar", marks=pytest.mark.rotating)])

@@ -3,13 +3,12 @@
 import dataclasses
 import subprocess
 
-import numpy as np
 import pytest
 
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.files import resource_dir
-from tests.codegen.fitted_library import Functions, motion, with_values
+from tests.codegen.fitted_library import with_values
 from tests.modules import compiler, module
 
 USER = """#include "{prefix}.h"
@@ -70,29 +69,3 @@ def test_no_unit_compiles_where_nan_would_not_stay_nan(cc, flag, tmp_path):
         assert done.returncode != 0, unit.name
         assert "NaN must stay NaN: compile without -ffast-math" in done.stderr
         subprocess.run([*command[:3], "-fno-finite-math-only", *command[3:]], check=True)
-
-
-@pytest.mark.parametrize("name", [pytest.param("wrist", marks=pytest.mark.rotating), "slow-arm",
-                                  pytest.param("sr400", marks=pytest.mark.rotating)])  # fmt: skip
-def test_no_number_comes_of_an_input_that_is_none(name):
-    """Each output hangs on the inputs that move it: NaN there is NaN here, in friction too."""
-    emitted = with_values(name)
-    functions, given = Functions(emitted), motion(name, 3)
-    random = np.random.default_rng(5)
-    spec = emitted.spec
-    given |= {"dq": 0.01 * given["qd"], "dt": np.full((3, 1), 0.01)}
-    given |= {
-        kind: np.tile(random.uniform(0.5, 1.5, size), (3, 1))
-        for kind, size in (("beta", len(spec.base)), ("chi", len(spec.standard)))
-    }
-    for role in functions.every:
-        plain = functions(role, given)
-        for argument in functions.inputs(role):
-            for k in range(argument.shape[0]):
-                moved, bad = (
-                    {**given, argument.name: np.array(given[argument.name])} for _ in range(2)
-                )
-                moved[argument.name][:, k] *= -1.37
-                bad[argument.name][:, k] = np.nan
-                depends = np.any(functions(role, moved) != plain, axis=0)
-                assert np.isnan(functions(role, bad)[:, depends]).all(), (role, argument.name, k)
