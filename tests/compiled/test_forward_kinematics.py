@@ -1,12 +1,9 @@
 """Poses from the compiled C against elementary motions multiplied in numpy."""
 
-import re
-
 import numpy as np
 import pytest
 
 from modeler.codegen.emit import emit
-from modeler.core.errors import ShapeError
 from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.read import read_robot, robot_from_text
@@ -44,14 +41,3 @@ def test_a_row_may_hold_anything():
     q = states(4, 25)[0]
     T = loaded(emitted).forward_kinematics(q)
     np.testing.assert_allclose(T, expected(robot, q), rtol=0, atol=1e-13)
-
-
-def test_shapes():
-    wrist = plain("wrist")
-    assert wrist.forward_kinematics(np.empty((0, 3))).shape == (0, 3, 3, 4)
-    with pytest.raises(ShapeError, match=re.escape("q: got shape (5, 2), expected (samples, 3)")):
-        wrist.forward_kinematics(np.zeros((5, 2)))
-    function = wrist.spec.functions[-1]
-    assert function.name == "wrist_forward_kinematics"
-    assert [argument.shape for argument in function.inputs] == [(3,)]
-    assert [argument.shape for argument in function.outputs] == [(3, 3, 4)]

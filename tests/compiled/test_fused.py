@@ -31,24 +31,19 @@ def check(found: np.ndarray, rows: np.ndarray) -> None:
 
 
 @pytest.mark.digits
-@pytest.mark.parametrize("samples", [0, 1, 7, 8, 9, 255, 1000])
-def test_triangles_are_those_of_the_rows(samples):
-    wrist = plain("wrist")
-    q, qd, qdd = states(3, samples)
-    tau = np.random.default_rng(1).normal(size=q.shape)
-    found = wrist.triangles(q, qd, qdd, tau)
-    assert found.rows.tolist() == [samples] * 3 and not found.left_out.any()
-    check(found.triangles, stacked(wrist, q, qd, qdd, tau))
-
-
-@pytest.mark.digits
-@pytest.mark.parametrize("name", ["five-bar", "emps"])
-def test_loops_and_single_joints_are_not_special(name):
+@pytest.mark.parametrize(
+    ("name", "samples"),
+    [*(("wrist", n) for n in (0, 1, 7, 8, 9, 255, 1000)), ("five-bar", 300), ("emps", 300)],
+)
+def test_triangles_are_those_of_the_rows(name, samples):
     model = plain(name)
-    q, qd, qdd = states(len(model.spec.joints), 300)
-    q = 0.05 * q + (0.0 if model.spec.closure is None else home(model))
-    tau = np.random.default_rng(2).normal(size=q.shape)
-    check(model.triangles(q, qd, qdd, tau).triangles, stacked(model, q, qd, qdd, tau))
+    q, qd, qdd = states(len(model.spec.joints), samples)
+    if model.spec.closure is not None:
+        q = 0.05 * q + home(model)
+    tau = np.random.default_rng(1).normal(size=q.shape)
+    result = model.triangles(q, qd, qdd, tau)
+    assert result.rows.tolist() == [samples] * q.shape[1] and not result.left_out.any()
+    check(result.triangles, stacked(model, q, qd, qdd, tau))
 
 
 def home(model) -> np.ndarray:
@@ -185,26 +180,21 @@ def test_least_squares_of_a_triangle_is_that_of_the_rows():
 
 
 def test_wrong_arrays_are_refused_by_name():
-    wrist = plain("wrist")
-    q, qd, qdd = states(3, 5)
-    with pytest.raises(
-        ShapeError, match=r"use: got shape \(5, 2\) of type bool, expected \(5, 3\)"
+    wrist, (q, qd, qdd) = plain("wrist"), states(3, 5)
+    state = plain("two-link").triangles(*states(2, 5), states(2, 5)[0])
+    for more, says in (
+        (
+            {"use": np.ones((5, 2), bool)},
+            r"use: got shape \(5, 2\) of type bool, expected \(5, 3\)",
+        ),
+        ({"use": np.ones((5, 3), np.int64)}, r"use: got shape \(5, 3\) of type int64"),
+        ({"tau": np.ones((4, 3))}, "different numbers of samples"),
+        ({"state": state}, r"state: got triangles of another robot \(2 joints"),
+        ({"state": "x"}, "state: got str, expected what `triangles` gave"),
+        *(({name: None}, f"^{name}: got no array of real") for name in ("q", "qd", "qdd", "tau")),
     ):
-        wrist.triangles(q, qd, qdd, q, use=np.ones((5, 2), dtype=bool))
-    with pytest.raises(ShapeError, match=r"use: got shape \(5, 3\) of type int64"):
-        wrist.triangles(q, qd, qdd, q, use=np.ones((5, 3), dtype=np.int64))
-    with pytest.raises(ShapeError, match="different numbers of samples"):
-        wrist.triangles(q, qd, qdd, np.ones((4, 3)))
-
-
-def test_every_array_but_weights_is_needed():
-    wrist = plain("wrist")
-    motion = states(3, 5)
-    for name, place in (("q", 0), ("qd", 1), ("qdd", 2), ("tau", 3)):
-        given = [*motion, motion[0]]
-        given[place] = None
-        with pytest.raises(ShapeError, match=f"^{name}: got no array of real numbers"):
-            wrist.triangles(*given)
+        with pytest.raises(ShapeError, match=says):
+            wrist.triangles(**({"q": q, "qd": qd, "qdd": qdd, "tau": q} | more))
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -0.5])
@@ -218,14 +208,3 @@ def test_weights_in_use_are_finite_and_not_negative(value):
             plain(name).triangles(*motion, weight=weight[:, :n])
     use[4, 1] = False
     assert plain("wrist").triangles(q, qd, qdd, q, use=use, weight=weight).rows[1] == 4
-
-
-def test_a_state_is_of_the_same_robot():
-    wrist, other = plain("wrist"), plain("two-link")
-    motion = states(2, 5)
-    state = other.triangles(*motion, motion[0])
-    q, qd, qdd = states(3, 5)
-    with pytest.raises(ShapeError, match=r"state: got triangles of another robot \(2 joints"):
-        wrist.triangles(q, qd, qdd, q, state=state)
-    with pytest.raises(ShapeError, match="state: got str, expected what `triangles` gave"):
-        wrist.triangles(q, qd, qdd, q, state="x")

@@ -32,6 +32,10 @@ def tiled(monkeypatch):
     monkeypatch.setattr(tiling, "_SLICE", 8)
 
 
+def home_of(model: CompiledModel) -> np.ndarray:
+    return np.array([model.spec.closure.home[place] for place in model.spec.closure.given])
+
+
 def assert_close(got: np.ndarray, expected: np.ndarray) -> None:
     """Equal to the bound, sample by sample."""
     assert got.shape == expected.shape
@@ -49,14 +53,14 @@ def test_a_tile_has_the_values_of_the_scalar_functions(name, monkeypatch):
     model = compiled(name)
     joints = len(model.spec.joints)
     motion = states(joints, SAMPLES)
-    entries, phi, W = model.nonzeros(*motion), model.base_regressor(*motion), None
-    W = model.observation(*motion)
+    entries, phi = model.nonzeros(*motion), model.base_regressor(*motion)
     monkeypatch.setattr(tiling, "TILED_FROM", 1)
     monkeypatch.setattr(tiling, "_SLICE", 8)
     assert_close(model.nonzeros(*motion), entries)
     by_tiles = model.base_regressor(*motion)
     assert_close(by_tiles.reshape(SAMPLES, -1), phi.reshape(SAMPLES, -1))
-    np.testing.assert_array_equal(model.observation(*motion), by_tiles.reshape(W.shape))
+    W = model.observation(*motion)
+    np.testing.assert_array_equal(W, by_tiles.reshape(W.shape))
     rows, columns = np.array(model.spec.nonzeros).T
     np.testing.assert_array_equal(model.nonzeros(*motion), by_tiles[:, rows, columns])
 
@@ -72,18 +76,25 @@ def test_effects_that_read_signals_have_tiles(tiled, monkeypatch):
     assert_close(by_tiles, model.nonzeros(*motion, s))
 
 
-@pytest.mark.parametrize("samples", [1, 7, 8, 20])
-def test_an_output_may_begin_anywhere_and_nothing_else_is_written(samples, tiled):
-    model = compiled("wrist")
+@pytest.mark.parametrize("name", ["emps", "wrist"])
+@pytest.mark.parametrize("samples", [1, 7, 8, 20, 70])
+def test_rows_and_columns_may_begin_anywhere_and_nothing_else_is_written(samples, name, tiled):
+    model = compiled(name)
     motion = states(len(model.spec.joints), samples)
-    width = len(model.spec.base) * len(model.spec.joints)
-    whole = model.observation(*motion).reshape(samples, width)
+    W = model.observation(*motion)
     for begin in (0, 1, 3, 8):
-        room = np.full(samples * width + 32, 7.5)
-        out = room[begin : begin + samples * width].reshape(-1, len(model.spec.base))
+        rows = np.full(W.size + 32, 7.5)
+        out = rows[begin : begin + W.size].reshape(W.shape)
         assert model.observation(*motion, out=out) is out
-        np.testing.assert_array_equal(out.reshape(samples, width), whole)
-        assert (room[:begin] == 7.5).all() and (room[begin + samples * width :] == 7.5).all()
+        columns = np.full((len(W) + 9, W.shape[1]), 7.5, order="F")
+        model._tiles.fill([*motion], columns[begin : begin + len(W)], True)
+        for whole, end in ((rows, begin + W.size), (columns, begin + len(W))):
+            np.testing.assert_array_equal(whole[begin:end].reshape(W.shape), W)
+            assert (whole[:begin] == 7.5).all() and (whole[end:] == 7.5).all()
+    by_columns = model.observation(*motion, order="F")
+    assert by_columns.flags.f_contiguous
+    np.testing.assert_array_equal(by_columns, W)
+    assert model.observation(*motion, out=by_columns) is by_columns
 
 
 def test_results_do_not_depend_on_place_number_or_threads(tiled, monkeypatch):
@@ -155,7 +166,7 @@ def test_every_instruction_set_of_this_processor_gives_the_same(cc, flags, tmp_p
 
 def test_robots_with_loops_have_no_entries_of_their_own_and_say_so():
     model = compiled("five-bar")
-    q = np.array([model.spec.closure.home[place] for place in model.spec.closure.given])[None]
+    q = home_of(model)[None]
     with pytest.raises(ManifestError, match=r"five-bar has loops: every entry .* base_regressor"):
         model.nonzeros(q, 0 * q, 0 * q)
 
@@ -173,7 +184,7 @@ def test_loops_closed_side_by_side_are_those_closed_one_by_one(name, plain):
     model = compiled(name)
     with unoptimised(*["-O1", "-DMODELER_PLAIN"] * plain):
         tiles = tile_library(model.spec, model._tile_files, model._library)
-    home = np.array([model.spec.closure.home[place] for place in model.spec.closure.given])
+    home = home_of(model)
     rng = np.random.default_rng()
     for far in (1e-3, 0.3, 3.0)[: 3 if name == "five-bar" else 2]:
         samples = 203
@@ -198,7 +209,7 @@ def test_loops_closed_side_by_side_are_those_closed_one_by_one(name, plain):
 
 def test_the_observation_matrix_of_loops_uses_tiles(tiled):
     model = compiled("five-bar")
-    home = np.array([model.spec.closure.home[place] for place in model.spec.closure.given])
+    home = home_of(model)
     q = home + 1e-3 * np.arange(40)[:, None]
     W = model.observation(q, 0 * q, 1 + 0 * q)
     np.testing.assert_allclose(
@@ -212,11 +223,9 @@ def test_the_observation_matrix_of_loops_uses_tiles(tiled):
 def test_tiles_in_single_precision(name, tiled, monkeypatch):
     made = module(name)
     model = loaded(emit(made.model, made.base, precision="single"))
-    closure = model.spec.closure
-    joints = len(model.spec.joints)
-    q, qd, qdd = states(joints, 37)
-    if closure is not None:
-        q = np.array([closure.home[k] for k in closure.given]) + 1e-3 * q
+    q, qd, qdd = states(len(model.spec.joints), 37)
+    if model.spec.closure is not None:
+        q = home_of(model) + 1e-3 * q
     W = model.observation(q, qd, qdd)
     np.testing.assert_array_equal(model.observation(q, qd, qdd, order="F"), W)
     monkeypatch.setattr(tiling, "TILED_FROM", 2**18)
@@ -224,26 +233,6 @@ def test_tiles_in_single_precision(name, tiled, monkeypatch):
     size = np.abs(expected).max()
     assert np.abs(W - expected).max() < 3e-6 * size
     assert np.abs(model.observation(q, qd, qdd) - expected).max() < 3e-6 * size
-
-
-@pytest.mark.parametrize("name", ["emps", "wrist"])
-def test_columns_are_filled_as_rows_are(name, tiled):
-    """Any number of samples, wherever the memory starts, nothing beside it touched."""
-    model = compiled(name)
-    joints, width = len(model.spec.joints), len(model.spec.base)
-    for samples in (1, 7, 8, 70):
-        motion = states(joints, samples)
-        W = model.observation(*motion)
-        for start in (0, 1, 3):
-            place = np.full((samples * joints + 9, width), 7.0, order="F")
-            own = place[start : start + samples * joints]
-            model._tiles.fill([np.ascontiguousarray(x) for x in motion], own, True)
-            np.testing.assert_array_equal(own, W)
-            assert (place[:start] == 7).all() and (place[start + len(W) :] == 7).all()
-        by_columns = model.observation(*motion, order="F")
-        assert by_columns.flags.f_contiguous
-        np.testing.assert_array_equal(by_columns, W)
-        assert model.observation(*motion, out=by_columns) is by_columns
 
 
 @pytest.mark.skipif(
@@ -267,21 +256,16 @@ def test_the_loader_picks_the_machine_code_of_a_regressor(tmp_path):
     np.testing.assert_array_equal(one, two)
 
 
-def test_a_module_without_the_unit_is_evaluated_sample_by_sample(tiled):
+def test_a_module_without_the_unit_is_evaluated_sample_by_sample(tiled, tmp_path):
     """As those of older model files."""
     emitted = module("wrist").emitted
     files = {name: emitted.files[name] for name in emitted.spec.sources}
     with unoptimised():
         older, motion = load(emitted.spec, files), states(3, SAMPLES)
-    assert older._tiles is None
+        write_emitted(emitted, tmp_path)
+        assert load_folder(tmp_path)._tiles is not None and older._tiles is None
     assert_close(older.nonzeros(*motion), compiled("wrist").nonzeros(*motion))
     assert older.observation(*motion).shape == (SAMPLES * 3, len(emitted.spec.base))
-
-
-def test_a_folder_keeps_its_tiles(tiled, tmp_path):
-    write_emitted(module("wrist").emitted, tmp_path)
-    with unoptimised():
-        assert load_folder(tmp_path)._tiles is not None
 
 
 def test_tiles_of_another_robot_are_refused(tiled):
