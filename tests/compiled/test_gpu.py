@@ -1,6 +1,8 @@
 """CUDA of the base regressor: its arithmetic on the CPU, real compilers where there are some."""
 
 import ctypes
+import shutil
+import subprocess
 import sys
 from functools import cache
 from importlib import util
@@ -147,6 +149,15 @@ def test_modules_without_kernels():
         emit(module("five-bar").model, module("five-bar").base, cuda=True)
     with pytest.raises(EmitError, match="CUDA is emitted in double precision only"):
         emit(module("wrist").model, module("wrist").base, precision="single", cuda=True)
+
+
+def test_nvcc_compiles_the_kernels(tmp_path):
+    if shutil.which("nvcc") is None:
+        pytest.skip("NOT CHECKED: nvcc is not installed")
+    (tmp_path / "kernels.cu").write_text(emitted("puma560").files["puma560.cu"])
+    command = ["nvcc", "-ptx", "-arch=sm_80", "-Werror", "all-warnings", "-o", "k.ptx"]
+    subprocess.run([*command, "kernels.cu"], cwd=tmp_path, check=True, capture_output=True)
+    assert ".entry puma560_gram_kernel" in (tmp_path / "k.ptx").read_text()
 
 
 def test_nvrtc_compiles_the_kernels():
