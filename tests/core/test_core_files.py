@@ -22,28 +22,29 @@ def everything(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
-@pytest.fixture
-def umask():
-    """Sets the umask for one test."""
-    before = os.umask(0o022)
-    yield os.umask
-    os.umask(before)
+def refused_by_both(path: Path, says: str) -> None:
+    for call in (lambda: write_atomically(path, "x"), lambda: check_writable(path)):
+        with pytest.raises(ModelerError, match=says):
+            call()
 
 
 @pytest.mark.parametrize("mask", [0o022, 0o077, 0o002])
-def test_a_new_file_respects_the_umask(tmp_path: Path, umask, mask: int) -> None:
-    umask(mask)
-    write_atomically(tmp_path / "new.json", "{}")
+def test_a_new_file_respects_the_umask(tmp_path: Path, mask: int) -> None:
+    before = os.umask(mask)
+    try:
+        write_atomically(tmp_path / "new.json", "{}")
+    finally:
+        os.umask(before)
     assert mode(tmp_path / "new.json") == 0o666 & ~mask
 
 
-@pytest.mark.parametrize("kept", [0o600, 0o640, 0o644, 0o755])
-def test_a_file_keeps_its_permissions(tmp_path: Path, kept: int) -> None:
+@pytest.mark.parametrize("permissions", [0o600, 0o640, 0o644, 0o755])
+def test_a_file_keeps_its_permissions(tmp_path: Path, permissions: int) -> None:
     path = tmp_path / "secret.json"
     path.write_text("old")
-    path.chmod(kept)
+    path.chmod(permissions)
     write_atomically(path, "new")
-    assert (path.read_text(), mode(path)) == ("new", kept)
+    assert (path.read_text(), mode(path)) == ("new", permissions)
     assert everything(tmp_path) == ["secret.json"]
 
 
@@ -72,22 +73,18 @@ def test_links_stay_and_what_they_name_is_written(tmp_path: Path) -> None:
     assert everything(tmp_path / "real") == ["target.json"]
 
 
-def test_a_link_to_nothing_makes_what_it_names(tmp_path: Path) -> None:
-    (tmp_path / "link").symlink_to("made/here.json")
+def test_a_link_to_nothing_makes_what_it_names_and_links_in_a_circle_are_refused(
+    tmp_path: Path,
+) -> None:
+    for name, leads_to in (("link", "made/here.json"), ("a", "b"), ("b", "a")):
+        (tmp_path / name).symlink_to(leads_to)
     check_writable(tmp_path / "link")
     assert not (tmp_path / "made").exists()
     write_atomically(tmp_path / "link", "text")
-    assert (tmp_path / "link").is_symlink()
     assert (tmp_path / "made" / "here.json").read_text() == "text"
-
-
-def test_links_in_a_circle_are_refused(tmp_path: Path) -> None:
-    (tmp_path / "a").symlink_to("b")
-    (tmp_path / "b").symlink_to("a")
-    for refused in (lambda p: write_atomically(p, "x"), check_writable):
-        with pytest.raises(ModelerError, match="a: cannot be written"):
-            refused(tmp_path / "a")
-    assert (tmp_path / "a").is_symlink() and everything(tmp_path) == ["a", "b"]
+    refused_by_both(tmp_path / "a", "a: cannot be written")
+    assert all((tmp_path / name).is_symlink() for name in ("link", "a", "b"))
+    assert everything(tmp_path) == ["a", "b", "link", "made"]
 
 
 @pytest.mark.parametrize("linked", [False, True])
@@ -111,17 +108,15 @@ def test_a_pipe_is_written_to(tmp_path: Path, linked: bool) -> None:
 def test_a_device_is_written_to(tmp_path: Path) -> None:
     """A terminal of our own, through a link."""
     ours, theirs = os.openpty()
-    try:
-        device = Path(os.ttyname(theirs))
-        (tmp_path / "tty").symlink_to(device)
-        check_writable(tmp_path / "tty")
-        write_atomically(tmp_path / "tty", "words\n")
-        assert os.read(ours, 100).split() == [b"words"]
-        assert stat.S_ISCHR(device.stat().st_mode) and (tmp_path / "tty").is_symlink()
-        assert destination(device).identity is None
-    finally:
-        os.close(ours)
-        os.close(theirs)
+    device = Path(os.ttyname(theirs))
+    (tmp_path / "tty").symlink_to(device)
+    check_writable(tmp_path / "tty")
+    write_atomically(tmp_path / "tty", "words\n")
+    assert os.read(ours, 100).split() == [b"words"]
+    assert stat.S_ISCHR(device.stat().st_mode) and (tmp_path / "tty").is_symlink()
+    assert destination(device).identity is None
+    os.close(ours)
+    os.close(theirs)
 
 
 def test_a_device_node_stays_one(tmp_path: Path) -> None:
@@ -141,34 +136,25 @@ def test_sockets_and_folders_are_refused(tmp_path: Path, monkeypatch) -> None:
     with socket.socket(socket.AF_UNIX) as ours:
         ours.bind("socket")
         for place, piece in (("socket", "is a socket"), ("folder", "is a folder")):
-            for refused in (lambda p: write_atomically(p, "x"), check_writable):
-                with pytest.raises(ModelerError, match=f"{place}: {piece}; expected the name"):
-                    refused(Path(place))
+            refused_by_both(Path(place), f"{place}: {piece}; expected the name")
         assert stat.S_ISSOCK(Path("socket").lstat().st_mode)
 
 
-def test_a_write_protected_file_stays(tmp_path: Path, monkeypatch) -> None:
-    """As the system tells it: to an administrator, nothing is protected."""
-    path = tmp_path / "protected.json"
-    path.write_text("old")
-    monkeypatch.setattr(os, "access", lambda *_: False)
-    for refused in (lambda p: write_atomically(p, "x"), check_writable):
-        with pytest.raises(ModelerError, match=r"protected\.json: cannot be written"):
-            refused(path)
-    assert path.read_text() == "old" and everything(tmp_path) == ["protected.json"]
-
-
-def test_what_fails_midway_leaves_the_old_file(tmp_path: Path, monkeypatch) -> None:
+def test_a_write_protected_file_stays_and_what_fails_midway_leaves_the_old_file(
+    tmp_path: Path, monkeypatch
+) -> None:
     path = tmp_path / "file.json"
     path.write_text("old")
+    with monkeypatch.context() as patch:  # as the system tells it: to an administrator, nothing is
+        patch.setattr(os, "access", lambda *_: False)
+        refused_by_both(path, r"file\.json: cannot be written")
 
     def full(handle: int, data: bytes) -> int:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(os, "write", full)
-    with pytest.raises(ModelerError, match="No space left on device"):
+    with monkeypatch.context() as patch, pytest.raises(ModelerError, match="No space left on dev"):
+        patch.setattr(os, "write", full)
         write_atomically(path, "new")
-    monkeypatch.undo()
     assert path.read_text() == "old" and everything(tmp_path) == ["file.json"]
 
 
@@ -222,13 +208,13 @@ def test_a_closed_or_read_only_descriptor_is_told(tmp_path: Path) -> None:
     path = tmp_path / "file"
     path.write_text("text")
     with path.open() as stream:
+        place = Path(f"/dev/fd/{stream.fileno()}")
         with pytest.raises(ModelerError, match="open for reading only"):
-            check_writable(Path(f"/dev/fd/{stream.fileno()}"))
+            check_writable(place)
         with pytest.raises(ModelerError, match="cannot be written"):
-            write_atomically(Path(f"/dev/fd/{stream.fileno()}"), "x")
-        number = stream.fileno()
+            write_atomically(place, "x")
     with pytest.raises(ModelerError, match="cannot be written"):
-        check_writable(Path(f"/dev/fd/{number}"))
+        check_writable(place)
     assert path.read_text() == "text"
 
 

@@ -46,13 +46,10 @@ def test_lines_fit_and_mean_the_same(room: float) -> None:
     assert opened > 20
 
 
-def test_what_fits_stays_as_it_is() -> None:
+def test_what_fits_and_what_cannot_be_opened_stay_whole() -> None:
+    """A higher root, and the bars of a size; broken before and behind them."""
     text = r"\left( a + b \right) \text{ as in } \tfrac{1}{2}"
     assert broken(text) == [text]
-
-
-def test_what_cannot_be_opened_stays_whole() -> None:
-    """A higher root, and the bars of a size; broken before and behind them."""
     wide = " + ".join(["a"] * 12)
     text = rf"b + \sqrt[3]{{{wide}}} + \left|{wide}\right| - \frac{{1}}{{{wide}}}"
     assert broken(text, 100.0)[:3] == ["b", rf"+ \sqrt[3]{{{wide}}}", rf"+ \left|{wide}\right|"]
@@ -66,18 +63,13 @@ def test_numbers_stand_at_the_last_line() -> None:
     assert r"\notag" not in display([equation])
 
 
-@pytest.mark.parametrize(
-    ("name", "expected"),
-    [
+def test_names_and_texts() -> None:
+    """No text has a sign that TeX reads."""
+    for name, expected in (
         ("omega_1", r"\mathit{omega\_1}"), ("omega1", r"\omega_{1}"), ("Omega", r"\Omega"),
         ("Alpha", r"\mathit{Alpha}"), ("PHI2", r"\mathit{PHI}_{2}"), ("mu2_3", r"\mu_{2\_3}"),
-    ],
-)  # fmt: skip
-def test_names(name: str, expected: str) -> None:
-    assert latex_name(name) == expected
-
-
-def test_text_has_no_sign_that_tex_reads() -> None:
+    ):  # fmt: skip
+        assert latex_name(name) == expected
     assert latex_text("R&D_1 100 % {a} ~ \\ é") == (
         r"R\&D\_1 100 \% \{a\} \textasciitilde{} \textbackslash{} é"
     )
