@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 
 from modeler.api import derive, generate, load
-from modeler.core.expression import Expression
 from modeler.effects.catalogue import CATALOGUE
 from modeler.effects.effect import Acts, Effect
 from modeler.robot.read import robot_from_text
+from modeler.runtime.model import CompiledModel
 from tests.modules import loaded
 
+Motion = tuple[np.ndarray, np.ndarray, np.ndarray]
 SAMPLES = 40
 FUNCTIONS = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
@@ -58,17 +59,13 @@ DAILY = ("stribeck", "load_friction", "presliding", "temperature_friction", "dri
 """One of each kind of quantity that an equation reads."""
 
 
-def cases() -> list:
-    """The first form of the daily ones; others rotate."""
-    return [
-        (effect, form)
-        if effect.id in DAILY and form == 0
-        else pytest.param(effect, form, marks=pytest.mark.rotating)
-        for effect, form in written()
-    ]
+CASES = [
+    pytest.param(*case, marks=[pytest.mark.rotating] * (case[0].id not in DAILY or case[1] > 0))
+    for case in written()
+]  # the first form of the daily ones; others rotate
 
 
-@pytest.mark.parametrize(("effect", "form"), cases(), ids=lambda x: getattr(x, "id", str(x)))
+@pytest.mark.parametrize(("effect", "form"), CASES, ids=lambda x: getattr(x, "id", str(x)))
 def test_c_computes_the_catalogues_equation(effect: Effect, form: int) -> None:
     robot = robot_from_text(text_with(effect, form), effect.id)
     derivation = derive(robot)
@@ -93,24 +90,9 @@ def test_c_computes_the_catalogues_equation(effect: Effect, form: int) -> None:
     for k, signal in enumerate(compiled.spec.signals):
         values[{"time": "t", "temperature": "T", "slip": "z"}[signal.kind]] = s[:, k]
     for column in effect.forms[form].columns:
-        expected = evaluated(column.equation, values) * np.ones(SAMPLES)
+        expected = np.ones(SAMPLES) * column.equation.fold(values, FUNCTIONS, np.pi, float)
         got = phi[:, 1, names.index(f"{column.prefix}2")]
         np.testing.assert_allclose(got, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
-
-
-def evaluated(equation: Expression, values: dict) -> np.ndarray:
-    return np.asarray(equation.fold(values, FUNCTIONS, np.pi, float))
-
-
-def test_every_id_of_the_contract_is_there() -> None:
-    wanted = """
-        viscous coulomb offset rotor_inertia asymmetric_viscous stribeck nonlinear_viscous
-        load_friction position_friction presliding cable_hysteresis temperature_friction
-        coupled_friction passive_friction spring counterbalance constant_force_spring payload
-        link_inertia base_tilt external_force elasticity backlash motor_ripple joint_ripple
-        encoder_offset encoder_eccentricity time_delay drive_gain drift coupled_inertia
-    """
-    assert {effect.id for effect in CATALOGUE} == {*wanted.split(), "torque_lag"}
 
 
 def test_an_encoders_error_moves_links_and_rotor() -> None:
@@ -131,17 +113,18 @@ def test_an_encoders_error_moves_links_and_rotor() -> None:
     step = np.array([0.0, 1e-6, 0.0])
     slope = (compiled.regressor(q + step, v, a) - compiled.regressor(q - step, v, a)) @ chi / 2e-6
     np.testing.assert_allclose(phi[:, :, names.index("dq2")], -slope, rtol=1e-6, atol=1e-6)
-    moved = _moved_by_cosine(compiled, chi, q, v, a)
+    by = (np.cos(q), -np.sin(q), -np.cos(q))
+    moved = moved_torque(compiled, chi, (q, v, a), by)
     np.testing.assert_allclose(phi[:, :, names.index("Ec2")], moved, rtol=1e-6, atol=1e-6)
 
 
-def _moved_by_cosine(compiled, chi, q, v, a) -> np.ndarray:  # type: ignore[no-untyped-def]
-    """Torque for q2 + e cos q2, by differences in e."""
-    e = 1e-6
-    dq, dv, da = (np.zeros_like(q) for _ in range(3))
-    dq[:, 1] = np.cos(q[:, 1])
-    dv[:, 1] = -np.sin(q[:, 1]) * v[:, 1]
-    da[:, 1] = -np.cos(q[:, 1]) * v[:, 1] ** 2 - np.sin(q[:, 1]) * a[:, 1]
-    ahead = compiled.regressor(q + e * dq, v + e * dv, a + e * da) @ chi
-    behind = compiled.regressor(q - e * dq, v - e * dv, a - e * da) @ chi
+def moved_torque(
+    compiled: CompiledModel, chi: np.ndarray, motion: Motion, by: Motion, e: float = 1e-6
+) -> np.ndarray:
+    """Slope in e of the torque for q2 + e f(q2), by differences; `by` is f, f' and f''."""
+    q, v, a = motion
+    f, slope, curve = (x[:, 1] for x in by)
+    d = np.zeros((3, *q.shape))
+    d[:, :, 1] = f, slope * v[:, 1], curve * v[:, 1] ** 2 + slope * a[:, 1]
+    ahead, behind = (compiled.regressor(*(np.array(motion) + h * d)) @ chi for h in (e, -e))
     return (ahead - behind) / (2.0 * e)

@@ -6,12 +6,10 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from modeler.api import derive, generate, load, own_effect
+from modeler.api import derive, generate
 from modeler.core.errors import ShapeError
 from modeler.observation.low_speed import lag, signals_along, since_reversal
-from modeler.robot.edit import with_effect, with_reference
-from modeler.robot.read import robot_from_text
-from modeler.runtime.model import CompiledModel
+from tests.effects.test_own_effects_in_c import REFERENCE, arm_with
 from tests.modules import loaded
 
 STEP = 0.002
@@ -66,30 +64,6 @@ def test_a_joint_that_never_moves_has_not_turned() -> None:
     np.testing.assert_allclose(since_reversal(q, STEP, 3e-4)[1], TIME)
 
 
-def arm_with(name: str, shapes: dict[str, float], **definition: object) -> CompiledModel:
-    """The demonstration arm with an effect on joint 2."""
-    text = own_effect(load("demo-arm"), name, **definition).text
-    return loaded(generate(derive(robot_from_text(with_effect(text, name, "2", shapes), name))))
-
-
-def test_the_c_steps_what_logs_are_read_with() -> None:
-    """From the state after the first reversal on: how a bristle starts is forgotten then."""
-    compiled = arm_with("tired", {}, columns={"Kt": "v*exp(-since)"})
-    assert [(s.kind, s.joint, s.unit) for s in compiled.spec.signals] == [
-        ("direction", "2", "1"), ("since", "2", "s"),
-    ]  # fmt: skip
-    motion = np.zeros((3, len(TIME), 3))
-    motion[0, :, 1] = moves(1)[0]
-    read = signals_along(compiled, motion, TIME, lambda joint: TIME)
-    assert read is not None
-    s = np.zeros(2)
-    stepped = [s]
-    for dq in np.diff(motion[0], axis=0):
-        stepped.append(s := compiled.advance(dq, STEP, s))
-    later = TIME > 7.5
-    np.testing.assert_allclose(np.array(stepped)[later], read[later], rtol=0, atol=1e-9)
-
-
 def test_a_lag_is_the_solution_of_its_equation() -> None:
     """Of sin(w t), in closed form; a constant stays."""
     w, tau = 3.0, 0.7
@@ -102,15 +76,13 @@ def test_a_lag_is_the_solution_of_its_equation() -> None:
 
 FOLLOWED = "abs(v)**p + load*q3 - since + t*a1"
 SHAPES = {"p": 1.5, "tau": 0.3, "t0": 0.5}
-REFERENCE = {"ZZ1": 1.2, "ZZ2": 3.0, "MX2": 3.0, "MX3": 1.1, "ZZ3": 0.4}
 
 
 @pytest.mark.parametrize("precision", ["double", "single"])
 def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "single"]) -> None:
     """At random states, what is followed by numpy from the columns of the same C."""
     definition = {"columns": {"Kz": "z"}, "lag": FOLLOWED, "shapes": {"p": [1, 2], "tau": [0.1, 1]}}
-    text = with_effect(own_effect(load("demo-arm"), "late", **definition).text, "late", "2", SHAPES)
-    robot = robot_from_text(with_reference(text, REFERENCE), "late")
+    robot = arm_with("late", definition, SHAPES, reference=True)
     compiled = loaded(generate(derive(robot), precision=precision))
     kinds = ["time", "direction", "since", "followed", "lag"]
     assert [s.kind for s in compiled.spec.signals] == kinds

@@ -12,7 +12,9 @@ from modeler.robot.edit import with_effect, with_reference
 from modeler.robot.read import robot_from_text
 from modeler.robot.robot import Robot
 from modeler.runtime.model import CompiledModel
+from tests.effects.test_effects_in_c import moved_torque
 from tests.modules import loaded
+from tests.rotation import rotating
 
 SAMPLES = 50
 JOINT = 1  # joint "2"
@@ -49,10 +51,12 @@ OWN: dict[str, tuple[dict, dict[str, float], Columns]] = {
 }
 
 
-def arm_with(name: str, definition: dict, shapes: dict[str, float]) -> Robot:
+def arm_with(
+    name: str, definition: dict, shapes: dict[str, float], reference: bool = False
+) -> Robot:
     """The demonstration arm with the effect on joint 2."""
-    robot = own_effect(load("demo-arm"), name, **definition)
-    return robot_from_text(with_effect(robot.text, name, "2", shapes), name)
+    text = with_effect(own_effect(load("demo-arm"), name, **definition).text, name, "2", shapes)
+    return robot_from_text(with_reference(text, REFERENCE) if reference else text, name)
 
 
 def columns_of(robot: Robot, name: str, compiled: CompiledModel, phi: np.ndarray) -> np.ndarray:
@@ -63,11 +67,7 @@ def columns_of(robot: Robot, name: str, compiled: CompiledModel, phi: np.ndarray
 
 
 @pytest.mark.parametrize(
-    "name",
-    [
-        name if name in ("hook", "warming") else pytest.param(name, marks=pytest.mark.rotating)
-        for name in OWN
-    ],
+    "name", ["hook", "warming", *rotating("eddy_brake", "two_columns", "tiring")]
 )
 def test_c_computes_the_equation_of_the_robot_file(name: str) -> None:
     definition, shapes, expected = OWN[name]
@@ -126,48 +126,21 @@ def test_an_equation_reads_the_motion_of_other_joints(
     np.testing.assert_allclose(friction[:, JOINT], wanted[:, 0], **close)
 
 
-def test_a_load_is_that_of_the_reference() -> None:
-    definition = {"columns": {"Kl": "load*static*sign(v)"}}
-    text = own_effect(load("demo-arm"), "gear", **definition).text
-    text = with_reference(with_effect(text, "gear", "2", {}), REFERENCE)
-    robot = robot_from_text(text, "gear")
-    compiled = loaded(generate(derive(robot)))
-    q, v, a = np.random.default_rng(4).uniform(-2.0, 2.0, (3, SAMPLES, 3))
-    names = [p.name for p in compiled.spec.standard]
-    chi = np.array([REFERENCE.get(name, 0.0) for name in names])
-    phi = compiled.regressor(q, v, a)
-    still = compiled.regressor(q, np.zeros_like(q), np.zeros_like(q))
-    expected = (phi @ chi)[:, JOINT] * (still @ chi)[:, JOINT] * np.sign(v[:, JOINT])
-    got = columns_of(robot, "gear", compiled, phi)[:, JOINT, 0]
-    np.testing.assert_allclose(got, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
-
-
 def test_what_moves_the_position_moves_the_links() -> None:
-    """Column of the C against differences of the inverse dynamics along q + e tanh(k q)."""
+    """Column of the C against differences of the inverse dynamics along q + e tanh(2 q)."""
     definition = {"columns": {"Kp": "tanh(k*q)"}, "shapes": {"k": 2}, "acts": "position"}
-    text = own_effect(load("demo-arm"), "runout", **definition).text
-    text = with_reference(with_effect(text, "runout", "2", {}), REFERENCE)
-    robot = robot_from_text(text, "runout")
+    robot = arm_with("runout", definition, {}, reference=True)
     compiled = loaded(generate(derive(robot)))
     chi = np.array([REFERENCE.get(p.name, 0.0) for p in compiled.spec.standard])
     q, v, a = np.random.default_rng(5).uniform(-1.0, 1.0, (3, SAMPLES, 3))
     got = columns_of(robot, "runout", compiled, compiled.regressor(q, v, a))[:, :, 0]
-    x, dx, ddx = (y[:, JOINT] for y in (q, v, a))
-    slope = 2.0 / np.cosh(2.0 * x) ** 2
-    curve = -4.0 * np.tanh(2.0 * x) * slope
-    dq, dv, da = (np.zeros_like(q) for _ in range(3))
-    dq[:, JOINT], dv[:, JOINT] = np.tanh(2.0 * x), slope * dx
-    da[:, JOINT] = slope * ddx + curve * dx**2
-    e = 1e-6
-    ahead = compiled.regressor(q + e * dq, v + e * dv, a + e * da) @ chi
-    behind = compiled.regressor(q - e * dq, v - e * dv, a - e * da) @ chi
-    np.testing.assert_allclose(got, (ahead - behind) / (2.0 * e), rtol=1e-6, atol=1e-6)
+    slope = 2.0 / np.cosh(2.0 * q) ** 2
+    by = (np.tanh(2.0 * q), slope, -4.0 * np.tanh(2.0 * q) * slope)
+    moved = moved_torque(compiled, chi, (q, v, a), by)
+    np.testing.assert_allclose(got, moved, rtol=1e-6, atol=1e-6)
 
 
-@pytest.mark.parametrize(
-    "equation",
-    ["v", *(pytest.param(e, marks=pytest.mark.rotating) for e in ("sign(v)", "1", "2*v**2 - v"))],
-)
+@pytest.mark.parametrize("equation", ["v", *rotating("sign(v)", "1", "2*v**2 - v")])
 def test_columns_that_others_have_are_grouped_in_numbers(equation: str) -> None:
     """The base has full rank whatever the user writes twice."""
     columns = {"Ka": equation, "Kb": f"3*({equation})"}
