@@ -8,7 +8,6 @@ import os
 import re
 import subprocess
 import sys
-import textwrap
 from pathlib import Path
 
 import numpy as np
@@ -24,73 +23,18 @@ from modeler.runtime.build import find_toolchain
 from modeler.runtime.model import load
 from tests.modules import compiler, module, states
 
-HEADERS = {
-    "math.h": re.sub(r"(\w+)(?= )", r"double \1(double);", "sin cos tan sqrt fabs exp tanh ")
-    + re.sub(r"(\w+)(?= )", r"double \1(double, double);", "pow fmin fmax hypot copysign ")
-    + """
-#define isnan(x) ((x) != (x))
-#define isfinite(x) ((x) - (x) == 0)
-#define INFINITY __builtin_inff()
-#define NAN __builtin_nanf("")
-""",
-    "string.h": "#include <stddef.h>\nvoid *memcpy(void *, const void *, size_t);\n"
-    "void *memset(void *, int, size_t);\nvoid *memmove(void *, const void *, size_t);\n",
-}
+COMPILERS = Path(__file__).with_name("compilers")
+WINDOWS = COMPILERS / "windows"
 """What the C needs of a C library: that of Windows is not here."""
 
-# Options of cl, the Microsoft compiler, as its reference lists them. An object is written twice:
-# as Windows has it, which our list of exports is read from, and as this system can link it. What
-# that list does not name is hidden.
-CL = r"""
-import re, subprocess, sys
-from pathlib import Path
-words = sys.argv[1:]
-if not words:
-    print("Microsoft (R) C/C++ Optimizing Compiler Version 19.39.33523 for x64", file=sys.stderr)
-    sys.exit("usage: cl [ option... ] filename... [ /link linkoption... ]")
-flags, files, folders, made, listed = [], [], [], None, None
-while words:
-    word = words.pop(0)
-    if word == "/I":
-        folders.append("-I" + words.pop(0))
-    elif word.startswith(("/Fo", "/Fe")):
-        made = Path(word[3:])
-    elif word == "/link":
-        listed = Path(words.pop(0).removeprefix("/DEF:"))
-    elif word in ("/nologo", "/std:c11", "/utf-8", "/O2", "/c", "/Zs", "/LD", "/arch:AVX2",
-                  "/fp:precise", *KNOWN):
-        flags.append(word)
-    elif word.startswith(("/", "-")) and not Path(word).exists():
-        print(f"cl : Command line error D8021 : invalid numeric argument '{word}'")
-        sys.exit(2)
-    else:
-        files.append(word)
-with Path(sys.argv[0]).with_name("told").open("a") as told:
-    print(*flags, file=told)
-if "/c" in flags:
-    windows = ["clang", "--target=x86_64-pc-windows-msvc", "-U__clang__", "-isystem", HEADERS]
-    strict = ["-std=c11", "-Wvla", "-Wgnu", "-pedantic-errors", "-Wno-unused-function", "-Werror"]
-    for command, place in ((windows, made), (["gcc", "-fPIC"], made.with_suffix(".elf"))):
-        subprocess.run([*command, *strict[:1 if "gcc" in command else None], "-O1", *folders,
-                        "-c", "-o", place, *files], check=True)
-elif "/LD" in flags:
-    names = listed.read_text().split()
-    assert names.pop(0) == "EXPORTS"
-    script = listed.with_suffix(".map")
-    script.write_text("{ global: " + " ".join(name + ";" for name in names) + " local: *; };")
-    objects = [Path(file).with_suffix(".elf") for file in files]
-    subprocess.run(["gcc", "-shared", f"-Wl,--version-script={script}", "-o", made, *objects,
-                    "-lm"], check=True)
-elif "/Zs" not in flags:
-    sys.exit(2)
-"""
 
-
-def script(place: Path, text: str) -> str:
-    """A program of Python."""
-    place.write_text(f"#!{sys.executable}\n{text}", encoding="utf-8")
-    place.chmod(0o755)
-    return str(place)
+def program(name: str, folder: Path, **known: object) -> str:
+    """A compiler of the folder beside, a program of Python that knows these names."""
+    lines = "".join(f"{key} = {value!r}\n" for key, value in known.items())
+    text = f"#!{sys.executable}\n{lines}{(COMPILERS / name).read_text()}"
+    (folder / name).write_text(text, encoding="utf-8")
+    (folder / name).chmod(0o755)
+    return str(folder / name)
 
 
 @pytest.fixture
@@ -98,15 +42,12 @@ def cl(tmp_path, monkeypatch):
     """A cl that knows these values of /fp, as CC; what it is told stands in a file."""
     compiler("gcc"), compiler("clang")
     folder = tmp_path / "Visual Studio"
-    (folder / "include").mkdir(parents=True)
-    for name, text in HEADERS.items():
-        (folder / "include" / name).write_text(text)
+    folder.mkdir()
     monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "cache"))
     monkeypatch.delenv("CFLAGS", raising=False)
 
     def made(*known: str) -> Path:
-        text = f"KNOWN = {known!r}\nHEADERS = {str(folder / 'include')!r}\n{CL}"
-        monkeypatch.setenv("CC", script(folder / "cl", text))
+        monkeypatch.setenv("CC", program("cl", folder, KNOWN=known, HEADERS=str(WINDOWS)))
         return folder / "told"
 
     return made
@@ -156,10 +97,8 @@ def test_a_portable_library_of_it(cl) -> None:
 def test_exports_are_those_that_binutils_sees(tmp_path) -> None:
     """Of all C that is shipped, long names and short ones; against llvm-nm."""
     compiler("clang"), compiler("llvm-nm")
-    for name, text in HEADERS.items():
-        (tmp_path / name).write_text(text)
     csrc = resource_dir("csrc")
-    command = ["clang", "--target=x86_64-pc-windows-msvc", "-isystem", tmp_path, "-O1", "-c",
+    command = ["clang", "--target=x86_64-pc-windows-msvc", "-isystem", WINDOWS, "-O1", "-c",
                f"-I{csrc / 'include'}", *sorted(csrc.glob("modeler_[bcf]*.c"))]  # fmt: skip
     subprocess.run(command, cwd=tmp_path, check=True)
     objects = [str(place) for place in sorted(tmp_path.glob("*.o"))]
@@ -171,18 +110,9 @@ def test_exports_are_those_that_binutils_sees(tmp_path) -> None:
 
 
 def test_clang_for_the_linker_of_microsoft_is_given_the_list(tmp_path) -> None:
-    clang = script(tmp_path / "clang", textwrap.dedent('''
-        import subprocess, sys
-        from pathlib import Path
-        Path(sys.argv[0]).with_name("told").write_text(" ".join(sys.argv[1:]))
-        if "-shared" in sys.argv:
-            Path(sys.argv[sys.argv.index("-o") + 1]).touch()
-        else:
-            sys.exit(subprocess.call(["clang", "--target=x86_64-pc-windows-msvc", *sys.argv[1:]]))
-    '''))  # fmt: skip
     compiler("clang")
     (tmp_path / "one.c").write_text("int one(void)\n{\n    return 1;\n}\n")
-    tools = build.Toolchain((clang,), ("-O1",), "#define _MSC_VER 1939\n")
+    tools = build.Toolchain((program("clang", tmp_path),), ("-O1",), "#define _MSC_VER 1939\n")
     build.compile_library(tools, tmp_path, ["one.c"], tmp_path / "one.dll")
     told = (tmp_path / "told").read_text()
     assert f"-Wl,/DEF:{tmp_path / 'exports.def'}" in told and "-lm" not in told
@@ -190,17 +120,8 @@ def test_clang_for_the_linker_of_microsoft_is_given_the_list(tmp_path) -> None:
 
 
 def test_the_clang_of_apple_has_other_names_of_flags(tmp_path, monkeypatch) -> None:
-    """That of an M1 before version 15 refused -march=native; its vectoriser is called otherwise."""
-    apple = script(tmp_path / "cc", textwrap.dedent('''
-        import subprocess, sys
-        for word in sys.argv[1:]:
-            if word in ("-march=native", "-fno-tree-slp-vectorize"):
-                sys.exit(f"clang: error: unsupported argument in '{word}'")
-        words = [w for w in sys.argv[1:] if w not in ("-mcpu=native", "-fno-slp-vectorize")]
-        sys.exit(subprocess.call(["gcc", *words]))
-    '''))  # fmt: skip
     compiler("gcc")
-    monkeypatch.setenv("CC", apple)
+    monkeypatch.setenv("CC", program("cc", tmp_path))
     monkeypatch.delenv("CFLAGS", raising=False)
     monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "cache"))
     flags = find_toolchain().flags

@@ -2,6 +2,7 @@
 
 import dataclasses
 import subprocess
+from pathlib import Path
 
 import pytest
 
@@ -11,17 +12,7 @@ from modeler.core.files import resource_dir
 from tests.codegen.fitted_library import with_values
 from tests.modules import compiler, module
 
-USER = """#include "{prefix}.h"
-#include <stdio.h>
-#include <string.h>
-
-int main(void)
-{{
-    const int same = strcmp({prefix}_signature(), {macro}_SIGNATURE) == 0;
-    printf("%d %d", {macro}_JOINTS, same);
-    return !same;
-}}
-"""
+USER = Path(__file__).with_name("programs") / "user.c"
 KINDS = {
     "loops with values": lambda: with_values("five-bar"),
     "robot called as a program": lambda: renamed("self_check"),
@@ -41,7 +32,8 @@ def test_every_c_file_of_the_folder_links_with_a_main_of_the_user(kind, tmp_path
     emitted = KINDS[kind]()
     prefix = emitted.spec.prefix
     write_emitted(emitted, tmp_path / "c")
-    (tmp_path / "main.c").write_text(USER.format(prefix=prefix, macro=prefix.upper()))
+    text = USER.read_text().replace("PREFIX", prefix).replace("MACRO", prefix.upper())
+    (tmp_path / "main.c").write_text(text)
     units = sorted((tmp_path / "c").glob("*.c"))
     command = [compiler("gcc"), "-std=c99", "-O0", "-I", tmp_path / "c", tmp_path / "main.c"]
     subprocess.run([*command, *units, "-lm", "-o", tmp_path / "main"], check=True)
