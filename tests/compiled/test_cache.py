@@ -46,30 +46,32 @@ def test_the_oldest_go_beyond_the_number_and_the_size(cache, monkeypatch, bound,
     assert len([*cache.iterdir()]) == 2
 
 
-def test_what_was_used_of_late_stays(cache, monkeypatch) -> None:
+def test_what_was_used_of_late_or_is_not_ours_stays_and_what_a_killed_build_left_goes(
+    cache, monkeypatch
+) -> None:
     monkeypatch.setattr(kept, "MOST", 0)
     late, used, old = entry(cache, 1, 60.0), entry(cache, 2, OLD), entry(cache, 3, OLD)
-    kept.in_use(kept.libraries(used)[0])
-    kept.tidy(cache)
-    assert (late.exists(), used.exists(), old.exists()) == (True, True, False)
-
-
-def test_what_is_not_ours_stays_and_what_a_killed_build_left_goes(cache) -> None:
-    entry(cache, 1, OLD)
     for name, age in ((".build-left", OLD), (".build-now", 1.0), ("letters", OLD)):
         (cache / name).mkdir()
         os.utime(cache / name, (time.time() - age,) * 2)
+    kept.in_use(kept.libraries(used)[0])
     kept.tidy(cache)
-    assert {path.name for path in cache.iterdir()} >= {".build-now", "letters"}
-    assert not (cache / ".build-left").exists()
+    assert {path.name for path in cache.iterdir()} == {
+        late.name,
+        used.name,
+        ".build-now",
+        "letters",
+    }
+    assert not old.exists()
 
 
 def test_a_hit_counts_as_use_and_a_build_tidies(cache, monkeypatch) -> None:
     emitted = module("emps").emitted
-    library = build_library({n: emitted.files[n] for n in emitted.spec.sources})
-    os.utime(library, (time.time() - OLD,) * 2)
-    os.utime(library.parent, (time.time() - OLD,) * 2)
-    assert build_library({n: emitted.files[n] for n in emitted.spec.sources}) == library
+    sources = {n: emitted.files[n] for n in emitted.spec.sources}
+    library = build_library(sources)
+    for path in (library, library.parent):
+        os.utime(path, (time.time() - OLD,) * 2)
+    assert build_library(sources) == library
     assert time.time() - library.stat().st_mtime < 60.0
     old = entry(cache, 1, OLD)
     monkeypatch.setattr(kept, "MOST", 0)

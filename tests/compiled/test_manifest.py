@@ -10,24 +10,19 @@ from modeler.core.errors import ManifestError
 from modeler.core.manifest import FORMAT, module_from_json
 from modeler.runtime.model import load_folder
 from tests.modules import module
+from tests.rotation import rotating
 
 
 @pytest.mark.parametrize(
     ("text", "says"),
     [
         ("{", "x.json: is not JSON, or cut off"),
-        ("", "x.json: is empty; generate it again"),
-        ("[" * 100_000, "x.json: is nested too deep; generate it again"),
         ('{"format": 1' + 10_000 * "0" + "}", "x.json: has a whole number of 10001 digits"),
         (b"\xff\xfe{\x00", "x.json: is UTF-16, UTF-32 or binary"),
         (json.dumps({"format": 1}), f"format 1, expected {FORMAT}; generate it again"),
         (json.dumps({"format": ["x" * 9999]}), "format ['xxxxxx"),
         ("[]", "x.json: not a manifest"),
         ('{"robot": "wrist"}', "x.json: not a manifest"),
-        (
-            json.dumps({"format": FORMAT + 1}),
-            f"format {FORMAT + 1}, expected {FORMAT}; generate it",
-        ),
         (json.dumps({"format": FORMAT, "robot": "wrist"}), "x.json: damaged manifest"),
     ],
 )
@@ -41,10 +36,7 @@ WRONG = {
     "symbols": ({}, "symbols is {}, expected a list"),
     "joints": ([{"name": "1"}], "joints[0].kind is missing"),
     "closure": ([1], "closure is [1], expected an object"),
-    "code": (None, "code is None, expected text"),
     "extra": (1, "'extra' is unknown"),
-    "functions": ([{"name": "f", "equation": "", "inputs": 7}], "functions[0].outputs is missing"),
-    "base": (["ZZ1R"], "base[0] is 'ZZ1R', expected an object"),
     "unidentifiable": ([1.5], "unidentifiable[0] is 1.5, expected text"),
 }
 
@@ -56,14 +48,12 @@ def test_an_entry_of_another_type_is_named(entry):
     with pytest.raises(ManifestError, match=re.escape(f"x.json: damaged manifest ({says})")):
         module_from_json(json.dumps(raw), "x.json")
     del raw[entry]
-    if entry not in ("closure", "code", "extra"):
+    if entry not in ("closure", "extra"):
         with pytest.raises(ManifestError, match=re.escape(f"({entry} is missing)")):
             module_from_json(json.dumps(raw), "x.json")
 
 
-@pytest.mark.parametrize(
-    "value", ["3", *(pytest.param(x, marks=pytest.mark.rotating) for x in (True, None, 10**400))]
-)
+@pytest.mark.parametrize("value", ["3", *rotating(True, None, 10**400)])
 def test_every_entry_of_a_manifest_is_checked(value):
     """Whatever stands in the place of any entry, at any depth: read as it was, or refused."""
     text = module("five-bar").emitted.spec.to_json()
@@ -116,12 +106,10 @@ def test_any_change_of_the_manifest_changes_its_signature():
     spec = module("wrist").emitted.spec
     raw = json.loads(spec.to_json())
     raw["joints"][1]["unit"] = "m"
-    changed = module_from_json(json.dumps(raw), "x.json")
-    assert changed.signature() != spec.signature()
+    assert module_from_json(json.dumps(raw), "x.json").signature() != spec.signature()
 
 
 def test_nonzeros_are_ordered_row_after_row():
     spec = module("sr400-tree").emitted.spec
     assert list(spec.nonzeros) == sorted(spec.nonzeros)
-    for joint, column in spec.nonzeros:
-        assert joint in spec.base[column].rows
+    assert all(joint in spec.base[column].rows for joint, column in spec.nonzeros)

@@ -79,18 +79,14 @@ def test_a_library_of_it_has_all_that_is_called(cl, robot) -> None:
     assert "/nologo /std:c11 /utf-8 /O2 /LD" in told.read_text().splitlines()
 
 
-def test_what_it_says_is_quoted(cl, monkeypatch) -> None:
-    cl()
+def test_what_it_says_is_quoted_and_a_portable_library_of_it(cl, monkeypatch) -> None:
+    told = cl("/fp:contract")
+    assert build.portable_library({"one.c": "int one(void)\n{\n    return 1;\n}\n"})
+    assert "/nologo /std:c11 /utf-8 /O2 /fp:precise /c" in told.read_text().splitlines()
     monkeypatch.setenv("CFLAGS", "/fp:wrong")
     made = module("emps").emitted
     with pytest.raises(BuildError, match="D8021 : invalid numeric argument '/fp:wrong'"):
         load(made.spec, made.files)
-
-
-def test_a_portable_library_of_it(cl) -> None:
-    told = cl("/fp:contract")
-    assert build.portable_library({"one.c": "int one(void)\n{\n    return 1;\n}\n"})
-    assert "/nologo /std:c11 /utf-8 /O2 /fp:precise /c" in told.read_text().splitlines()
 
 
 @pytest.mark.rotating("other compilers")
@@ -157,34 +153,29 @@ def test_backslashes_in_cc_are_of_paths_on_windows(monkeypatch) -> None:
     assert words == ("C:/Program Files/LLVM/bin/clang.exe", "-m64")
 
 
-@pytest.mark.parametrize("whole", [True, False])
-def test_a_library_that_another_process_has_loaded_stays(tmp_path, monkeypatch, whole) -> None:
+def test_a_library_that_another_process_has_loaded_stays(tmp_path, monkeypatch) -> None:
     """Windows refuses to replace it; it is the same, for its name says so."""
 
     def refused(*_: object) -> None:
         raise PermissionError(13, "in use")
 
     monkeypatch.setattr(Path, "replace", refused)
-    monkeypatch.setattr(build, "whole", lambda _: whole)
     made, final = tmp_path / "made", tmp_path / "entry" / "final.dll"
-    if whole:
+    monkeypatch.setattr(build, "whole", lambda _: True)
+    build.placed(made, final)
+    monkeypatch.setattr(build, "whole", lambda _: False)
+    with pytest.raises(PermissionError):
         build.placed(made, final)
-    else:
-        with pytest.raises(PermissionError):
-            build.placed(made, final)
 
 
 @pytest.mark.parametrize(
     ("place", "file", "span"),
-    [(r"C:\logs\run.csv", r"C:\logs\run.csv", None),
-     (r"C:\logs\run.csv@0:10", r"C:\logs\run.csv", (0.0, 10.0)),
+    [(r"C:\logs\run.csv@0:10", r"C:\logs\run.csv", (0.0, 10.0)),
      (r"\\host\share\me@home\run.csv@5:", r"\\host\share\me@home\run.csv", (5.0, None))],
 )  # fmt: skip
-def test_the_letter_of_a_drive_is_no_window_of_a_log(place, file, span) -> None:
+def test_the_letter_of_a_drive_is_no_window_of_a_log_and_no_unit_of_a_map(place, file, span):
     assert file_and_span(place) == (file, span)
-
-
-def test_the_letter_of_a_drive_is_no_unit_of_a_map() -> None:
+    assert file_and_span(r"C:\logs\run.csv") == (r"C:\logs\run.csv", None)
     with pytest.raises(DataError, match=re.escape(r"--map C:\maps\arm.toml: cannot be read")):
         map_from_words([r"C:\maps\arm.toml"])
 

@@ -60,6 +60,11 @@ class Machine:
         needed = needed_torques(self.task)
         self.torque = float(np.min(rms(needed)))
 
+    def tracking(self, k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
+        """A line for programs that follow the reference."""
+        ref = self.reference
+        return np.concatenate([q, qd, ref.q[k], ref.qd[k], ref.qdd[k]])
+
     def drive(
         self,
         program: Sequence[object],
@@ -101,12 +106,19 @@ class Machine:
         return Driven(*(np.array(values) for values in zip(*rows, strict=True)))
 
 
-def observed(command: Sequence[object], rows: np.ndarray) -> np.ndarray:
-    """What a program answers to lines that are known beforehand."""
+def replies(command: Sequence[object], rows: Sequence[np.ndarray]) -> tuple[np.ndarray, int, str]:
+    """What a program answers to lines that are known beforehand, its status, and what it says."""
     text = "\n".join(" ".join(repr(float(value)) for value in row) for row in rows)
     words = [str(word) for word in command]
-    ran = subprocess.run(words, input=text, capture_output=True, text=True, check=True)
-    return np.array([[float(word) for word in line.split()] for line in ran.stdout.splitlines()])
+    ran = subprocess.run(words, input=text, capture_output=True, text=True)
+    numbers = [[float(word) for word in line.split()] for line in ran.stdout.splitlines()]
+    return np.array(numbers), ran.returncode, ran.stderr
+
+
+def observed(command: Sequence[object], rows: np.ndarray) -> np.ndarray:
+    answers, status, said = replies(command, rows)
+    assert status == 0, said
+    return answers
 
 
 def fitted_folder(robot: Robot, folder: Path) -> None:

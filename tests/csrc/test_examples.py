@@ -20,7 +20,7 @@ from modeler.runtime import load_folder
 from modeler.simulation import HiddenEffect, SimulationSettings
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.emitted_folders import make
-from tests.csrc.simulated_machine import Machine, fitted_folder, observed, rms, true_folder
+from tests.csrc.simulated_machine import Machine, fitted_folder, observed, replies, rms, true_folder
 from tests.modules import compiler, loaded, module, unoptimised
 
 FROM = 1.5  # s, when the push begins
@@ -51,10 +51,9 @@ def driven(folder: Path, machine: Machine, size: float) -> tuple[np.ndarray, np.
     """(n, joints) tracking errors and r, with a push of joint 2 from FROM on."""
     seen = []
 
-    def line(k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
-        ref = machine.reference
-        seen.append(np.concatenate([q, qd, tau]))
-        return np.concatenate([q, qd, ref.q[k], ref.qd[k], ref.qdd[k]])
+    def line(k: int, *state: np.ndarray) -> np.ndarray:
+        seen.append(np.concatenate(state))
+        return machine.tracking(k, *state)
 
     def push(t: float) -> np.ndarray:
         return np.where(np.arange(machine.joints) == 1, size if t >= FROM else 0.0, 0.0)
@@ -132,25 +131,19 @@ def test_torques_are_held_where_the_loops_do_not_close_and_the_program_gives_up(
     good = np.concatenate([home, np.zeros(2), home, np.zeros(4)])
     bad = np.concatenate([home + 100.0, good[2:]])
     bad[0] = np.nan
-    told, answers, code = answered(tmp_path / "example_computed_torque", [good, bad, bad, good])
-    assert code == 0 and told.count("torques held") == 2
+    torque = tmp_path / "example_computed_torque"
+    answers, code, said = replies([torque], [good, bad, bad, good])
+    assert code == 0 and said.count("torques held") == 2
     for answer in answers[1:]:
         np.testing.assert_array_equal(answer, answers[0])
-    told, answers, code = answered(tmp_path / "example_computed_torque", [good, *[bad] * 8, good])
-    assert code == 1 and len(answers) == 4 and told.count("torques held") == 4
+    answers, code, said = replies([torque], [good, *[bad] * 8, good])
+    assert code == 1 and len(answers) == 4 and said.count("torques held") == 4
     rows = [np.concatenate([row[:4], np.ones(2)]) for row in (good, good, bad, good, good)]
-    told, answers, code = answered(tmp_path / "example_residual_observer", rows)
-    assert code == 0 and told.count("r is held") == 1
+    answers, code, said = replies([tmp_path / "example_residual_observer"], rows)
+    assert code == 0 and said.count("r is held") == 1
     assert np.all(np.isfinite(answers))
     np.testing.assert_array_equal(answers[2], answers[1])
     np.testing.assert_allclose(answers[3], answers[2], rtol=1e-9)
-
-
-def answered(program: Path, rows: list[np.ndarray]) -> tuple[str, np.ndarray, int]:
-    text = "\n".join(" ".join(repr(float(value)) for value in row) for row in rows)
-    ran = subprocess.run([program], input=text, capture_output=True, text=True, check=False)
-    numbers = [[float(word) for word in line.split()] for line in ran.stdout.splitlines()]
-    return ran.stderr, np.array(numbers), ran.returncode
 
 
 def values_of(name: str):
@@ -199,15 +192,12 @@ def test_the_adaptive_example_learns_the_parameters(tmp_path, capsys, regenerate
     make(tmp_path, "example_adaptive")
     ref = plant.reference
 
-    def line(k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
-        return np.concatenate([q, qd, ref.q[k], ref.qd[k], ref.qdd[k]])
-
-    run = plant.drive([tmp_path / "example_adaptive", 10.0, 10.0, 0.001], line)
+    run = plant.drive([tmp_path / "example_adaptive", 10.0, 10.0, 0.001], plant.tracking)
     beta = run.answers[:, plant.joints :]
     model = module("demo-arm")
-    spec = model.emitted.spec
-    true = loaded(model.emitted).base_parameters([plant.standard[p.name] for p in spec.standard])
-    W = loaded(model.emitted).observation(ref.q[::20], ref.qd[::20], ref.qdd[::20])
+    c, standard = loaded(model.emitted), model.emitted.spec.standard
+    true = c.base_parameters([plant.standard[p.name] for p in standard])
+    W = c.observation(ref.q[::20], ref.qd[::20], ref.qdd[::20])
     off = np.linalg.norm((beta - true) @ W.T, axis=1) / np.linalg.norm(W @ true)
     with capsys.disabled():
         for second in range(7):

@@ -70,44 +70,32 @@ def far(name: str, tmp_path, rng, reach: float = 1.5) -> dict[str, float]:
     return errors
 
 
-@pytest.mark.parametrize("name", TREES)
+@pytest.mark.parametrize("name", [*TREES, *LOOPS])
 def test_the_functions_are_those_of_the_c(name: str, tmp_path) -> None:
-    errors = far(name, tmp_path, np.random.default_rng())
-    assert len(errors) >= 20 and max(errors.values()) < 1e-12, errors
-
-
-@pytest.mark.parametrize("name", LOOPS)
-def test_loops_are_closed(name: str, tmp_path) -> None:
-    errors = far(name, tmp_path, np.random.default_rng(), reach=0.03)
-    assert {"close", "coupling", "inverse_dynamics", "coriolis"} <= errors.keys()
-    assert max(errors.values()) < 1e-9, errors  # the loops are closed so well
+    """With loops as well as these are closed."""
+    loops = name in ("five-bar", "orthoglide-2003")
+    errors = far(name, tmp_path, np.random.default_rng(), reach=0.03 if loops else 1.5)
+    assert len(errors) >= (10 if loops else 20) and max(errors.values()) < (
+        1e-9 if loops else 1e-12
+    ), errors
+    assert not loops or {"close", "coupling", "inverse_dynamics", "coriolis"} <= errors.keys()
 
 
 @pytest.mark.parametrize("name", [TREES[0], TREES[2]])
-def test_derivatives_and_forward_dynamics(name: str, tmp_path) -> None:
+def test_derivatives_are_those_of_the_motion(name: str, tmp_path) -> None:
     robot, rng = load(name), np.random.default_rng()
-    functions = functions_of(export(robot, to="casadi").data, tmp_path)
+    tau = functions_of(export(robot, to="casadi").data, tmp_path)["inverse_dynamics"]
     compiled = loaded(generate_with(derive(robot), control=Control()))
-    nominal = {p.name: p.nominal for p in compiled.spec.standard}
-    state = state_of(compiled.spec, rng)
-    state["beta"] = np.array([sum(t.value * nominal[t.parameter] for t in b.terms)
-                              for b in compiled.spec.base])  # fmt: skip
-    tau = functions["inverse_dynamics"]
+    nominal = np.array([p.nominal for p in compiled.spec.standard])
+    state = state_of(compiled.spec, rng) | {"beta": compiled.base_parameters(nominal)}
     slopes = tau.jacobian()
     values = slopes.call([*(state[n] for n in tau.name_in()), 0 * state["tau"]])
-    found = {name: x.full() for name, x in zip(slopes.name_out(), values, strict=True)}
-    given = {n: state[n] for n in tau.name_in()}
-    theirs = compiled.evaluate("derivatives", **given)[0]
+    ours = {name: x.full() for name, x in zip(slopes.name_out(), values, strict=True)}
+    theirs = compiled.evaluate("derivatives", **{n: state[n] for n in tau.name_in()})[0]
     M = compiled.evaluate("inertia_matrix", q=state["q"], beta=state["beta"])[0]
     for kind, matrix in (("q", theirs[0]), ("qd", theirs[1]), ("qdd", M)):
         size = np.abs(matrix).max()
-        assert np.abs(found[f"jac_tau_{kind}"] - matrix).max() < 1e-12 * size, kind
-    state["tau"] = called(tau, state).reshape(-1)
-    qdd = called(functions["forward_dynamics"], state).reshape(-1)
-    assert np.allclose(qdd, state["qdd"], rtol=1e-9, atol=1e-9)
-    given = {n: state[n] for n in functions["forward_dynamics"].name_in()}
-    theirs = compiled.evaluate("forward_dynamics", **given)[0]
-    assert np.allclose(qdd, theirs, rtol=1e-9, atol=1e-9)
+        assert np.abs(ours[f"jac_tau_{kind}"] - matrix).max() < 1e-12 * size, kind
 
 
 LOADED = """

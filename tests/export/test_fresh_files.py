@@ -12,6 +12,7 @@ from modeler.core.errors import DataError
 from modeler.robot import Robot, robot_from_text
 from tests.codegen.fitted_library import robot_text
 from tests.export.arms import MJCF, URDF, reread, same_physics, torques
+from tests.rotation import rotating
 
 pin = pytest.importorskip("pinocchio", reason="NOT CHECKED: no Pinocchio")
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: no MuJoCo")
@@ -90,23 +91,19 @@ def close(one: np.ndarray, other: np.ndarray, share: float = 1e-9) -> bool:
     return bool(np.abs(one - other).max() <= share * np.abs(other).max())
 
 
-def test_urdf_of_a_table_is_the_model_in_pinocchio(tree) -> None:
-    robot, (q, qd, qdd) = whole_tree(tree), states(tree)
-    found = export(tree, to="urdf")
-    text = found.data
-    assert "URDF cannot hold size of gravity (g = 9.233)" in found.summary()
-    assert "gravity" not in export(tree, to="mjcf").summary()
+def test_urdf_of_a_table_is_the_model_in_pinocchio_and_mjcf_in_mujoco(tree) -> None:
+    """The latter with damping, armature and spring; its bodies could be built."""
+    robot, motion = whole_tree(tree), [*states(tree)]
     names = [f"joint_{joint.name}" for joint in robot.moving]
-    got = pinocchio_torques(text, names, q, qd, qdd, np.linalg.norm([0.5, 9.0, 2.0]))
-    assert close(got, torques(robot, q, qd, qdd, ("Fv", "Ia", "Ks")))
-
-
-def test_mjcf_of_a_table_is_the_model_in_mujoco(tree) -> None:
-    """With damping, armature and spring."""
-    robot, (q, qd, qdd) = whole_tree(tree), states(tree)
-    names = [f"joint_{joint.name}" for joint in robot.moving]
-    text = export(tree, to="mjcf").data
-    assert close(mujoco_torques(text, names, q, qd, qdd), torques(robot, q, qd, qdd))
+    urdf, mjcf = export(tree, to="urdf"), export(tree, to="mjcf")
+    assert "URDF cannot hold size of gravity (g = 9.233)" in urdf.summary()
+    assert "gravity" not in mjcf.summary()
+    theirs = pinocchio_torques(urdf.data, names, *motion, np.linalg.norm([0.5, 9.0, 2.0]))
+    assert close(theirs, torques(robot, *motion, ("Fv", "Ia", "Ks")))
+    assert close(mujoco_torques(mjcf.data, names, *motion), torques(robot, *motion))
+    model = mujoco.MjModel.from_xml_string(mjcf.data.decode())
+    for moments in np.sort(model.body_inertia[model.body_mass > 0.0]):
+        assert moments[0] > 0.0 and moments[0] + moments[1] >= moments[2]
 
 
 def test_joints_that_follow_are_held_there_by_mujoco(tree) -> None:
@@ -121,34 +118,19 @@ def test_joints_that_follow_are_held_there_by_mujoco(tree) -> None:
     assert mimic.nq < pin.buildModelFromXML(export(tree, to="urdf").data.decode()).nq
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        "demo-arm",
-        *(pytest.param(n, marks=pytest.mark.rotating) for n in ("puma560", "wrist-coupled")),
-    ],
-)
+@pytest.mark.parametrize("name", ["demo-arm", *rotating("puma560", "wrist-coupled")])
 def test_built_in_robots_weigh_in_both_what_they_state(name) -> None:
     robot = load(name)
-    rigid = dataclasses.replace(robot, effects=(), motors={}, relations={}, parameters={
-        k: v for k, v in robot.parameters.items()
-        if not k.startswith(("Ia", "Fv", "Fs", "Off"))})  # fmt: skip
+    bodies = dataclasses.replace(rigid(robot), motors={}, relations={})
     if robot.motors:
         own = [j for j in robot.joints if j.name not in robot.motors]
         joints = tuple(dataclasses.replace(joint, actuated=True) for joint in own)
-        rigid = dataclasses.replace(rigid, joints=joints)
-    q, qd, qdd = states(rigid)
-    ours = torques(rigid, q, qd, qdd)
-    names = [f"joint_{joint.name}" for joint in rigid.moving]
+        bodies = dataclasses.replace(bodies, joints=joints)
+    q, qd, qdd = states(bodies)
+    ours = torques(bodies, q, qd, qdd)
+    names = [f"joint_{joint.name}" for joint in bodies.moving]
     assert close(pinocchio_torques(export(robot, to="urdf").data, names, q, qd, qdd), ours)
-    theirs = mujoco_torques(export(rigid, to="mjcf").data, names, q, qd, qdd)
-    assert close(theirs, ours)
-
-
-def test_every_file_has_bodies_that_could_be_built(tree) -> None:
-    model = mujoco.MjModel.from_xml_string(export(tree, to="mjcf").data.decode())
-    for moments in np.sort(model.body_inertia[model.body_mass > 0.0]):
-        assert moments[0] > 0.0 and moments[0] + moments[1] >= moments[2]
+    assert close(mujoco_torques(export(bodies, to="mjcf").data, names, q, qd, qdd), ours)
 
 
 def test_what_cannot_be_written_is_refused_in_one_line(tree) -> None:
@@ -180,24 +162,21 @@ def test_no_name_is_that_of_two_things(tmp_path) -> None:
 
 def test_a_moving_link_without_mass_is_told_and_taken_by_mujoco(tmp_path) -> None:
     """Several joints in one body; as light as it may be where the robot is light."""
-    for size in (1.0, 1e-3):
-        small = reread(tmp_path, "arm.xml", MJCF)
-        values = {name: size * value for name, value in small.parameters.items()}
-        robot = dataclasses.replace(small, parameters=values)
-        found = export(robot, to="urdf")
-        assert any(note.startswith("link_2: no body") for note in found.notes)
-        mujoco.MjModel.from_xml_string(found.data.decode())
-        again = reread(tmp_path, "again.urdf", found.data)
+    arm = reread(tmp_path, "arm.xml", MJCF)
+    for size in (1.0, 1e-3, 1e-9):
+        values = {name: size * value for name, value in arm.parameters.items()}
+        robot = dataclasses.replace(arm, parameters=values)
+        result = export(robot, to="urdf")
+        (note,) = (note for note in result.notes if note.startswith("link_2"))
+        if size == 1e-9:
+            assert "too small for MuJoCo" in note
+            with pytest.raises(ValueError, match="inertia"):
+                mujoco.MjModel.from_xml_string(result.data.decode())
+            continue
+        assert note.startswith("link_2: no body")
+        mujoco.MjModel.from_xml_string(result.data.decode())
+        again = reread(tmp_path, "again.urdf", result.data)
         assert same_physics(rigid(robot), rigid(again), 1e-6)
-
-
-def test_links_without_mass_of_a_robot_too_small_for_mujoco_are_told(tmp_path) -> None:
-    small = reread(tmp_path, "arm.xml", MJCF)
-    values = {name: 1e-9 * value for name, value in small.parameters.items()}
-    found = export(dataclasses.replace(small, parameters=values), to="urdf")
-    assert any(n.startswith("link_2") and "too small for MuJoCo" in n for n in found.notes)
-    with pytest.raises(ValueError, match="inertia"):
-        mujoco.MjModel.from_xml_string(found.data.decode())
 
 
 def rigid(robot: Robot) -> Robot:

@@ -110,11 +110,12 @@ def test_what_a_format_cannot_hold_is_told_with_its_share(tmp_path) -> None:
     share /= np.linalg.norm(np.where(rows.used, rows.predicted(model.beta), 0.0)[:, 2])
     assert exact["rotor_inertia", "3"].share == pytest.approx(share)
     assert exact["rotor_inertia", "3"].of == "the torque of joint 3"
-    alone = dataclasses.replace(model, given=())
-    about = {(x.effect, x.joint): x for x in export(alone, to="urdf").not_held}
-    assert about["offset", "1"].of == "all torques" and 0.0 < about["offset", "1"].share < 1.0
-    assert {x.effect for x in export(model, to="mjcf").not_held} == {"offset"}
-    assert "offset of joint" in export(model, to="mjcf").summary()
+    about = export(dataclasses.replace(model, given=()), to="urdf").not_held
+    (offset,) = (x for x in about if (x.effect, x.joint) == ("offset", "1"))
+    assert offset.of == "all torques" and 0.0 < offset.share < 1.0
+    fresh = export(model, to="mjcf")
+    assert {x.effect for x in fresh.not_held} == {"offset"}
+    assert "offset of joint" in fresh.summary()
 
 
 def a_link(rng) -> np.ndarray:
@@ -145,12 +146,8 @@ def test_the_nearest_machine_is_the_nearest() -> None:
         return float(np.linalg.norm(np.linalg.solve(L, chi - found.chi)))
 
     least = far(best.chi)
-    others = [
-        best.chi + t * L @ rng.normal(size=10)
-        for t in np.geomspace(1e-3, 1.0, 20)
-        for _ in range(100)
-    ]
-    for chi in others:
+    for t in np.repeat(np.geomspace(1e-3, 1.0, 20), 100):
+        chi = best.chi + t * L @ rng.normal(size=10)
         if np.linalg.eigvalsh(pseudo_inertia_of(chi))[0] > 1e-9:
             assert far(chi) > least * (1.0 - 1e-4)
 
