@@ -1,8 +1,6 @@
 """Laws that were learned, in all emitted code: the tables of Python, and of scipy."""
 
-import platform
 import re
-import subprocess
 import sys
 from functools import cache
 
@@ -12,7 +10,6 @@ import pytest
 import modeler.runtime.fused as tiling
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
-from modeler.codegen.package import write_emitted
 from modeler.core.law import Law
 from modeler.core.manifest import Emitted
 from modeler.derivation.base_parameters import base_parameters
@@ -27,7 +24,7 @@ from tests.compiled.cupy_on_cpu import cupy
 from tests.compiled.test_tiles import compiled_check
 from tests.export.test_casadi import far
 from tests.learned import drawn, scipy_value, text_with
-from tests.modules import STRICT, Module, compiler, loaded
+from tests.modules import Module, compiler, loaded
 from tests.rotation import ROTATING
 
 RNG = np.random.default_rng(20260)
@@ -142,27 +139,6 @@ def test_every_instruction_set_and_compiler_gives_the_same(cc, flags, tmp_path):
     assert compiled_check(with_control(), tmp_path, cc, *flags, units=units * (flags == ["-O0"]))
 
 
-@pytest.mark.parametrize("cc", ["gcc", pytest.param("clang", marks=pytest.mark.rotating)])
-def test_a_law_is_straight_line_code_without_calls(cc, tmp_path):
-    """Its table known or not, no jump and no call is left of it."""
-    write_emitted(made().emitted, tmp_path)
-    text = made().emitted.files["demo_arm_base_regressor.c"]
-    first = text.index("static const double law1")
-    (tmp_path / "one.c").write_text(
-        f'#include "modeler_law.h"\n{text[first : text.index("/*", first)]}\n'
-        "double one(double x, double y);\n"
-        "double one(double x, double y)\n{\n"
-        "    return modeler_law_2(&law1, x, y) + modeler_law_2y(&law3, x, y)\n"
-        "        + modeler_law_1(&law2, x) + modeler_law_1x(&law2, y);\n}\n"
-    )
-    command = [compiler(cc), *STRICT, "-O2", "-DMODELER_NO_CLONES", "-S", "one.c"]
-    subprocess.run(command, cwd=tmp_path, check=True)
-    words = [line.split()[0] for line in (tmp_path / "one.s").read_text().splitlines() if line]
-    if platform.machine() != "x86_64":
-        pytest.skip("NOT CHECKED: jumps have other names here")
-    assert not [word for word in words if word.startswith(("j", "call"))]
-
-
 @pytest.mark.parametrize("name", ["five-bar", pytest.param("orthoglide-2003", marks=ROTATING)])
 def test_robots_with_loops_have_laws_of_their_motors(name, monkeypatch):
     """Columns by scipy, one by one and in tiles; parts of the torque; casadi's G is the C's."""
@@ -192,17 +168,6 @@ def test_robots_with_loops_have_laws_of_their_motors(name, monkeypatch):
     monkeypatch.setattr(tiling, "TILED_FROM", 1)
     W = c.observation(q, qd, qdd)
     np.testing.assert_allclose(W, phi.reshape(W.shape), rtol=1e-9, atol=1e-9)
-
-
-def test_forward_dynamics_undo_the_torques():
-    c = loaded(with_control())
-    nominal = {p.name: p.nominal or 0.0 for p in c.spec.standard}
-    nominal |= {"Lawa1": 0.5, "Lawb2": -0.3, "Lawc3": 0.02}
-    beta = c.base_parameters(np.array([nominal[p.name] for p in c.spec.standard]))
-    q, qd, qdd = motion()
-    tau = c.inverse_dynamics(q[:20], qd[:20], qdd[:20], beta)
-    found = c.evaluate("forward_dynamics", q=q[:20], qd=qd[:20], tau=tau, beta=beta)
-    np.testing.assert_allclose(found, qdd[:20], atol=1e-7)
 
 
 def test_casadi_and_every_function_for_controllers_are_the_same(tmp_path):

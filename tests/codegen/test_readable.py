@@ -1,7 +1,6 @@
 """Names of temporaries and comments: they say what is true, cost nothing, and change no code."""
 
 import re
-import subprocess
 
 import numpy as np
 import pytest
@@ -14,7 +13,7 @@ from modeler.codegen.workflow import derive, load
 from modeler.derivation.derive import derive_model
 from modeler.robot import robot_from_text
 from tests.codegen.fitted_library import SLOW, fitted_of
-from tests.modules import compiler, module
+from tests.modules import module
 
 _CONSTANT = re.compile(r"^ +const (?:double|float|modeler_lanes) (\w+)\s+?=", re.M)
 _NUMBERED = re.compile(r"[tk]\d+")
@@ -32,33 +31,6 @@ def test_most_temporaries_say_what_they_are(robot: str, share: float) -> None:
     names = names_of(module(robot).emitted.files)
     numbered = [name for name in names if _NUMBERED.fullmatch(name)]
     assert len(names) > 100 and len(numbered) <= (1.0 - share) * len(names)
-
-
-@pytest.mark.parametrize(
-    "robot",
-    ["scara", *(pytest.param(name, marks=pytest.mark.rotating) for name in ("ur10e", "five-bar"))],
-)
-def test_object_code_is_that_of_the_unnamed_text(robot, tmp_path, monkeypatch) -> None:
-    """Names and comments are no part of it: gcc makes the same bytes of numbered temporaries."""
-    made = module(robot)
-    fitted = fitted_of(made.emitted.spec)
-    named = emit(made.model, made.base, fitted)
-    monkeypatch.setattr(Naming, "written", lambda self, lines, remark: tuple(lines))
-    plain = emit(made.model, made.base, fitted)
-    assert "const double t1 = " in str(dict(plain.files)) and names_of(plain.files)
-    assert all(_NUMBERED.fullmatch(name) for name in names_of(plain.files))
-    objects = []
-    for folder, emitted in ((tmp_path / "named", named), (tmp_path / "plain", plain)):
-        folder.mkdir()
-        for name, text in emitted.files.items():
-            if name.endswith((".c", ".h")) and "/" not in name:
-                text = re.sub(r"\b(0x)?[0-9a-f]{8}(u|[0-9a-f]{8})\b", "0", text)  # signatures
-                (folder / name).write_text(text)
-        units = [p.name for p in sorted(folder.glob("*.c")) if not p.name.startswith("modeler")]
-        words = [compiler("gcc"), "-std=gnu11", "-O1", "-c", *units]
-        subprocess.run(words, cwd=folder, check=True, capture_output=True)
-        objects.append({p.name: p.read_bytes() for p in folder.glob("*.o")})
-    assert objects[0] == objects[1] and len(objects[0]) >= 4
 
 
 def test_the_text_does_not_depend_on_what_was_asked_of_the_model_before() -> None:

@@ -1,7 +1,6 @@
 """Single precision: literals, runtime, sine and cosine, whole modules against double precision."""
 
 import dataclasses
-import re
 import subprocess
 from functools import cache
 from pathlib import Path
@@ -13,8 +12,7 @@ from modeler.cli import main
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.errors import ManifestError
-from modeler.core.files import resource_dir
-from modeler.core.manifest import CLOSURE_RUNTIME, RUNTIME, Emitted, module_from_json
+from modeler.core.manifest import Emitted, module_from_json
 from modeler.runtime.model import CompiledModel, load_folder
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.emitted_folders import built, run
@@ -33,35 +31,6 @@ def emitted(name: str) -> Emitted:
 @cache
 def single(name: str) -> CompiledModel:
     return loaded(emit(module(name).model, module(name).base, precision="single"))
-
-
-def runtime(folder: Path) -> list[Path]:
-    """The sources of the runtime in single precision, and their headers, in one folder."""
-    csrc = resource_dir("csrc")
-    for name in (*RUNTIME, *CLOSURE_RUNTIME):
-        places = [csrc / "single" / name, csrc / "include" / name, csrc / name]
-        source = next(place for place in places if place.is_file())
-        (folder / name).write_text(source.read_text())
-    return sorted(folder.glob("*.c"))
-
-
-def test_no_word_of_the_runtime_stays_in_double_precision(tmp_path):
-    """No type, literal or function of doubles; no external name that the runtime of doubles has."""
-    for source in runtime(tmp_path):
-        made = source.with_suffix(".o")
-        subprocess.run([compiler("gcc"), *STRICT, *FLOATS, "-c", source, "-o", made], check=True)
-        names = subprocess.run(["nm", "-g", made], capture_output=True, text=True, check=True)
-        found = [line.split()[-2:] for line in names.stdout.splitlines()]
-        assert not [name for _, name in found if name.startswith("modeler_")]
-        assert all(name.startswith("modelerf_") for kind, name in found if kind != "U")
-    for path in tmp_path.glob("*.[ch]"):  # what the files say themselves
-        path.write_text(re.sub(r"#include <.*>", "", path.read_text()))
-    for source in sorted(tmp_path.glob("*.c")):
-        read = [compiler("gcc"), "-E", "-P", source]
-        text = subprocess.run(read, capture_output=True, text=True, check=True).stdout
-        assert "float" in text
-        assert not re.search(r"\bdouble\b|\d\.\d*(e[-+]?\d+)?(?![\def.])", text)
-        assert not re.search(r"\b(fabs|fmin|fmax|sqrt|sin|cos|tan|exp|pow|floor|log)\(", text)
 
 
 @pytest.mark.parametrize(

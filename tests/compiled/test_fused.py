@@ -87,22 +87,6 @@ def test_small_singular_values_survive():
     assert np.abs(lost - exact).max() > 1e5 * 30 * EPS
 
 
-def test_every_set_of_instructions_agrees_to_rounding():
-    model = plain("wrist")
-    q, qd, qdd = states(3, 700)
-    tau = np.random.default_rng(4).normal(size=q.shape)
-    given = fused.Samples(q, qd, qdd, tau, None, None, None)
-    address = model._library.address(f"{model.spec.prefix}_base_regressor_nonzeros")
-    rows = stacked(model, q, qd, qdd, tau)
-    found = [
-        fused.of_samples(model.pattern, fused.Functions(address), given, level=level).triangles
-        for level in levels()
-    ]
-    for own in found:
-        check(own, rows)
-        assert np.allclose(np.abs(own), np.abs(found[0]), rtol=0, atol=1e-11 * np.abs(rows).max())
-
-
 def test_masked_rows_may_hold_anything_and_weights_multiply():
     wrist = plain("wrist")
     q, qd, qdd = states(3, 501)

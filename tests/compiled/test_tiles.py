@@ -1,7 +1,6 @@
 """Tiles: the same values as one sample after another, wherever a sample stands and whatever is in
 the others; robots, compilers and instruction sets side by side."""
 
-import platform
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
@@ -15,7 +14,7 @@ from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.errors import LoopError, ManifestError, ShapeError
 from modeler.core.manifest import Emitted
-from modeler.runtime.bind import Library, tile_library
+from modeler.runtime.bind import tile_library
 from modeler.runtime.model import CompiledModel, load, load_folder
 from tests.codegen.fitted_library import robot_module
 from tests.modules import STRICT, compiled, compiler, loaded, module, states, unoptimised
@@ -233,27 +232,6 @@ def test_tiles_in_single_precision(name, tiled, monkeypatch):
     size = np.abs(expected).max()
     assert np.abs(W - expected).max() < 3e-6 * size
     assert np.abs(model.observation(q, qd, qdd) - expected).max() < 3e-6 * size
-
-
-@pytest.mark.skipif(
-    platform.machine() != "x86_64" or platform.libc_ver()[0] != "glibc", reason="NOT CHECKED: ifunc"
-)
-@pytest.mark.rotating("other compilers")
-def test_the_loader_picks_the_machine_code_of_a_regressor(tmp_path):
-    """Without contraction the digits are those of one text for all processors."""
-    emitted = module("wrist").emitted
-    write_emitted(emitted, tmp_path)
-    found = {}
-    for flag in ("-DMODELER_NO_CLONES", "-DMODELER_WITH"):
-        library = tmp_path / f"{flag}.so"
-        units = [tmp_path / n for n in emitted.spec.sources if n.endswith(".c")]
-        command = [compiler("gcc"), *STRICT, "-O2", "-fPIC", "-shared", flag, "-o", library]
-        subprocess.run([*command, *units, "-lm"], check=True)
-        listed = subprocess.run(["nm", library], capture_output=True, text=True, check=True)
-        assert (" i wrist_base_regressor" in listed.stdout) == (flag == "-DMODELER_WITH")
-        found[flag] = CompiledModel(emitted.spec, Library(emitted.spec, library))
-    one, two = (m.base_regressor(*states(3, 50)) for m in found.values())
-    np.testing.assert_array_equal(one, two)
 
 
 def test_a_module_without_the_unit_is_evaluated_sample_by_sample(tiled, tmp_path):
