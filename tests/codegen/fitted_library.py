@@ -96,6 +96,10 @@ class Functions:
         """Arguments that a function reads."""
         return self._known[role].inputs
 
+    def output(self, role: str) -> str:
+        """Name of what a function writes."""
+        return self._known[role].outputs[0].name
+
     def text(self, role: str) -> str:
         """What a function without arguments says."""
         function = getattr(self._library, f"{self.spec.prefix}_{role}")

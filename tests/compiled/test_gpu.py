@@ -18,9 +18,8 @@ from modeler.core.manifest import Emitted
 from modeler.runtime.gpu import GpuModel, load_gpu
 from tests.codegen.fitted_library import robot_module
 from tests.compiled.cupy_on_cpu import cupy
-from tests.modules import compiler, loaded, module, plain, states
-
-NAMES = ("wrist", pytest.param("puma560", marks=pytest.mark.rotating))
+from tests.modules import compiler, loaded, module, states
+from tests.rotation import rotating
 
 
 @cache
@@ -55,36 +54,26 @@ def grams(phi: np.ndarray, tau: np.ndarray, model: GpuModel) -> list[np.ndarray]
 
 
 @pytest.mark.parametrize("samples", [1, 200])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", ["wrist", *rotating("puma560", "slow-arm")])
 def test_kernels_compute_what_the_scalar_c_computes(name, samples, gpu):
-    model = gpu(name)
+    """With effects that read signals, too."""
+    model, rng = gpu(name), np.random.default_rng(1)
     motion = states(len(model.spec.joints), samples)
-    phi = plain(name).base_regressor(*motion)
-    values = model.nonzeros(*motion)
+    tau = rng.normal(size=motion[0].shape)
+    s = {"s": rng.uniform(0, 1, (samples, len(model.spec.signals)))} if model.spec.signals else {}
+    phi = loaded(robot_module(name).emitted).base_regressor(*motion, **s)
     expected = np.array([phi[:, joint, column] for joint, column in model.spec.nonzeros])
-    np.testing.assert_allclose(values, expected, rtol=1e-12, atol=1e-12 * np.abs(phi).max())
-    rng = np.random.default_rng(1)
-    tau = rng.normal(size=(samples, len(model.spec.joints)))
-    use = rng.uniform(size=tau.shape) < 0.7
-    for mask in (None, use):
-        kept = np.ones_like(tau) if mask is None else mask
-        wanted = grams(phi * kept[:, :, None], tau * kept, model)
-        for got, exact in zip(model.gram(*motion, tau, use=mask), wanted, strict=True):
+    atol = 1e-12 * np.abs(phi).max()
+    np.testing.assert_allclose(model.nonzeros(*motion, **s), expected, rtol=1e-12, atol=atol)
+    for mask in (None, rng.uniform(size=tau.shape) < 0.7):
+        used = np.ones_like(tau) if mask is None else mask
+        wanted = grams(phi * used[:, :, None], tau * used, model)
+        for got, exact in zip(model.gram(*motion, tau, use=mask, **s), wanted, strict=True):
             size = np.sqrt(np.outer(np.diag(exact), np.diag(exact)))
             assert (np.abs(got - exact) <= 1e-12 * size + 1e-300).all()
-
-
-@pytest.mark.rotating("kernels on the processor")
-def test_effects_that_read_signals(gpu):
-    model = gpu("slow-arm")
-    motion = states(3, 20)
-    s = np.random.default_rng(2).uniform(0, 1, (20, len(model.spec.signals)))
-    host = robot_module("slow-arm").emitted
-    phi = loaded(host).base_regressor(*motion, s=s)
-    expected = np.array([phi[:, joint, column] for joint, column in model.spec.nonzeros])
-    np.testing.assert_allclose(model.nonzeros(*motion, s=s), expected, rtol=1e-12, atol=1e-12)
-    with pytest.raises(ShapeError, match="its effects read signals; give s"):
-        model.nonzeros(*motion)
+    if s:
+        with pytest.raises(ShapeError, match="its effects read signals; give s"):
+            model.nonzeros(*motion)
 
 
 def test_of_no_samples_nothing_and_what_is_refused(gpu):

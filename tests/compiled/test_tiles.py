@@ -44,35 +44,26 @@ def assert_close(got: np.ndarray, expected: np.ndarray) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["emps", pytest.param("wrist", marks=pytest.mark.digits),
+    ["emps", *(pytest.param(n, marks=pytest.mark.digits) for n in ("wrist", "slow-arm")),
      pytest.param("scara", marks=pytest.mark.rotating),
      *(pytest.param(n, marks=ROTATING) for n in ("sr400-tree", "tx40", "dvrk-psm"))],
 )  # fmt: skip
 def test_a_tile_has_the_values_of_the_scalar_functions(name, monkeypatch):
-    model = compiled(name)
-    joints = len(model.spec.joints)
-    motion = states(joints, SAMPLES)
-    entries, phi = model.nonzeros(*motion), model.base_regressor(*motion)
+    """Effects that read signals have tiles, too."""
+    model = loaded(robot_module(name).emitted) if name == "slow-arm" else compiled(name)
+    spec, motion = model.spec, states(len(model.spec.joints), SAMPLES)
+    s = np.random.default_rng(3).uniform(0.1, 0.9, (SAMPLES, len(spec.signals)))
+    s = {"s": s} if spec.signals else {}
+    entries, phi = model.nonzeros(*motion, **s), model.base_regressor(*motion, **s)
     monkeypatch.setattr(tiling, "TILED_FROM", 1)
     monkeypatch.setattr(tiling, "_SLICE", 8)
-    assert_close(model.nonzeros(*motion), entries)
-    by_tiles = model.base_regressor(*motion)
+    assert_close(model.nonzeros(*motion, **s), entries)
+    by_tiles = model.base_regressor(*motion, **s)
     assert_close(by_tiles.reshape(SAMPLES, -1), phi.reshape(SAMPLES, -1))
-    W = model.observation(*motion)
+    W = model.observation(*motion, **s)
     np.testing.assert_array_equal(W, by_tiles.reshape(W.shape))
-    rows, columns = np.array(model.spec.nonzeros).T
-    np.testing.assert_array_equal(model.nonzeros(*motion), by_tiles[:, rows, columns])
-
-
-@pytest.mark.digits
-def test_effects_that_read_signals_have_tiles(tiled, monkeypatch):
-    made = robot_module("slow-arm")
-    model = loaded(made.emitted)
-    motion = states(len(model.spec.joints), SAMPLES)
-    s = np.random.default_rng(3).uniform(0.1, 0.9, (SAMPLES, len(model.spec.signals)))
-    by_tiles = model.nonzeros(*motion, s)
-    monkeypatch.setattr(tiling, "TILED_FROM", 2**18)
-    assert_close(by_tiles, model.nonzeros(*motion, s))
+    rows, columns = np.array(spec.nonzeros).T
+    np.testing.assert_array_equal(model.nonzeros(*motion, **s), by_tiles[:, rows, columns])
 
 
 @pytest.mark.parametrize("name", ["emps", "wrist"])

@@ -80,9 +80,9 @@ def test_sine_and_cosine_of_floats(flags, tmp_path):
     quarters = rng.integers(-60_000, 60_000, 100_000) * (np.pi / 2)
     far = np.concatenate([rng.uniform(-1e5, 1e5, 200_000), quarters, [0.0, -0.0, 1e-30, 99999.99]])
     for x, units in ((near, 2.0), (far, np.inf)):
-        given = x.astype(np.float32)
-        for got, function in zip(sines(given, tmp_path, *flags), (np.sin, np.cos), strict=True):
-            exact = function(given.astype(float))
+        x = x.astype(np.float32)
+        for got, function in zip(sines(x, tmp_path, *flags), (np.sin, np.cos), strict=True):
+            exact = function(x.astype(float))
             apart = np.abs(got - exact)
             assert apart.max() < 1e-7
             large = np.abs(exact) > 1e-3  # where the angle's own rounding is not all there is
