@@ -23,15 +23,12 @@ STRICT = (
     "-Wdouble-promotion", "-Wfloat-conversion",
 )  # fmt: skip
 
-PACKAGES = {"qemu-system-arm": "qemu-system-arm"}
-
 
 def tool(name: str) -> str:
-    found = shutil.which(name)
-    if found is None:
-        package = PACKAGES.get(name, "gcc-arm-none-eabi")
+    if shutil.which(name) is None:
+        package = name if name.startswith("qemu") else "gcc-arm-none-eabi"
         pytest.skip(f"NOT CHECKED: {name} is not installed; on Debian: apt install {package}")
-    return found
+    return name
 
 
 def command(cpu: str) -> list[str]:
@@ -42,28 +39,22 @@ def command(cpu: str) -> list[str]:
 
 def library(emitted: Emitted, folder: Path, cpu: str, *more: str) -> list[Path]:
     """Objects of the library, compiled without a warning."""
-    objects = []
     for name in emitted.spec.sources:
         (folder / name).write_text(emitted.files[name])
-    for name in emitted.spec.sources:
-        if name.endswith(".c"):
-            objects.append(folder / f"{name}.{cpu}.o")
-            flags = [*STRICT, *more, "-ffunction-sections", "-c", folder / name, "-o", objects[-1]]
-            subprocess.run([*command(cpu), *flags], check=True)
+    units = [name for name in emitted.spec.sources if name.endswith(".c")]
+    objects = [folder / f"{name}.{cpu}.o" for name in units]
+    for name, made in zip(units, objects, strict=True):
+        flags = [*STRICT, *more, "-ffunction-sections", "-c", folder / name, "-o", made]
+        subprocess.run([*command(cpu), *flags], check=True)
     return objects
 
 
 def undefined(objects: Sequence[Path]) -> set[str]:
     """What the objects want from other libraries."""
-    wanted, own = set(), set()
     text = output([tool("arm-none-eabi-nm"), *map(str, objects)])
-    for line in text.splitlines():
-        words = line.split()
-        if len(words) == 2 and words[0] == "U":
-            wanted.add(words[1])
-        elif len(words) == 3:
-            own.add(words[2])
-    return wanted - own
+    rows = [line.split() for line in text.splitlines()]
+    defined = {words[2] for words in rows if len(words) == 3}
+    return {words[1] for words in rows if len(words) == 2 and words[0] == "U"} - defined
 
 
 def section_bytes(path: Path, *parts: str) -> int:
@@ -82,12 +73,9 @@ def run(
     """Outputs, (n, ...), of functions on that processor; inputs are (n, length)."""
     objects = library(emitted, folder, cpu)
     number = "float" if emitted.spec.precision == "single" else "double"
-    lines = [f'#include "{emitted.spec.prefix}.h"', '#include "board.h"']
-    lines += ["int main(void)", "{"]
-    for function, inputs in calls:
-        lines += call_lines(function, inputs, number)
-    lines += ["    return 0;", "}"]
-    (folder / "main.c").write_text("\n".join(lines) + "\n")
+    body = [line for call in calls for line in call_lines(*call, number)]
+    head = [f'#include "{emitted.spec.prefix}.h"', '#include "board.h"', "int main(void)", "{"]
+    (folder / "main.c").write_text("\n".join([*head, *body, "    return 0;", "}", ""]))
     board = ["-nostartfiles", "-Wl,-emain", "-Wl,--section-start=.vectors=0"]
     board += ["-Wl,-Ttext=0x400", "-Wl,-Tdata=0x20000000", "-I", str(HERE)]
     program = folder / "main.elf"

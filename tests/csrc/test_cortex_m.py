@@ -80,10 +80,9 @@ def test_it_computes_what_the_host_computes(name, cpu, precision, bound, tmp_pat
         given["q"] = 0.1 * given["q"] + [host.spec.closure.home[k] for k in host.spec.closure.given]
         bound *= 10  # what closes the loops is only as exact as the posture is far from singular
     rng = np.random.default_rng(1)
-    beta = rng.normal(size=len(host.spec.base))
+    given["beta"] = np.tile(rng.normal(size=len(host.spec.base)), (20, 1))
+    given["s"] = rng.uniform(0, 1, (20, len(host.spec.signals)))
     given = {key: value.astype(np.float32).astype(float) for key, value in given.items()}
-    given["beta"] = np.tile(beta.astype(np.float32).astype(float), (20, 1))
-    given["s"] = rng.uniform(0, 1, (20, len(host.spec.signals))).astype(np.float32).astype(float)
     motion = [given["q"], given["qd"], given["qdd"]]
     signals = {"s": given["s"]} if host.spec.signals else {}
     functions = {f.name.removeprefix(f"{host.spec.prefix}_"): f for f in made.spec.functions}

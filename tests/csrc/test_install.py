@@ -1,7 +1,7 @@
 """An emitted folder is installed by make and CMake, found by name or by signature, and linked."""
 
 import shutil
-from functools import cache, partial
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -24,27 +24,17 @@ target_link_libraries(many emps::batch)
 run = partial(emitted_folders.run, CFLAGS="-O0")
 
 
-@cache
-def other() -> dict[str, str]:
-    """The folder of a robot of the same name, with another signature."""
-    emitted = module("emps").emitted
-    signature = emitted.spec.signature()
-    new = signature[::-1]
-    versions = package_version(signature), package_version(new)
-    return {
-        name: text.replace(signature, new).replace(*versions)
-        for name, text in emitted.files.items()
-    }
-
-
-def write(files: dict[str, str], folder: Path) -> None:
-    for name, text in files.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
-
-
 def signature() -> str:
     return module("emps").emitted.spec.signature()
+
+
+def write_other(folder: Path) -> None:
+    """The folder of a robot of the same name, with another signature."""
+    new = signature()[::-1]
+    versions = package_version(signature()), package_version(new)
+    for name, text in module("emps").emitted.files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text.replace(signature(), new).replace(*versions))
 
 
 @pytest.fixture
@@ -73,26 +63,23 @@ def files(prefix: Path) -> set[str]:
     return {p.relative_to(prefix).as_posix() for p in prefix.rglob("*") if not p.is_dir()}
 
 
-def consume(place: Path, prefix: Path, shared: bool, wanted: str = "REQUIRED") -> None:
-    """A C++ program that finds the package by CMake, and runs."""
-    (place / "CMakeLists.txt").write_text(CONSUMER.format(wanted=wanted))
-    build = place / "build"
-    shutil.rmtree(build, ignore_errors=True)
-    told = run("cmake", "-S", ".", "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}",
-               f"-DBUILD_SHARED_LIBS={int(shared)}", where=place)  # fmt: skip
-    assert f"found <1> <{signature()}>" in told
-    run("cmake", "--build", build, where=place)
-    assert run(build / "consumer", where=place) == f"{signature()} 100"
-    assert run(build / "many", where=place) == "2"
-    needed = run("ldd", build / "consumer", where=place)
-    assert (f"libemps_model.so.{signature()}" in needed) == shared
-
-
-def not_found(place: Path, prefix: Path, wanted: str) -> str:
+def configure(place: Path, prefix: object, wanted: str, *more: str, fails: bool = False) -> str:
+    """What CMake says of a project that wants the package."""
     (place / "CMakeLists.txt").write_text(CONSUMER.format(wanted=wanted))
     shutil.rmtree(place / "build", ignore_errors=True)
-    return run("cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={prefix}", where=place,
-               fails=True)  # fmt: skip
+    words = ["cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={prefix}", *more]
+    return run(*words, where=place, fails=fails)
+
+
+def consume(place: Path, prefix: object, shared: bool, wanted: str = "REQUIRED") -> None:
+    """A C++ program that finds the package by CMake, and runs."""
+    said = configure(place, prefix, wanted, f"-DBUILD_SHARED_LIBS={int(shared)}")
+    assert f"found <1> <{signature()}>" in said
+    run("cmake", "--build", "build", where=place)
+    assert run("build/consumer", where=place) == f"{signature()} 100"
+    assert run("build/many", where=place) == "2"
+    needed = run("ldd", "build/consumer", where=place)
+    assert (f"libemps_model.so.{signature()}" in needed) == shared
 
 
 @pytest.mark.rotating("long tests of csrc")
@@ -114,20 +101,23 @@ def test_make_installs_what_cmake_and_pkg_config_find_and_takes_it_away_again(fo
 
 
 def check_pkg_config(place: Path, prefix: Path) -> None:
-    path = {"PKG_CONFIG_PATH": str(prefix / "lib" / "pkgconfig")}
-    flags = run("pkg-config", "--cflags", "--libs", "emps", where=place, **path).split()
-    rpath = f"-Wl,-rpath,{prefix / 'lib'}"
-    run("g++", "-Wall", "-Werror", "consumer.cpp", *flags, rpath, "-o", "program", where=place)
-    assert run("./program", where=place) == f"{signature()} 100"
-    flags = run("pkg-config", "--cflags", "--libs", "emps_batch", where=place, **path).split()
-    run("g++", "-Wall", "-Werror", "many.cpp", *flags, rpath, "-o", "many", where=place)
-    assert run("./many", where=place) == "2"
+    path, rpath = prefix / "lib" / "pkgconfig", f"-Wl,-rpath,{prefix / 'lib'}"
+
+    def ask(*words: str, fails: bool = False) -> str:
+        said = run("pkg-config", *words, where=place, PKG_CONFIG_PATH=str(path), fails=fails)
+        return said.strip()
+
+    for package, program, says in (("emps", "consumer", f"{signature()} 100"),
+                                   ("emps_batch", "many", "2")):  # fmt: skip
+        flags = ask("--cflags", "--libs", package).split()
+        words = ["-Wall", "-Werror", f"{program}.cpp", *flags, rpath, "-o", program]
+        run("g++", *words, where=place)
+        assert run(f"./{program}", where=place) == says
     version = package_version(signature())
-    assert run("pkg-config", "--modversion", "emps", where=place, **path).strip() == version
-    told = run("pkg-config", "--variable=signature", "emps", where=place, **path)
-    assert told.strip() == signature()
-    run("pkg-config", "--exists", f"emps = {version}", where=place, **path)
-    run("pkg-config", "--exists", "emps = 1.1.2.3", where=place, fails=True, **path)
+    assert ask("--modversion", "emps") == version
+    assert ask("--variable=signature", "emps") == signature()
+    ask("--exists", f"emps = {version}")
+    ask("--exists", "emps = 1.1.2.3", fails=True)
 
 
 @pytest.mark.rotating("long tests of csrc")
@@ -138,7 +128,7 @@ def test_cmake_installs_either_kind(folder, tmp_path, shared):
     install_by_cmake(folder, prefix, shared)
     consume(place, prefix, shared, f"{package_version(signature())} EXACT REQUIRED")
     kinds = ("static", "shared")
-    told = not_found(place, prefix, f"REQUIRED COMPONENTS {kinds[not shared]}")
+    told = configure(place, prefix, f"REQUIRED COMPONENTS {kinds[not shared]}", fails=True)
     assert f"no library of signature {signature()} here that is {kinds[not shared]}" in told
     (pc,) = prefix.rglob("emps.pc")
     path = {"PKG_CONFIG_PATH": str(pc.parent)}
@@ -151,14 +141,14 @@ def test_the_library_beside_is_found_where_the_first_has_another_signature(folde
     """By the number that stands for the signature; by the interface alone any will do."""
     compiler("cmake")
     another, prefix, place = tmp_path / "other", tmp_path / "prefix", tmp_path / "consumer"
-    write(other(), another)
+    write_other(another)
     install_by_make(another, tmp_path / "first")
     install_by_make(folder, prefix)
     version = package_version(signature())
     both = f"{tmp_path / 'first'};{prefix}"
     consume(place, both, False, f"{version} REQUIRED")
     for wanted in (version, "1"):
-        told = not_found(place, tmp_path / "first", f"{wanted} REQUIRED")
+        told = configure(place, tmp_path / "first", f"{wanted} REQUIRED", fails=True)
         assert package_version(signature()[::-1]) in told  # "considered but not accepted"
 
 
@@ -170,7 +160,7 @@ def test_a_program_never_gets_the_library_of_another_signature(folder, tmp_path)
     lib = prefix / "lib"
     link = ["-I", prefix / "include" / "emps", "-L", lib, f"-Wl,-rpath,{lib}", "-lemps_model"]
     run("g++", "consumer.cpp", *link, "-o", "old", where=place)
-    write(other(), folder)
+    write_other(folder)
     run("make", "clean", where=folder)
     install_by_make(folder, prefix)
     run("g++", "consumer.cpp", *link, "-o", "new", where=place)
@@ -187,9 +177,10 @@ def test_a_kind_that_was_left_by_another_signature_is_not_taken(folder, tmp_path
     compiler("cmake")
     prefix, place = tmp_path / "prefix", tmp_path / "consumer"
     install_by_cmake(folder, prefix, shared=False)
-    write(other(), folder)
+    write_other(folder)
     install_by_cmake(folder, prefix, shared=True)
-    assert "that is static" in not_found(place, prefix, "REQUIRED COMPONENTS static")
+    told = configure(place, prefix, "REQUIRED COMPONENTS static", fails=True)
+    assert "that is static" in told
 
 
 def test_a_destination_goes_before_the_prefix(folder, tmp_path):
