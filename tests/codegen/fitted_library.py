@@ -111,10 +111,6 @@ class Functions:
         array = (ctypes.c_double * count).in_dll(self._library, f"{self.spec.prefix}_{name}")
         return np.array(array)
 
-    def integers(self, name: str, count: int) -> list[int]:
-        """A table of whole numbers."""
-        return [*(ctypes.c_int * count).in_dll(self._library, f"{self.spec.prefix}_{name}")]
-
     def __call__(self, role: str, state: Mapping[str, np.ndarray]) -> np.ndarray:
         """The output over the samples; what the function reads is taken from `state`."""
         function = self._known[role]

@@ -11,7 +11,6 @@ import pytest
 import sympy
 
 import modeler
-from modeler.codegen.closed import solving_of
 from modeler.codegen.emit import emit
 from modeler.codegen.functions import comment_text, module_prefix, symbol_macros
 from modeler.codegen.workflow import derive, generate
@@ -21,7 +20,6 @@ from modeler.derivation.base_parameters import base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.derivation.numeric_rank import grouping_matrix
 from modeler.robot import read_robot, robot_from_text, with_effects
-from tests.codegen.fitted_library import Functions, motion
 from tests.modules import compiled, module, plain, states
 from tests.repository import ROOT
 from tests.robots import TREES
@@ -113,20 +111,6 @@ def test_an_optimising_compiler_changes_roundings_only(name):
         np.testing.assert_allclose(fast / scale, slow / scale, rtol=0, atol=1e-11)
 
 
-@pytest.mark.parametrize("name", ["emps", pytest.param("sr400-tree", marks=pytest.mark.rotating)])
-def test_compact_regressor_and_its_tables_are_the_dense_one(name):
-    """The tables as the C has them, for controllers."""
-    made = module(name)
-    spec, functions = made.emitted.spec, Functions(made.emitted)
-    tables = [functions.integers(f"nonzero_{way}", len(spec.nonzeros)) for way in ("row", "column")]
-    assert [*zip(*tables, strict=True)] == [*spec.nonzeros]
-    given = motion(name, 1)
-    dense = functions("base_regressor", given)[0]
-    back = np.zeros_like(dense)
-    back[*tables] = functions("base_regressor_nonzeros", given)[0]
-    np.testing.assert_allclose(back, dense, rtol=0, atol=1e-12 * np.abs(dense).max())
-
-
 @pytest.mark.parametrize("name", TREES)
 def test_the_manifest_survives_its_file_and_describes_the_module(name):
     made = module(name)
@@ -171,15 +155,6 @@ def test_operation_counts_are_those_that_were_measured_as_reachable():
     assert additions <= 498 and multiplications <= 685
 
 
-def test_elimination_of_loop_equations_takes_a_tenth_of_dense_factors():
-    made = module("orthoglide-2003")
-    own, graph = solving_of(made.model, made.base).eliminations[""], made.model.graph
-    m = len(made.model.closure.solved)
-    _, multiplications = graph.operations(own.factors)
-    assert multiplications < 0.1 * m**3 / 3 + 18
-    assert max(graph.operations(own.solution)) < 0.4 * m**2
-
-
 def test_a_title_cannot_break_out_of_its_comment():
     made = module("wrist")
     robot = dataclasses.replace(made.model.robot, title='*/ int evil; /* "naïve"\nrobot')
@@ -199,15 +174,6 @@ def test_robot_names_become_c_names_and_those_that_would_clash_are_refused():
         symbol_macros("arm", ["é"])
     with pytest.raises(EmitError, match=r"math\.h is a header of C; choose another"):
         module_prefix("Math")
-
-
-def test_macros_of_symbols_are_apart_from_all_others():
-    """The header's own (ARM_JOINTS), and those of <math.h>: FP_NAN, HUGE_VAL, M_PI."""
-    assert symbol_macros("arm", ["JOINTS", "D4"]) == {
-        "JOINTS": "ARM_GEO_JOINTS", "D4": "ARM_GEO_D4"
-    }  # fmt: skip
-    for robot, symbol in (("fp", "NAN"), ("huge", "VAL"), ("m", "PI")):
-        assert symbol_macros(robot, [symbol]) == {symbol: f"{robot.upper()}_GEO_{symbol}"}
 
 
 def test_a_robot_without_base_parameters_is_refused():

@@ -132,16 +132,3 @@ def test_a_symbol_with_a_very_long_name_is_written_out():
     block = make_block([("phi[0]", long * q), ("phi[1]", long)], {"q0": "q[0]", name: place})
     lines = tuple(" ".join(line.split()) for line in block.body)
     assert lines == (f"phi[0] = {place}*q[0];", f"phi[1] = {place};")
-
-
-def test_a_tile_has_lanes_for_what_moves_and_numbers_for_what_does_not():
-    graph = Graph()
-    x, length = graph.symbol("q0"), graph.symbol("D4", static=True)
-    values = (graph.call("cos", length) * graph.call("sin", x), graph.power(length, x),
-              length * length, graph.constant(-1))  # fmt: skip
-    made = make_block([(f"out[{k}]", value) for k, value in enumerate(values)],
-                      {"q0": "q[0]", "D4": "ARM_GEO_D4"}, target=TILES["double"])  # fmt: skip
-    assert made.constants and all(line.startswith("const double k") for line in made.constants)
-    assert not any(word in line for line in made.body for word in ("double", " sin(", " pow("))
-    assert made.body[-2].startswith("out[2] = modeler_lanes_spread(")
-    assert made.body[-1] == "out[3] = modeler_lanes_spread(-1.0);"

@@ -107,9 +107,3 @@ def test_any_change_of_the_manifest_changes_its_signature():
     raw = json.loads(spec.to_json())
     raw["joints"][1]["unit"] = "m"
     assert module_from_json(json.dumps(raw), "x.json").signature() != spec.signature()
-
-
-def test_nonzeros_are_ordered_row_after_row():
-    spec = module("sr400-tree").emitted.spec
-    assert list(spec.nonzeros) == sorted(spec.nonzeros)
-    assert all(joint in spec.base[column].rows for joint, column in spec.nonzeros)
