@@ -1,6 +1,4 @@
-"""Every emitted file compiles as C and as C++ without a warning; headers stand alone."""
-
-import subprocess
+"""Every emitted file compiles as C and as C++ without a warning."""
 
 import pytest
 
@@ -9,7 +7,7 @@ from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.emitted_folders import CPP, run
-from tests.modules import STRICT, compiler, module
+from tests.modules import STRICT, compiler
 
 FLAGS = {
     "gcc": [*STRICT, "-Wundef", "-Wcast-align=strict"],
@@ -39,17 +37,3 @@ def test_every_file_compiles_without_a_warning(cc, name, tmp_path):
     if name == "slow-arm":
         assert max(len(line) for text in texts for line in text.splitlines()) <= 100
     run(compiler(cc), *FLAGS[cc], "-fsyntax-only", "-I", tmp_path, *units, where=tmp_path)
-
-
-@pytest.mark.parametrize(("language", "cc"), [("c", "gcc"), ("c++", "g++"), ("c++", "clang++")])
-def test_the_header_stands_alone_also_in_cpp(language, cc, tmp_path):
-    write_emitted(module("wrist").emitted, tmp_path)
-    standard = "-std=c99" if language == "c" else "-std=c++11"
-    headers = ("wrist.h", "modeler_runtime.h", "modeler_sincos.h")
-    for header in headers:
-        unit = f'#include "{header}"\n#include "{header}"\nint only = 1;\n'
-        (tmp_path / f"only_{header}.c").write_text(unit)
-    flags = [standard, "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "-x", language]
-    units = [tmp_path / f"only_{header}.c" for header in headers]
-    subprocess.run([compiler(cc), *flags, "-I", tmp_path, *units], check=True)
-    assert 'extern "C"' in (tmp_path / "wrist.h").read_text()

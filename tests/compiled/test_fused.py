@@ -22,9 +22,15 @@ def stacked(model, q, qd, qdd, tau) -> np.ndarray:
     return np.concatenate([phi, tau[:, :, None]], axis=2).transpose(1, 0, 2)
 
 
-def check(found: np.ndarray, rows: np.ndarray) -> None:
+def drawn(samples: int, seed: int):
+    """The wrist with random q, qd, qdd and torques."""
+    q, qd, qdd = states(3, samples)
+    return plain("wrist"), q, qd, qdd, np.random.default_rng(seed).normal(size=q.shape)
+
+
+def check(triangles: np.ndarray, rows: np.ndarray) -> None:
     """R of every joint is upper and has the products of the rows, to rounding."""
-    for own, joint in zip(found, rows, strict=True):
+    for own, joint in zip(triangles, rows, strict=True):
         assert not np.tril(own, -1).any()
         size = np.linalg.norm(joint) ** 2
         assert np.abs(own.T @ own - joint.T @ joint).max() <= 50 * EPS * max(size, 1e-300)
@@ -88,11 +94,9 @@ def test_small_singular_values_survive():
 
 
 def test_masked_rows_may_hold_anything_and_weights_multiply():
-    wrist = plain("wrist")
-    q, qd, qdd = states(3, 501)
+    wrist, q, qd, qdd, tau = drawn(501, 5)
     rng = np.random.default_rng(5)
-    tau, weight = rng.normal(size=q.shape), rng.uniform(0.1, 10.0, q.shape)
-    use = rng.random(q.shape) < 0.7
+    weight, use = rng.uniform(0.1, 10.0, q.shape), rng.random(q.shape) < 0.7
     dirty = np.where(use, tau, np.nan)
     found = wrist.triangles(q, qd, qdd, dirty, use=use, weight=np.where(use, weight, np.inf))
     assert found.rows.tolist() == use.sum(axis=0).tolist() and not found.left_out.any()
@@ -104,9 +108,7 @@ def test_masked_rows_may_hold_anything_and_weights_multiply():
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e200])
 def test_a_sample_that_is_not_finite_is_told_and_spoils_no_other(value):
-    wrist = plain("wrist")
-    q, qd, qdd = states(3, 43)
-    tau = np.random.default_rng(6).normal(size=q.shape)
+    wrist, q, qd, qdd, tau = drawn(43, 6)
     clean = stacked(wrist, q, qd, qdd, tau)
     for sample, array in ((0, q), (11, qd), (30, qdd), (42, tau)):
         kept = np.arange(43) != sample
@@ -120,9 +122,7 @@ def test_a_sample_that_is_not_finite_is_told_and_spoils_no_other(value):
 
 
 def test_threads_and_blocks_give_the_same_bits(monkeypatch):
-    wrist = plain("wrist")
-    q, qd, qdd = states(3, 5 * 64 + 3)
-    tau = np.random.default_rng(7).normal(size=q.shape)
+    wrist, q, qd, qdd, tau = drawn(5 * 64 + 3, 7)
     monkeypatch.setattr(fused, "BLOCK", 64)
     found = []
     for count in (1, 2, 7):
@@ -134,9 +134,7 @@ def test_threads_and_blocks_give_the_same_bits(monkeypatch):
 
 
 def test_later_samples_are_added_to_a_state():
-    wrist = plain("wrist")
-    q, qd, qdd = states(3, 333)
-    tau = np.random.default_rng(8).normal(size=q.shape)
+    wrist, q, qd, qdd, tau = drawn(333, 8)
     state, before = None, None
     for part in np.split(np.arange(333), [1, 8, 8, 200]):
         before = None if state is None else (state, state.packed.copy())
@@ -150,17 +148,15 @@ def test_later_samples_are_added_to_a_state():
 
 @pytest.mark.digits
 def test_least_squares_of_a_triangle_is_that_of_the_rows():
-    model = plain("wrist")
-    q, qd, qdd = states(3, 4000)
+    model, q, qd, qdd, noise = drawn(4000, 10)
     beta = np.random.default_rng(9).normal(size=len(model.spec.base))
-    tau = model.inverse_dynamics(q, qd, qdd, beta)
-    tau += 0.1 * np.random.default_rng(10).normal(size=tau.shape)
+    tau = model.inverse_dynamics(q, qd, qdd, beta) + 0.1 * noise
     R = model.triangles(q, qd, qdd, tau).triangles.reshape(-1, len(beta) + 1)
     W = model.observation(q, qd, qdd)
     expected = np.linalg.lstsq(W, tau.reshape(-1), rcond=None)[0]
-    found = np.linalg.lstsq(R[:, :-1], R[:, -1], rcond=None)[0]
+    solved = np.linalg.lstsq(R[:, :-1], R[:, -1], rcond=None)[0]
     scale = np.abs(expected).max() * np.linalg.cond(W)
-    assert np.abs(found - expected).max() < 100 * EPS * scale
+    assert np.abs(solved - expected).max() < 100 * EPS * scale
 
 
 def test_wrong_arrays_are_refused_by_name():

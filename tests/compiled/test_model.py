@@ -125,20 +125,16 @@ def test_threads_may_share_a_model(wrist):
 def test_signals_that_no_effect_reads_are_refused(name):
     """They would change nothing; whoever gives them thinks of another robot."""
     model = plain(name)
-    q, qd, qdd = (np.zeros((4, len(model.spec.joints))) for _ in range(3))
-    if model.spec.closure is not None:
-        q += [model.spec.closure.home[i] for i in model.spec.closure.given]
-    beta, s = np.ones(len(model.spec.base)), np.zeros((4, 1))
-    calls = {
-        "base_regressor": (q, qd, qdd),
-        "regressor": (q, qd, qdd),
-        "observation": (q, qd, qdd),
-        "inverse_dynamics": (q, qd, qdd, beta),
-        "friction": (qd, beta, q, qdd),
+    spec = model.spec
+    home = [spec.closure.home[i] for i in spec.closure.given] if spec.closure else [0.0] * 3
+    q, qd, qdd = np.tile(home, (4, 1)), *np.zeros((2, 4, len(home)))
+    beta, s = np.ones(len(spec.base)), np.zeros((4, 1))
+    motion = dict.fromkeys(["base_regressor", "regressor", "observation"], (q, qd, qdd))
+    motion |= {"nonzeros": (q, qd, qdd)} if spec.closure is None else {}
+    calls = motion | {
+        "inverse_dynamics": (q, qd, qdd, beta), "friction": (qd, beta, q, qdd),
         "triangles": (q, qd, qdd, q),
-    }
-    if model.spec.closure is None:
-        calls["nonzeros"] = (q, qd, qdd)
+    }  # fmt: skip
     for function, given in calls.items():
         getattr(model, function)(*given, s=np.zeros((4, 0)))  # none at all
         with pytest.raises(ShapeError, match="got s, but its effects read no signals; leave s out"):

@@ -159,11 +159,10 @@ def test_columns_that_others_have_are_grouped_in_numbers(equation: str) -> None:
 
 def test_robots_with_loops_take_effects_of_motion_only() -> None:
     """They say which effects have no C there."""
-    joint = load("five-bar").coordinates[0].name
 
     def with_column(equation: str) -> Robot:
         own = own_effect(load("five-bar"), "own", columns={"Kv": equation}).text
-        text = with_reference(with_effect(own, "own", joint, {}), {"ZZ11": 0.2})
+        text = with_reference(with_effect(own, "own", "11", {}), {"ZZ11": 0.2})
         return robot_from_text(text, "five-bar")
 
     for equation in ("v*static", "t"):
@@ -173,7 +172,7 @@ def test_robots_with_loops_take_effects_of_motion_only() -> None:
     home = np.array(compiled.spec.closure.home)[list(compiled.spec.closure.given)]
     rng = np.random.default_rng(8)
     q, v, a = home + rng.uniform(-0.1, 0.1, (9, 2)), *rng.normal(size=(2, 9, 2))
-    column = [p.column_of for p in compiled.spec.base].index(f"Kv{joint}")
+    column = [p.column_of for p in compiled.spec.base].index("Kv11")
     phi = compiled.base_regressor(q, v, a)[:, :, column]
     expected = np.sin(3 * v[:, 0]) * q[:, 0] + a[:, 0] * np.sin(q[:, 0])
     np.testing.assert_allclose(phi, np.stack([expected, 0 * expected], 1), atol=1e-13)
