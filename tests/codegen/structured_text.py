@@ -23,8 +23,7 @@ _KEYWORDS = {
     "function", "function_block", "end_function", "end_function_block", "var", "var_input",
     "var_in_out", "var_temp", "end_var", "constant", "if", "then", "elsif", "else", "end_if",
     "array", "of", "lreal", "dint", "and", "or", "not", "mod", "xor", "true", "false", "at", "by",
-    "case",
-    "do", "exit", "for", "repeat", "return", "to", "type", "until", "while", "with",
+    "case", "do", "exit", "for", "repeat", "return", "to", "type", "until", "while", "with",
 }  # fmt: skip
 
 

@@ -7,8 +7,10 @@ import pytest
 
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
+from modeler.codegen.package import write_emitted
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.modules import compiler
+from tests.rotation import rotating
 
 _BLOCK = re.compile(
     r'/begin (CHARACTERISTIC|MEASUREMENT) (\w+)\n\s+"(.*)"\n\s+(.*)\n(?:\s+ECU_ADDRESS 0x0\n)?'
@@ -24,20 +26,14 @@ def described(name: str, precision="double", fitted: bool = False):
 
 @pytest.mark.parametrize(
     ("name", "precision"),
-    [
-        ("two-link", "double"),
-        ("two-link", "single"),
-        pytest.param("five-bar", "double", marks=pytest.mark.rotating),
-    ],
+    [("two-link", "double"), ("two-link", "single"), *rotating(("five-bar", "double"))],
 )
 def test_offsets_are_those_of_the_compiler(name: str, precision, tmp_path) -> None:
     emitted = described(name, precision)
     prefix, spec = emitted.spec.prefix, emitted.spec
-    found = {at[2]: int(at[6]) for at in _BLOCK.finditer(emitted.files[f"{prefix}.a2l"])}
-    for file, text in emitted.files.items():
-        if file.endswith(".h") and "/" not in file:
-            (tmp_path / file).write_text(text)
-    widths = [n.removeprefix(f"{prefix}_width_") for n in found if f"{prefix}_width_" in n]
+    described_at = {at[2]: int(at[6]) for at in _BLOCK.finditer(emitted.files[f"{prefix}.a2l"])}
+    write_emitted(emitted, tmp_path)
+    widths = [n.removeprefix(f"{prefix}_width_") for n in described_at if f"{prefix}_width_" in n]
     places = {f"{prefix}_beta_{base.name}": f"beta[{k}]" for k, base in enumerate(spec.base)}
     places |= {f"{prefix}_width_{joint}": f"widths[{k}]" for k, joint in enumerate(widths)}
     places |= {f"{prefix}_signature_{k + 1}": f"signature[{k}]" for k in (0, 1)}
@@ -48,8 +44,8 @@ def test_offsets_are_those_of_the_compiler(name: str, precision, tmp_path) -> No
         f"int main(void) {{ {' '.join(lines)} return 0; }}\n"
     )
     subprocess.run([compiler("gcc"), "at.c", "-o", "at"], cwd=tmp_path, check=True)
-    told = subprocess.run([tmp_path / "at"], capture_output=True, text=True, check=True).stdout
-    assert {n: int(at) for n, at in (line.split() for line in told.splitlines())} == found
+    said = subprocess.run([tmp_path / "at"], capture_output=True, text=True, check=True).stdout
+    assert {n: int(at) for n, at in (line.split() for line in said.splitlines())} == described_at
     assert len(widths) == (2 if name == "two-link" else 0)
 
 

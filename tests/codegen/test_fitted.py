@@ -8,6 +8,7 @@ import pytest
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedSpec
 from tests.codegen.fitted_library import Functions, fitted_of, motion, robot_module, with_values
+from tests.rotation import rotating
 
 KINDS = (
     pytest.param("slow-arm", marks=pytest.mark.digits),
@@ -59,7 +60,7 @@ def friction_alone(name: str, *kinds: str) -> FittedSpec:
     return dataclasses.replace(fitted, parameters=parameters)
 
 
-@pytest.mark.parametrize("name", ["slow-arm", pytest.param("rubbing", marks=pytest.mark.rotating)])
+@pytest.mark.parametrize("name", ["slow-arm", *rotating("rubbing")])
 def test_friction_takes_power_at_every_width_and_tends_to_the_sign(name):
     """Fs and Fv at least 0, offsets and all else 0: f qd >= 0. Passive joints of loops rub too."""
     emitted, state = with_values(name, friction_alone(name, "Fs", "Fv")), motion(name)

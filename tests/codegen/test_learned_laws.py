@@ -25,7 +25,7 @@ from tests.compiled.test_tiles import compiled_check
 from tests.export.test_casadi import far
 from tests.learned import drawn, scipy_value, text_with
 from tests.modules import Module, compiler, loaded
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 RNG = np.random.default_rng(20260)
 LAWS = {
@@ -33,7 +33,6 @@ LAWS = {
     "2": ("law(-v)", drawn(RNG, 1)),
     "3": ("law(1/3, q)*v + law(a, 0)", drawn(RNG, 2, (4, 3))),
 }  # of two quantities, of one, and of constants
-NUMBERS = {"double": np.float64, "single": np.float32}
 ARGUMENTS = {
     "1": lambda q, v, a: (q, np.abs(v)), "2": lambda q, v, a: (-v,),
 }  # fmt: skip
@@ -126,9 +125,8 @@ def test_what_is_not_finite_gives_no_number_in_any_lane(precision):
 @pytest.mark.parametrize(
     ("cc", "flags"),
     [
-        *(("gcc", ["-O0"]), ("clang", ["-DMODELER_PLAIN"])),
-        pytest.param("clang", ["-O0"], marks=pytest.mark.rotating),
-        pytest.param("gcc", ["-O2"], marks=pytest.mark.rotating),
+        ("gcc", ["-O0"]),
+        *rotating(("clang", ["-DMODELER_PLAIN"]), ("clang", ["-O0"]), ("gcc", ["-O2"])),
     ],
 )
 def test_every_instruction_set_and_compiler_gives_the_same(cc, flags, tmp_path):

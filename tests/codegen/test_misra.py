@@ -11,6 +11,7 @@ from modeler.codegen.fmu import fmu_files
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.codegen.misra import violations
 from tests.repository import ROOT
+from tests.rotation import rotating
 
 _OTHERWISE = ("-DMODELER_BOUNDED_ANGLES", "-D__OPTIMIZE_SIZE__", "-U__GNUC__")
 
@@ -28,8 +29,7 @@ def written(folder: Path, files) -> list[str]:
     ("name", "precision"),
     [
         ("two-link", "double"),
-        pytest.param("five-bar", "single", marks=pytest.mark.rotating),
-        pytest.param("slow-arm", "single", marks=pytest.mark.rotating),
+        *rotating(("five-bar", "single"), ("slow-arm", "single")),
         pytest.param("3rrr", "double", marks=pytest.mark.slow),
     ],
 )

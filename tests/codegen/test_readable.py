@@ -12,6 +12,7 @@ from modeler.derivation.derive import derive_model
 from modeler.robot import robot_from_text
 from tests.codegen.fitted_library import SLOW, fitted_of
 from tests.modules import module
+from tests.rotation import rotating
 
 
 def test_the_text_does_not_depend_on_what_was_asked_of_the_model_before() -> None:
@@ -27,7 +28,7 @@ def test_the_text_does_not_depend_on_what_was_asked_of_the_model_before() -> Non
     assert dict(emit(second.model, second.base).files) == before
 
 
-@pytest.mark.parametrize("name", ["scara", pytest.param("five-bar", marks=pytest.mark.rotating)])
+@pytest.mark.parametrize("name", ["scara", *rotating("five-bar")])
 def test_the_names_of_a_robot_do_not_depend_on_its_other_units(name: str) -> None:
     """Its signature neither: a model fitted without them belongs to a folder with them."""
     made = module(name)
@@ -47,9 +48,7 @@ def values_at(model, refs, q, qd, qdd) -> np.ndarray:
     return np.array(model.graph.evaluate(refs, known), dtype=float)
 
 
-@pytest.mark.parametrize(
-    "robot", [pytest.param("ur10e", marks=pytest.mark.rotating), "scara", "slow-arm"]
-)
+@pytest.mark.parametrize("robot", [*rotating("ur10e"), "scara", "slow-arm"])
 def test_labels_tell_the_truth(robot: str) -> None:
     """w, wd, vd, e and m against differences of the forward kinematics along a motion."""
     model = derive_model(robot_from_text(SLOW, robot)) if robot == "slow-arm" else None

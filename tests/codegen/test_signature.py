@@ -28,6 +28,7 @@ from tests.codegen.fitted_library import robot_text
 from tests.modules import module
 from tests.repository import ROOT
 from tests.robots import CLOSED, KINDS
+from tests.rotation import rotating
 
 ARM = """
 name = "arm"
@@ -95,8 +96,7 @@ def other_machine(core: str, seed: str) -> dict[str, str]:
     ("core", "seed", "names"),
     [
         ("Prescott", "1", ("five-bar",)),
-        pytest.param("Prescott", "1", ("delta",), marks=pytest.mark.rotating),
-        pytest.param("Haswell", "77", ("five-bar", "panda"), marks=pytest.mark.rotating),
+        *rotating(("Prescott", "1", ("delta",)), ("Haswell", "77", ("five-bar", "panda"))),
     ],
 )
 def test_signatures_are_the_same_on_every_machine(core, seed, names, tmp_path):

@@ -17,7 +17,7 @@ from modeler.runtime.model import CompiledModel, load_folder
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.emitted_folders import built, run
 from tests.modules import STRICT, compiler, loaded, module, plain, states, unoptimised
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 FLOATS = ["-Wdouble-promotion", "-Wfloat-conversion"]
 
@@ -37,9 +37,7 @@ def single(name: str) -> CompiledModel:
     ("name", "cc"),
     [
         ("slow-arm", "gcc"),
-        pytest.param("slow-arm", "clang", marks=pytest.mark.rotating),
-        pytest.param("five-bar", "gcc", marks=pytest.mark.rotating),
-        pytest.param("five-bar", "clang", marks=pytest.mark.rotating),
+        *rotating(("slow-arm", "clang"), ("five-bar", "gcc"), ("five-bar", "clang")),
     ],
 )
 def test_a_module_compiles_without_a_warning_and_checks_itself(name, cc, tmp_path):

@@ -12,7 +12,7 @@ from modeler.core.errors import EmitError
 from tests.codegen.fitted_library import Functions, fitted_of, motion, robot_module
 from tests.codegen.structured_text import Program, TextError
 from tests.modules import module
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 ROLES = ("inverse_dynamics", "inertia_matrix", "gravity", "coriolis", "friction")
 
@@ -39,10 +39,7 @@ def distance(program: Program, functions: Functions, role: str, state, **widths:
     return float(np.abs(written - expected).max() / max(1.0, np.abs(expected).max()))
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["slow-arm", *(pytest.param(n, marks=pytest.mark.rotating) for n in ("ur10e", "sr400-tree"))],
-)
+@pytest.mark.parametrize("name", ["slow-arm", *rotating("ur10e", "sr400-tree")])
 def test_the_text_read_back_gives_what_the_c_gives(name: str) -> None:
     emitted = made_of(name, fitted=False)
     program, functions = Program(emitted.files[f"{emitted.spec.prefix}.st"]), Functions(emitted)

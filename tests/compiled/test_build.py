@@ -4,7 +4,7 @@ import dataclasses
 import re
 import subprocess
 import sys
-import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -69,26 +69,14 @@ def test_a_damaged_library_is_built_again(cache, emps, damage):
 
 
 def test_threads_and_processes_may_build_at_once(cache, emps, tmp_path):
-    folder = tmp_path / "emps"
-    write_emitted(emps, folder)
-    script = f"from modeler.runtime import load_folder; load_folder({str(folder)!r})"
+    write_emitted(emps, tmp_path)
+    script = f"from modeler.runtime import load_folder; load_folder({str(tmp_path)!r})"
     processes = [subprocess.Popen([sys.executable, "-c", script]) for _ in range(2)]
-    failed: list[BaseException] = []
-
-    def work() -> None:
-        try:
-            load(emps.spec, emps.files)
-        except BaseException as error:
-            failed.append(error)
-
-    threads = [threading.Thread(target=work) for _ in range(2)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(2) as pool:
+        loads = [pool.submit(load, emps.spec, emps.files) for _ in range(2)]
     assert [process.wait() for process in processes] == [0, 0]
-    assert not failed
-    works(load(emps.spec, emps.files))
+    for each in loads:
+        works(each.result())
 
 
 def test_own_flags_take_the_place_of_ours(cache, emps, monkeypatch):

@@ -1,7 +1,7 @@
 """The compiled model at its door: shapes, memory, threads."""
 
 import re
-import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -106,19 +106,13 @@ def test_threads_may_share_a_model(wrist):
     """Functions hold no state: each thread gets its own robot's motion right."""
     jobs = [states(3, 4000, seed) for seed in range(4)]
     expected = [wrist.observation(*job) for job in jobs]
-    wrong: list[int] = []
 
-    def work(number: int) -> None:
-        for _ in range(20):
-            if not np.array_equal(wrist.observation(*jobs[number]), expected[number]):
-                wrong.append(number)
+    def right(number: int) -> bool:
+        found = (wrist.observation(*jobs[number]) for _ in range(20))
+        return all(np.array_equal(W, expected[number]) for W in found)
 
-    threads = [threading.Thread(target=work, args=(number,)) for number in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert not wrong
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(right, range(4)))
 
 
 @pytest.mark.parametrize("name", ["wrist", "five-bar"])

@@ -16,9 +16,7 @@ import pytest
 import modeler.runtime.build as build
 from modeler.api.log_maps import file_and_span
 from modeler.core.errors import BuildError, DataError
-from modeler.core.files import resource_dir
 from modeler.logs import map_from_words
-from modeler.runtime import microsoft
 from modeler.runtime.build import find_toolchain
 from modeler.runtime.model import load
 from tests.modules import compiler, module, states
@@ -87,22 +85,6 @@ def test_what_it_says_is_quoted_and_a_portable_library_of_it(cl, monkeypatch) ->
     made = module("emps").emitted
     with pytest.raises(BuildError, match="D8021 : invalid numeric argument '/fp:wrong'"):
         load(made.spec, made.files)
-
-
-@pytest.mark.rotating("other compilers")
-def test_exports_are_those_that_binutils_sees(tmp_path) -> None:
-    """Of all C that is shipped, long names and short ones; against llvm-nm."""
-    compiler("clang"), compiler("llvm-nm")
-    csrc = resource_dir("csrc")
-    command = ["clang", "--target=x86_64-pc-windows-msvc", "-isystem", WINDOWS, "-O1", "-c",
-               f"-I{csrc / 'include'}", *sorted(csrc.glob("modeler_[bcf]*.c"))]  # fmt: skip
-    subprocess.run(command, cwd=tmp_path, check=True)
-    objects = [str(place) for place in sorted(tmp_path.glob("*.o"))]
-    seen = subprocess.run(["llvm-nm", "-g", "--defined-only", "-j", *objects],
-                          capture_output=True, text=True, check=True).stdout  # fmt: skip
-    names = {word for word in seen.split() if word.isidentifier()}
-    assert len(names) > 30
-    assert microsoft.exports(objects).split() == ["EXPORTS", *sorted(names)]
 
 
 def test_clang_for_the_linker_of_microsoft_is_given_the_list(tmp_path) -> None:

@@ -1,4 +1,4 @@
-"""The catalogue's data holds what the reader takes on trust; users' effects take the same road."""
+"""The catalogue's data holds what the reader takes on trust."""
 
 from collections import Counter
 from typing import get_args
@@ -7,7 +7,7 @@ import pytest
 
 from modeler.core.toml_cells import Place
 from modeler.effects.catalogue import CATALOGUE, effect_named
-from modeler.effects.definition import check_finite, read_definition
+from modeler.effects.definition import check_finite
 from modeler.effects.effect import SCALES, Effect, Shows
 from modeler.robot.robot import INERTIAL
 
@@ -32,20 +32,3 @@ def test_no_two_effects_share_a_name() -> None:
     prefixes = [c.prefix for e in CATALOGUE for form in e.forms for c in form.columns]
     for name, count in Counter([*names, *prefixes, *INERTIAL]).items():
         assert count == 1, name
-
-
-def test_a_users_effect_takes_the_same_road() -> None:
-    ours = effect_named("stribeck")
-    assert ours is not None
-    (column,), shapes = ours.columns, ours.forms[0].shapes
-    table = {
-        "title": ours.title,
-        "columns": {column.prefix: column.equation.text},
-        "shapes": {shape.name: list(shape.grid) for shape in shapes},
-        "unit": column.unit_revolute,
-    }
-    theirs = read_definition("dip", Place("arm.toml", "", table), {})
-    assert theirs.columns[0].equation == column.equation
-    assert (theirs.acts, theirs.shows, theirs.title) == (ours.acts, ours.shows, ours.title)
-    assert [shape.grid for shape in theirs.forms[0].shapes] == [shape.grid for shape in shapes]
-    assert {shape.scale for shape in theirs.forms[0].shapes} == {"own"}

@@ -6,6 +6,7 @@ import pytest
 from modeler.api import derive, generate, load
 from modeler.effects.catalogue import CATALOGUE
 from modeler.effects.effect import Acts, Effect
+from modeler.robot.edit import with_effects
 from modeler.robot.read import robot_from_text
 from modeler.runtime.model import CompiledModel
 from tests.modules import loaded
@@ -33,26 +34,19 @@ Fs2 = 2.0
 
 def written() -> list[tuple[Effect, int]]:
     """Every form of every effect on a joint that a robot file may name."""
-    return [
-        (effect, k)
-        for effect in CATALOGUE
-        for k in range(len(effect.forms))
-        if effect.written and effect.acts is Acts.JOINT
-    ]
+    named = [effect for effect in CATALOGUE if effect.written and effect.acts is Acts.JOINT]
+    return [(effect, k) for effect in named for k in range(len(effect.forms))]
 
 
 def text_with(effect: Effect, form: int) -> str:
     """The demonstration arm with the effect on joint 2, beside viscous and Coulomb friction."""
-    shapes = {s.name: SHAPES[s.name] for s in effect.forms[form].free}
-    entry = ", ".join(['joint = "2"', *(f"{name} = {value}" for name, value in shapes.items())])
     text = load("demo-arm").text
     text = text[: text.index("[parameters]")]
-    if effect.id in ("rotor_inertia", "viscous", "coulomb", "offset"):
-        return text + REFERENCE
-    lines = [line for line in text.splitlines() if not line.startswith(("rotor", "offset"))]
-    place = lines.index("[effects]")
-    lines.insert(place + 1, f"{effect.id} = [{{{entry}}}]")
-    return "\n".join(lines) + REFERENCE
+    if effect.id not in ("rotor_inertia", "viscous", "coulomb", "offset"):
+        shapes = {shape.name: SHAPES[shape.name] for shape in effect.forms[form].free}
+        effects = dict.fromkeys(("viscous", "coulomb"), "all")
+        text = with_effects(text, effects | {effect.id: [{"joint": "2", **shapes}]})
+    return text + REFERENCE
 
 
 DAILY = ("stribeck", "load_friction", "presliding", "temperature_friction", "drive_gain")

@@ -12,10 +12,10 @@ from modeler.codegen import Control, generate as generate_with
 from modeler.robot import robot_from_text
 from tests.modules import loaded
 
-TREES = ("demo-arm", pytest.param("two-link", marks=pytest.mark.rotating), *(
-    pytest.param(name, marks=pytest.mark.slow)
-    for name in ("puma560", "ur10e", "sr400-tree", "so101")
-))  # fmt: skip
+SLOW = [
+    pytest.param(n, marks=pytest.mark.slow) for n in ("puma560", "ur10e", "sr400-tree", "so101")
+]
+TREES = ("demo-arm", pytest.param("two-link", marks=pytest.mark.rotating), *SLOW)
 LOOPS = ("five-bar", pytest.param("orthoglide-2003", marks=pytest.mark.slow))
 
 
