@@ -68,7 +68,9 @@ def test_a_number_of_the_table_is_in_the_signature(old, new):
     assert one.spec.signature() != other.spec.signature()
 
 
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize(
+    "name", ["emps", "five-bar", *rotating(*(n for n in KINDS if n not in ("emps", "five-bar")))]
+)
 def test_the_signature_covers_every_letter_of_the_c(name):
     made = module(name).emitted
     texts = sources(made)
@@ -95,8 +97,12 @@ def other_machine(core: str, seed: str) -> dict[str, str]:
 @pytest.mark.parametrize(
     ("core", "seed", "names"),
     [
-        ("Prescott", "1", ("five-bar",)),
-        *rotating(("Prescott", "1", ("delta",)), ("Haswell", "77", ("five-bar", "panda"))),
+        ("Prescott", "1", ()),
+        *rotating(
+            ("Prescott", "1", ("five-bar",)),
+            ("Prescott", "1", ("delta",)),
+            ("Haswell", "77", ("five-bar", "panda")),
+        ),
     ],
 )
 def test_signatures_are_the_same_on_every_machine(core, seed, names, tmp_path):

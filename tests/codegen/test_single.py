@@ -130,6 +130,7 @@ def walked(model: CompiledModel, home: np.ndarray, way: np.ndarray, steps: int =
     return u
 
 
+@pytest.mark.rotating("programs that link folders")
 def test_robots_of_both_precisions_live_in_one_program(tmp_path):
     """The runtime of one kind of number is not that of the other; two of one kind share theirs."""
     wrist, emps = module("wrist").emitted, module("emps").emitted

@@ -47,9 +47,9 @@ def emitted_of(model: SymbolicModel) -> Emitted:
 
 
 def compile_with(emitted, macro, folder) -> subprocess.CompletedProcess:
-    """All C files of a module, one of its macros replaced."""
+    """All C files of a robot's own, one of its macros replaced."""
     write_emitted(emitted, folder)
-    units = [folder / name for name in emitted.spec.sources if name.endswith(".c")]
+    units = [folder / name for name in emitted.spec.sources if re.match(r"(?!modeler).*\.c", name)]
     command = [compiler("gcc"), "-std=c99", "-E", f"-D{macro}=0.37", "-I", folder]
     return subprocess.run([*command, *units], capture_output=True, text=True, check=False)
 

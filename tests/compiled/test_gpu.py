@@ -140,6 +140,7 @@ def test_modules_without_kernels():
         emit(module("wrist").model, module("wrist").base, precision="single", cuda=True)
 
 
+@pytest.mark.rotating("kernels on the processor")
 def test_nvcc_compiles_the_kernels(tmp_path):
     if shutil.which("nvcc") is None:
         pytest.skip("NOT CHECKED: nvcc is not installed")

@@ -183,7 +183,7 @@ def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
     assert "0 outputs" in told([])
 
 
-@pytest.mark.rotating("headers for C++")
+@pytest.mark.rotating("programs that link folders")
 @pytest.mark.parametrize("cc", ["g++", "clang++"])
 def test_the_header_for_cpp_returns_what_the_c_writes(cc, tmp_path):
     built(emitted("demo-arm"), tmp_path, "all", "batch")
@@ -197,7 +197,7 @@ def test_the_header_for_cpp_returns_what_the_c_writes(cc, tmp_path):
     assert "no matching function" in run(*command, f"-DSPOIL={short}", where=tmp_path, fails=True)
 
 
-@pytest.mark.rotating("headers for C++")
+@pytest.mark.rotating("programs that link folders")
 def test_the_header_for_cpp_has_the_state_of_loops(tmp_path):
     write_emitted(emitted("five-bar", "inverse_dynamics", "single"), tmp_path)
     make(tmp_path)

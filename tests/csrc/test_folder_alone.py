@@ -11,6 +11,7 @@ from modeler.codegen.package import write_emitted
 from modeler.core.files import resource_dir
 from tests.codegen.fitted_library import with_values
 from tests.modules import compiler, module
+from tests.rotation import rotating
 
 USER = Path(__file__).with_name("programs") / "user.c"
 KINDS = {
@@ -27,7 +28,7 @@ def renamed(name):
     return emit(model, made.base)
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", ["robot called as a program", *rotating("loops with values")])
 def test_every_c_file_of_the_folder_links_with_a_main_of_the_user(kind, tmp_path):
     emitted = KINDS[kind]()
     prefix = emitted.spec.prefix

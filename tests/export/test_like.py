@@ -24,6 +24,7 @@ from tests.export.arms import (
     written,
 )  # fmt: skip
 from tests.robot.public_robots import each_public_urdf, public_urdf
+from tests.rotation import rotating
 
 pytest.importorskip("mujoco", reason="NOT CHECKED: no MuJoCo")
 ARMS = {"arm.urdf": URDF, "arm.xml": MJCF}
@@ -267,7 +268,7 @@ def test_nothing_is_written_over_unasked(urdf, tmp_path) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["so101.urdf", "panda.urdf", "allegro_left_hand.urdf", "baxter.urdf"]
+    "name", ["so101.urdf", "panda.urdf", *rotating("allegro_left_hand.urdf", "baxter.urdf")]
 )
 def test_public_urdfs_stay_as_they_are(name) -> None:
     path = public_urdf(name)

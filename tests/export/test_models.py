@@ -189,6 +189,7 @@ def test_what_hangs_on_a_link_changes_only_where_it_must(tmp_path) -> None:
     assert 0.0 < masses[0.5]["slider"] < 0.1 and 0.0 < masses[0.5]["finger"] < 0.2
 
 
+@pytest.mark.rotating("long tests of export")
 def test_links_without_values_get_capsules_and_it_is_told() -> None:
     robot = load("scara")
     bare = robot_from_text(robot.text, "scara.toml")
