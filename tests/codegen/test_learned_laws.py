@@ -137,6 +137,7 @@ def test_every_instruction_set_and_compiler_gives_the_same(cc, flags, tmp_path):
     assert compiled_check(with_control(), tmp_path, cc, *flags, units=units * (flags == ["-O0"]))
 
 
+@pytest.mark.rotating("laws and kernels")
 @pytest.mark.parametrize("name", ["five-bar", pytest.param("orthoglide-2003", marks=ROTATING)])
 def test_robots_with_loops_have_laws_of_their_motors(name, monkeypatch):
     """Columns by scipy, one by one and in tiles; parts of the torque; casadi's G is the C's."""
@@ -191,7 +192,7 @@ def test_structured_text_gives_what_the_c_gives():
         assert i != 7 or np.isnan(tau[1])
 
 
-@pytest.mark.rotating("kernels on the processor")
+@pytest.mark.rotating("laws and kernels")
 def test_kernels_compute_what_the_c_computes(tmp_path, monkeypatch):
     compiler("g++")
     model, base, _ = made()

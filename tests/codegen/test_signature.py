@@ -157,7 +157,7 @@ def test_no_home_keeps_what_the_iteration_left(name):
     assert all(x == 0.0 or abs(x) > 1e-20 for x in module(name).emitted.spec.closure.home)
 
 
-@pytest.mark.parametrize("name", ["ur10e", "sr400", "five-bar"])
+@pytest.mark.parametrize("name", [*rotating("ur10e", "sr400"), "five-bar"])
 def test_coefficients_are_the_doubles_next_to_their_formula(name):
     """Of the decimals that the robot file has, evaluated by sympy in 50 digits."""
     spec = module(name).emitted.spec

@@ -47,11 +47,12 @@ def emitted_of(model: SymbolicModel) -> Emitted:
 
 
 def compile_with(emitted, macro, folder) -> subprocess.CompletedProcess:
-    """All C files of a robot's own, one of its macros replaced."""
+    """All C of a robot's own, one of its macros replaced."""
     write_emitted(emitted, folder)
-    units = [folder / name for name in emitted.spec.sources if re.match(r"(?!modeler).*\.c", name)]
-    command = [compiler("gcc"), "-std=c99", "-E", f"-D{macro}=0.37", "-I", folder]
-    return subprocess.run([*command, *units], capture_output=True, text=True, check=False)
+    names = [name for name in emitted.spec.sources if re.match(r"(?!modeler).*\.c", name)]
+    text = "\n".join(emitted.files[name] for name in names)
+    command = [compiler("gcc"), "-std=c99", "-E", f"-D{macro}=0.37", "-I", folder, "-x", "c", "-"]
+    return subprocess.run(command, input=text, capture_output=True, text=True, check=False)
 
 
 def with_macro(emitted, macro, value) -> Emitted:

@@ -123,7 +123,7 @@ def test_without_cupy_or_a_processor_one_line(monkeypatch, tmp_path):
             on_gpu(derive(load("wrist")))
 
 
-@pytest.mark.rotating("kernels on the processor")
+@pytest.mark.rotating("laws and kernels")
 def test_a_compiler_that_refuses_is_quoted(monkeypatch, tmp_path):
     compiler("g++")
     monkeypatch.setitem(sys.modules, "cupy", cupy(tmp_path))
@@ -140,7 +140,7 @@ def test_modules_without_kernels():
         emit(module("wrist").model, module("wrist").base, precision="single", cuda=True)
 
 
-@pytest.mark.rotating("kernels on the processor")
+@pytest.mark.rotating("laws and kernels")
 def test_nvcc_compiles_the_kernels(tmp_path):
     if shutil.which("nvcc") is None:
         pytest.skip("NOT CHECKED: nvcc is not installed")

@@ -47,8 +47,8 @@ def symbols(library: Path) -> set[str]:
 
 @pytest.mark.parametrize("name", ["demo-arm", pytest.param("five-bar", marks=pytest.mark.rotating)])
 def test_what_only_many_samples_need_is_a_library_of_its_own(name, tmp_path):
-    spec = emitted(name).spec
-    built(emitted(name), tmp_path, "all", "batch")
+    spec = emitted(name, vectors=True).spec
+    built(emitted(name, vectors=True), tmp_path, "all", "batch")
     controller = symbols(tmp_path / f"lib{spec.prefix}_model.a")
     many = symbols(tmp_path / f"lib{spec.prefix}_batch.a")
     assert {f.name for f in spec.every_function} <= controller
@@ -157,7 +157,7 @@ def test_the_version_of_modeler_is_in_no_signature(monkeypatch):
 def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
     """And a number that is wrong in the twelfth digit (of floats: the fifth) is told."""
     module = emitted(name, precision=precision, vectors=True)
-    write_emitted(module, tmp_path)
+    built(module, tmp_path, "all", "batch")
     lines = (tmp_path / "vectors.csv").read_text().splitlines()
     outputs = [k for k, line in enumerate(lines) if line.startswith(f"{module.spec.prefix}_")]
     assert {int(line.split(",")[1]) for line in lines[:-1]} == set(range(50))

@@ -141,6 +141,7 @@ def test_smooth_friction_turns_over_its_width(tmp_path) -> None:
     assert np.allclose(qdd, state["qdd"], rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.rotating("long tests of export")
 def test_a_model_has_its_values_in_place_of_beta(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("modeler.api.code_exports.portable_library", lambda _: b"no need of it")
     robot = load("two-link")

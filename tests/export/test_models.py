@@ -96,6 +96,7 @@ def test_the_comment_and_the_tables_tell_it(fitted, tmp_path) -> None:
     assert found.to_dict()["values"][0]["changed"] in (True, False)
 
 
+@pytest.mark.rotating("long tests of export")
 def test_what_a_format_cannot_hold_is_told_with_its_share(tmp_path) -> None:
     robot = load("demo-arm")
     log = simulate(robot, duration=4.0, rate=200.0, seed=3)
