@@ -86,7 +86,7 @@ def test_derivatives_are_those_of_the_motion(name: str, tmp_path) -> None:
     robot, rng = load(name), np.random.default_rng()
     tau = functions_of(export(robot, to="casadi").data, tmp_path)["inverse_dynamics"]
     compiled = loaded(generate_with(derive(robot), control=Control()))
-    nominal = np.array([p.nominal for p in compiled.spec.standard])
+    nominal = np.array([p.nominal or 0.0 for p in compiled.spec.standard])
     state = state_of(compiled.spec, rng) | {"beta": compiled.base_parameters(nominal)}
     slopes = tau.jacobian()
     values = slopes.call([*(state[n] for n in tau.name_in()), 0 * state["tau"]])
