@@ -10,9 +10,8 @@ from pyarrow import parquet
 from modeler.cli import main
 from modeler.estimation.model_file import load_model
 from modeler.estimation.nearest_body import carried_by, machine_of, nearest_possible
+from modeler.robot import INERTIAL, read_robot
 from modeler.robot.edit import with_parameters
-from modeler.robot.read import read_robot
-from modeler.robot.robot import INERTIAL
 from modeler.simulation.rigid import pseudo_inertia
 from tests.bodies import buildable
 from tests.modules import compiled
@@ -22,13 +21,12 @@ from tests.rotation import rotating
 @pytest.fixture(scope="module", params=["two-link", *rotating("five-bar")])
 def fitted(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("consistent")
-    log, model, robot, told = (
-        str(folder / name) for name in ("a.parquet", "m.json", "r.toml", "fit.json")
-    )
-    simulate = f"simulate {request.param} --duration 8 --rate 200 --seed 1 --out {log}"
-    fit = f"fit {request.param} {log} --method consistent --out {model} --robot-out {robot}"
-    assert main(simulate.split()) == 0
-    assert main([*fit.split(), "--json", told]) == 0
+    for words in (
+        f"simulate {request.param} --duration 8 --rate 200 --seed 1 --out {folder}/a.parquet",
+        f"fit {request.param} {folder}/a.parquet --method consistent --out {folder}/m.json "
+        f"--robot-out {folder}/r.toml --json {folder}/fit.json",
+    ):
+        assert main(words.split()) == 0
     return request.param, folder, json.loads((folder / "fit.json").read_text())
 
 
@@ -60,15 +58,6 @@ def test_the_robot_file_simulates_and_the_model_predicts_it(fitted, capsys):
     assert json.loads(report.read_text())["relative_error"] < 0.01
 
 
-def test_a_robot_file_needs_all_standard_parameters(fitted, capsys):
-    name, folder, _ = fitted
-    fit = f"fit {name} {folder / 'a.parquet'} --out {folder / 'n.json'} --robot-out {folder / 'n'}"
-    capsys.readouterr()
-    assert main(fit.split()) == 1
-    assert "use --method consistent" in capsys.readouterr().err
-    assert not (folder / "n").exists() and not (folder / "n.json").exists()
-
-
 def test_a_drawing_counts(fitted, tmp_path):
     """What no torque feels is that of the drawing, where the robot file has one."""
     name, folder, told = fitted
@@ -86,17 +75,12 @@ def test_a_drawing_counts(fitted, tmp_path):
 
 
 CROSSED = """name = "crossed"
-gravity = [0, 0, "-g"]
-[symbols]
-g = 9.81
+gravity = [0, 0, -9.81]
+effects = {viscous = "all", rotor_inertia = ["2"]}
+parameters = {Fv1 = 0.1}
 [mdh]
 columns = ["j", "a", "alpha", "d", "theta"]
 rows = [["1", "0", 0, 0, "q1"], ["2", "1", "pi/2", 0.3, "q2"]]
-[effects]
-viscous = "all"
-rotor_inertia = ["2"]
-[parameters]
-Fv1 = 0.1
 """
 
 
@@ -117,6 +101,13 @@ def test_what_is_put_at_zero_is_not_called_negative(tmp_path, capsys):
     assert "\nFv1 held at 0, which would be negative" in said
 
 
+def buildable_two_link(seed):
+    """The machine of a two-link arm, the names of its base parameters, and values of a body."""
+    spec = compiled("two-link").spec
+    machine, chi = machine_of(spec), buildable(spec, np.random.default_rng(seed))
+    return machine, [base.name for base in spec.base], machine.K[:, : len(chi)] @ chi
+
+
 @pytest.mark.parametrize("name", ["two-link", *rotating("sr400", "dvrk-psm", "orthoglide-2003")])
 def test_a_machine_that_could_be_built_is_at_no_distance(name):
     machine = machine_of(compiled(name).spec)
@@ -128,57 +119,19 @@ def test_a_machine_that_could_be_built_is_at_no_distance(name):
     assert found is not None and found.distance < 1e-2  # standard deviations
 
 
-def test_a_friction_below_zero_is_as_far_as_it_is_below():
-    spec = compiled("two-link").spec
-    machine = machine_of(spec)
-    names = [base.name for base in spec.base]
-    chi = buildable(spec, np.random.default_rng(42))
-    beta = machine.K[:, : len(chi)] @ chi
-    sigma = 0.05 * np.ones(len(beta))
-    beta[names.index("Fv2")] = -0.4
-    found = nearest_possible(machine, beta, np.diag(1.0 / sigma))
-    assert found is not None
-    assert found.distance == pytest.approx(0.4 / 0.05, rel=1e-3)
-    assert found.beta[names.index("Fv2")] == pytest.approx(0.0, abs=1e-4)
-    assert carried_by(machine, beta, np.diag(1.0 / sigma), found.distance) == ["Fv2"]
-
-
-def test_a_moment_of_inertia_below_zero_and_who_carries_it():
+@pytest.mark.parametrize(
+    ("name", "carrier", "rel"),
     # ZZ2 is a base parameter by itself; however heavy link 2 is, ZZ2 M2 >= MX2^2 keeps it above 0.
-    spec = compiled("two-link").spec
-    machine = machine_of(spec)
-    names = [base.name for base in spec.base]
-    chi = buildable(spec, np.random.default_rng(43))
-    beta = machine.K[:, : len(chi)] @ chi
-    beta[names.index("ZZ2")] = -0.3
-    weights = np.full(len(beta), 1e-3)  # all else is free to follow
-    weights[names.index("ZZ2")] = 10.0
+    [("Fv2", "Fv2", 1e-3), ("ZZ2", "2", 1e-2)],
+)
+def test_a_value_below_zero_is_as_far_as_it_is_below_and_has_a_carrier(name, carrier, rel):
+    machine, names, beta = buildable_two_link(42)
+    place = names.index(name)
+    beta[place] = -0.4
+    weights = np.full(len(beta), 20.0 if name == "Fv2" else 1e-3)  # free to follow, or not
+    weights[place] = 20.0
     root = np.diag(weights)
-    found = nearest_possible(machine, beta, root)
-    assert found is not None
-    assert found.distance == pytest.approx(3.0, rel=1e-2)
-    assert carried_by(machine, beta, root, found.distance) == ["2"]
-
-
-def test_links_share_their_faults_as_their_parameters_do():
-    # M2 is in ZZ1R and MX1R, with L1: a body of link 2 cannot take what it has not.
-    spec = compiled("two-link").spec
-    machine = machine_of(spec)
-    chi = buildable(spec, np.random.default_rng(44))
-    beta = machine.K[:, : len(chi)] @ chi
-    names = [base.name for base in spec.base]
-    beta[names.index("MX1R")] *= 40.0  # far out, with the inertia that it had
-    alone = nearest_possible(machine, beta, 100.0 * np.eye(len(beta)))
-    assert alone is not None
-    free = nearest_possible(machine, beta, 100.0 * np.eye(len(beta)), machine.bounds)
-    assert free is not None and free.distance < 1e-2  # nothing bounds it then
-    some = nearest_possible(machine, beta, 100.0 * np.eye(len(beta)), ["1"])
-    assert some is not None and some.distance <= alone.distance + 1e-3
-
-
-def test_links_have_ten_parameters_each_even_if_torques_feel_two():
-    machine = machine_of(compiled("scara").spec)
-    for link, own in machine.links.items():
-        assert {machine.names[place] for place in own} == {f"{p}{link}" for p in INERTIAL}
-    places = [place for own in machine.links.values() for place in own]
-    assert len(set(places)) == len(places) <= machine.K.shape[1]
+    nearest = nearest_possible(machine, beta, root)
+    assert nearest is not None and nearest.distance == pytest.approx(0.4 * 20.0, rel=rel)
+    assert nearest.beta[place] == pytest.approx(0.0, abs=0.1 * rel)
+    assert carried_by(machine, beta, root, nearest.distance) == [carrier]

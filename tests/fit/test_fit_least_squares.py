@@ -6,19 +6,14 @@ from functools import cache
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, generate
 from modeler.core.builtin import builtin_text
+from modeler.estimation import identify, least_squares, with_verdict
 from modeler.estimation.essential import essential_parameters
-from modeler.estimation.identify import identify
-from modeler.estimation.least_squares import least_squares
 from modeler.estimation.result import fit_from_json
-from modeler.estimation.verdict import with_verdict
 from modeler.numerics.least_squares import compress, independent_columns
-from modeler.observation.log import Log
-from modeler.observation.observe import observe
-from modeler.observation.settings import Processing
-from modeler.robot.edit import with_effects
-from modeler.robot.read import robot_from_text
+from modeler.observation import Log, Processing, observe
+from modeler.robot import with_effects
+from tests.chain import chain_of
 
 NAMES = ("A", "B", "C", "D")
 
@@ -65,36 +60,17 @@ def test_weights_are_a_fixed_point_and_the_weighted_normal_equations_hold():
     np.testing.assert_allclose(found.sigma, (0.1, 2.0), rtol=0.15)
 
 
-def test_a_misfit_stays_on_its_joint():
-    """Joint 2 reads 40 % too much and is noisier: iterated weights leave joint 1 alone."""
-    random = np.random.default_rng(4)
-    shared = random.normal(size=500)
-    W = np.concatenate([shared, shared])[:, None]
-    joint = np.repeat([0, 1], 500)
-    y = np.where(joint == 0, 1.0, 1.4) * W[:, 0]
-    y = y + np.where(joint == 0, 0.01, 0.3) * random.normal(size=1000)
-    found = least_squares(compress(W, y, joint, 2, ("A",)))
-    assert found.beta[0] == pytest.approx(1.0, abs=0.01)
-    assert found.sigma[0] == pytest.approx(0.01, rel=0.2)
-    ordinary = least_squares(compress(W, y, joint, 2, ("A",)), "ordinary")
-    assert ordinary.beta[0] == pytest.approx(1.2, abs=0.03)
-
-
-def test_exact_data_neither_divide_by_zero_nor_loop():
+@pytest.mark.parametrize("method", ["ordinary", "weighted"])
+def test_exact_data_joints_without_rows_and_without_torque_are_no_trouble(method):
     W, clean, joint, _ = problem()
-    for method in ("ordinary", "weighted"):
-        found = least_squares(compress(W, clean, joint, 2, NAMES), method)
+    silent = (joint == 0)[:, None]
+    for data in (
+        compress(W, clean, joint, 2, NAMES), compress(W, clean, joint * 2, 4, NAMES),
+        compress(W * silent, clean * silent[:, 0], joint, 2, NAMES),
+    ):  # fmt: skip
+        found = least_squares(data, method)
         np.testing.assert_allclose(found.beta, (1.0, -20.0, 0.3, 5.0), rtol=1e-9)
         assert np.isfinite(found.covariance).all() and found.settled
-
-
-def test_a_joint_without_rows_or_torque_is_no_trouble():
-    W, clean, joint, _ = problem()
-    found = least_squares(compress(W, clean, joint * 2, 4, NAMES))
-    np.testing.assert_allclose(found.beta, (1.0, -20.0, 0.3, 5.0), rtol=1e-9)
-    W[joint == 1], clean[joint == 1] = 0.0, 0.0
-    found = least_squares(compress(W, clean, joint, 2, NAMES))
-    np.testing.assert_allclose(found.beta, (1.0, -20.0, 0.3, 5.0), rtol=1e-9)
 
 
 def test_what_the_data_cannot_tell_is_set_aside_by_name():
@@ -150,7 +126,7 @@ EVERY = ("viscous", "coulomb", "asymmetric_viscous", "offset")
 @cache
 def fitted_friction(effects):
     text = with_effects(builtin_text("two-link"), dict.fromkeys(effects, "all"))
-    compiled = compile_model(generate(derive(robot_from_text(text, "two-link"))))
+    compiled = chain_of(text).compiled
     t = np.arange(3000) / 150.0
     w = 2 * np.pi * np.array([0.31, 0.53])
     q, qd = np.sin(t[:, None] * w), w * np.cos(t[:, None] * w)
@@ -187,12 +163,8 @@ def test_the_values_are_those_of_columns_for_each_direction():
             assert 0.99 < found[name].sigma / C[i, i] ** 0.5 < 1.3
     assert found["Fv1-"].relation == "Fv1- = Fv1 - Fva1" and found["Fv1-"].unit == "N m s/rad"
     assert found["Fs2+"].relation == "Fs2+ = Fs2 + Off2" and found["Fs2+"].unit == "N m"
-
-
-def test_they_are_printed_and_saved():
-    _, _, fit = fitted_friction(EVERY)
-    text = "\n".join(fit.lines())
-    assert "Fv1+ = Fv1 + Fva1" in text
+    # they are printed and saved
+    assert "Fv1+ = Fv1 + Fva1" in "\n".join(fit.lines())
     raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
     first = raw["directions"][0]
     assert {"name", "value", "sigma", "relative_sigma_percent", "unit", "relation"} == set(first)
@@ -202,9 +174,6 @@ def test_they_are_printed_and_saved():
 def test_where_friction_has_one_law_there_is_nothing_to_tell():
     _, _, fit = fitted_friction(("viscous", "coulomb", "offset"))
     assert fit.directions == () and "direction" not in "\n".join(fit.lines())
-
-
-def test_without_an_offset_both_levels_are_the_coulomb_friction():
     _, _, fit = fitted_friction(("viscous", "coulomb", "asymmetric_viscous"))
     found = {item.name: item for item in fit.directions}
     assert found["Fs1+"].value == found["Fs1-"].value and found["Fs1+"].relation == "Fs1+ = Fs1"

@@ -6,8 +6,7 @@ swings it at the distance B from the torso's axis; its mass enters only there, a
 
 import json
 import re
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import make_dataclass
 
 import numpy as np
 import pytest
@@ -17,14 +16,12 @@ from modeler.api.workflow import recompile
 from modeler.cli import main
 from modeler.codegen.workflow import Derivation
 from modeler.core.errors import DataError
-from modeler.estimation import with_load
-from modeler.estimation.model_file import load_model, save_model
-from modeler.estimation.payload import Payload
+from modeler.estimation import Payload, load_model, save_model, with_load
 from modeler.observation.log import Log
 from modeler.simulation import SimulationSettings, hidden_from_text, simulate
-from modeler.validation.comparison import compare
-from modeler.validation.predict import predict
+from modeler.validation import compare, predict
 from tests.modules import compiled, module, plain
+from tests.rotation import rotating
 
 MASS = 2.0
 
@@ -63,26 +60,17 @@ def test_what_is_told_is_the_model_that_is_written(arm, tmp_path, seed, more):
     assert read.fit.verdict.valid_for == ("parameters" if more == 0.0 else "prediction")
 
 
-@dataclass(frozen=True)
-class Value:
-    value: float
-
-
-@dataclass(frozen=True)
-class Fit:
-    parameters: tuple[Value, ...]
-
-
-@dataclass(frozen=True)
-class Model:
-    spec: Any
-    fit: Fit
+Value, Fit, Model = (
+    make_dataclass(name, fields)
+    for name, fields in (("Value", ["value"]), ("Fit", ["parameters"]), ("Model", ["spec", "fit"]))
+)
 
 
 def bare(name, seed):
+    """A compiled robot, and as much of a model as a load is added to."""
     compiled = plain(name)
     values = np.random.default_rng(seed).normal(size=len(compiled.spec.base))
-    return compiled, Model(compiled.spec, Fit(tuple(Value(v) for v in values)))
+    return compiled, Model(compiled.spec, Fit(tuple(map(Value, values))))
 
 
 def moved(compiled, row, c, q):
@@ -91,7 +79,10 @@ def moved(compiled, row, c, q):
     return pose[:, :, :3] @ c + pose[:, :, 3]
 
 
-CASES = [("orthoglide-2012", "6", (0, 9.81, 0), 0.01), ("puma560", "6", (0, 0, -9.81), 0.8)]
+CASES = [
+    ("five-bar", "22", (0, -9.81, 0), 0.05), ("puma560", "6", (0, 0, -9.81), 0.8),
+    *rotating(("orthoglide-2012", "6", (0, 9.81, 0), 0.01)),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("name", "link", "g", "reach"), CASES)
@@ -122,8 +113,7 @@ def test_the_load_takes_the_force_of_a_point_mass(name, link, g, reach):
     ("mass", "centre", "link", "told"),
     [
         (0.0, (0, 0, 0), None, "got 0 kg at 0, 0, 0; expected a mass above 0"),
-        (1.0, (0, 0, np.inf), None, "x, y, z of its centre"),
-        (1.0, (0, 0), None, "x, y, z of its centre"),
+        *((1.0, centre, None, "x, y, z of its centre") for centre in ((0, 0, np.inf), (0, 0))),
         (1.0, (0, 0, 0), "9", "no link 9; puma560 has 1, 2, 3, 4, 5, 6"),
     ],
 )
@@ -136,6 +126,8 @@ B, UNTOLD = 0.3, 1.2
 TORSO = f"""
 name = "torso"
 gravity = [0, 0, -9.81]
+effects = {{viscous = "all", coulomb = "all"}}
+limits = {{1 = [-2, 2, 3, 15], 2 = [-2, 2, 3, 15], 3 = [-2, 2, 3, 15]}}
 [mdh]
 columns = ["j", "a", "gamma", "b", "alpha", "d", "theta"]
 rows = [
@@ -143,13 +135,6 @@ rows = [
   ["2", "1", 0, 0.5, "pi/2", {B}, "q2"],
   ["3", "1", "pi", 0.5, "pi/2", {B}, "q3"],
 ]
-[effects]
-viscous = "all"
-coulomb = "all"
-[limits]
-1 = [-2, 2, 3, 15]
-2 = [-2, 2, 3, 15]
-3 = [-2, 2, 3, 15]
 """
 
 
@@ -157,37 +142,36 @@ coulomb = "all"
 def logs(tmp_path_factory):
     folder = tmp_path_factory.mktemp("torso")
     (folder / "torso.toml").write_text(TORSO)
-    simulate = f"simulate {folder}/torso.toml --duration 10 --rate 150"
-    gains = "--drive-gain 1=10 --drive-gain 2=1 --drive-gain 3=1.5"
-    for name, words in (
-        ("bare", "--seed 1"), ("loaded", f"--seed 2 --hide payload:mass={UNTOLD}"),
-        ("bare_i", f"--seed 1 {gains}"),
-        ("loaded_i", f"--seed 2 {gains} --hide payload:mass={UNTOLD}"),
-    ):  # fmt: skip
-        assert main(f"{simulate} {words} --out {folder}/{name}.parquet".split()) == 0
+    return simulated(folder)
+
+
+def simulated(folder, gains=""):
+    """The folder, with a bare log of the torso and a loaded one in it."""
+    for name, words in (("bare", "--seed 1"), ("loaded", f"--seed 2 --hide payload:mass={UNTOLD}")):
+        made = f"simulate {folder}/torso.toml --duration 10 --rate 150 {gains} {words} --out"
+        assert main([*made.split(), f"{folder}/{name}.parquet"]) == 0
     return folder
 
 
-def fit_loaded(folder, words, tail=""):
-    base = f"fit {folder}/torso.toml {folder}/bare{tail}.parquet --payload-log "
-    return main(f"{base}{folder}/loaded{tail}.parquet {words} --out {folder}/m.json".split())
+def fit_loaded(folder, words):
+    base = f"fit {folder}/torso.toml {folder}/bare.parquet --payload-log {folder}/loaded.parquet"
+    return main(f"{base} {words} --out {folder}/m.json".split())
 
 
 @pytest.mark.rotating("long tests of fit")
-def test_drive_gains_are_refused_where_the_mass_is_not_told(logs, capsys):
-    assert fit_loaded(logs, f"--payload-mass {UNTOLD} --method tls", "_i") == 1
+def test_drive_gains_are_refused_where_the_mass_is_not_told(tmp_path, capsys):
+    (tmp_path / "torso.toml").write_text(TORSO)
+    simulated(tmp_path, "--drive-gain 1=10 --drive-gain 2=1 --drive-gain 3=1.5")
+    assert fit_loaded(tmp_path, f"--payload-mass {UNTOLD} --method tls") == 1
     assert "or from the load's inertia" in capsys.readouterr().err
 
 
-def test_a_mass_that_is_not_told_is_not_tested(logs, capsys):
+def test_a_mass_that_is_not_told_is_not_tested_and_a_sum_is_called_a_sum(logs):
     for mass in (UNTOLD, 1.5 * UNTOLD):
         assert fit_loaded(logs, f"--payload-mass {mass} --json {logs}/f.json") == 0
         told = json.loads((logs / "f.json").read_text())
         assert not any("weighs" in doubt for doubt in told["doubts"])
         assert f"its mass of {mass:g} kg is taken as given" in "\n".join(told["sentences"])
-
-
-def test_a_sum_is_called_a_sum(logs):
     assert fit_loaded(logs, f"--json {logs}/f.json") == 0
     told = json.loads((logs / "f.json").read_text())
     loads = {load["name"]: load["value"] for load in told["loads"]}

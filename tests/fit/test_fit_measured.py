@@ -10,19 +10,10 @@ from functools import cache
 
 import pytest
 
-from modeler.api import (
-    Comparison,
-    IdentifiedModel,
-    compare,
-    compile_model,
-    derive,
-    fit,
-    generate,
-    load,
-    observe,
-)
+from modeler import api
 from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
+from tests.chain import chain_of
 from tests.measured_sets.sets import DATA, SETS
 from tests.rotation import ROTATING, rotating_with
 
@@ -68,17 +59,13 @@ below 11 %; a parallel filter of 2 Hz brings joint 3 to 14.8 % and joint 4 to 14
 """
 
 
-def chain(name: str, text: str = "") -> tuple[IdentifiedModel, Comparison]:
-    """Fit and comparison of a set; `text` in place of its robot file."""
-    derivation = derive(robot_from_text(text or SETS[name].robot(), name))
-    emitted = generate(derivation)
+@cache
+def results(name: str) -> tuple[api.IdentifiedModel, api.Comparison]:
+    """Fit and comparison of a set."""
     training, held_out = SETS[name].logs(DATA, "forward")
-    observation = observe(compile_model(emitted), training, PUBLISHED[name].processing)
-    model = fit(derivation, emitted, observation)
-    return model, compare(model, held_out)
-
-
-results = cache(chain)
+    robot = robot_from_text(SETS[name].robot(), name)
+    model = chain_of(robot).fit(training, PUBLISHED[name].processing)
+    return model, api.compare(model, held_out)
 
 
 @pytest.mark.rotating("long tests of fit")
@@ -108,10 +95,7 @@ def test_held_out_errors_are_below_the_published_ones(robot):
     ],
 )
 def test_other_measured_logs_make_no_model(robot, log, words):
-    derivation = derive(load(robot))
-    emitted = generate(derivation)
-    model = fit(derivation, emitted, observe(compile_model(emitted), [str(DATA / log)]))
-    line = model.fit.verdict.line
+    line = chain_of(robot).fit([str(DATA / log)]).fit.verdict.line
     assert line.startswith("Not valid: ") and words in line
 
 
@@ -122,17 +106,13 @@ def test_every_exception_is_still_needed():
         assert PUBLISHED[robot].residuals[joint - 1] < found < limit
 
 
-def values(model: IdentifiedModel) -> dict[str, float]:
-    return {parameter.name: parameter.value for parameter in model.fit.parameters}
-
-
 def test_emps_published_values():
     """Janot, Gautier, Brunot 2019: M 95.1, Fv 203.5, Fc 20.4, offset -3.16, error 4.08 %.
 
     They filter at 100 Hz and decimate to 40 Hz, a parallel cut-off of 16 Hz.
     """
     model, _ = results("emps")
-    found = values(model)
+    found = {parameter.name: parameter.value for parameter in model.fit.parameters}
     assert found["M1"] == pytest.approx(95.1089, rel=0.005)
     assert found["Fv1"] == pytest.approx(203.5034, rel=0.01)
     assert found["Fs1"] == pytest.approx(20.3935, rel=0.01)
@@ -146,7 +126,8 @@ def test_emps_published_values():
 @pytest.mark.rotating("long tests of fit")
 def test_tx40_published_values():
     """Janot, Vandanjon, Gautier 2014, of the same robot and log: the columns that are excited."""
-    found = values(results("tx40")[0])
+    parameters = results("tx40")[0].fit.parameters
+    found = {parameter.name: parameter.value for parameter in parameters}
     published = {
         "Fv1": 8.05, "Fv2": 5.53, "Fv3": 1.97, "Fv4": 1.11, "Fs1": 7.14, "Fs2": 8.26, "Fs3": 6.34,
         "Fs4": 2.48, "Ia3": 0.0988, "Ia4": 0.0313, "ZZ1R": 1.248, "ZZ2R": 1.080, "MX2R": 2.241,
@@ -154,15 +135,3 @@ def test_tx40_published_values():
     }  # fmt: skip
     for name, value in published.items():
         assert found[name] == pytest.approx(value, rel=0.1), name
-
-
-@rotating_with("fits of measured logs")
-def test_the_readme_offsets_of_kinova_do_not_carry_over():
-    """With the README's offsets on all joints, joint 1 is as bad as there: 28.8 % in the README."""
-    text = SETS["kinova_gen3"].robot()
-    everywhere = text.replace('offset = ["7"]', 'offset = "all"')
-    assert everywhere != text
-    _, with_offsets = chain("kinova_gen3", everywhere)
-    _, without = results("kinova_gen3")
-    assert with_offsets.joints[0].relative_error == pytest.approx(0.288, rel=0.05)
-    assert with_offsets.joints[0].relative_error > 1.5 * without.joints[0].relative_error

@@ -15,18 +15,13 @@ from test_observation_rows import exact_log, some_beta
 
 from modeler.api import recompile
 from modeler.core.errors import DataError, ManifestError, ModelerError
-from modeler.estimation.identify import identify
-from modeler.estimation.model_file import (
-    IdentifiedModel,
-    checksums,
-    load_model,
-    provenance,
-    save_model,
-)
-from modeler.estimation.payload import Payload, identify_with_payloads
+from modeler.estimation import Payload, identify, identify_with_payloads, load_model, save_model
+from modeler.estimation.model_file import IdentifiedModel, checksums, provenance
 from modeler.observation.observe import observe
-from tests.modules import compiled, module
-from tests.oracles.numpy_model import NumpyModel, Row, planar_arm
+from tests.bad_input.mutants import NUMBERS, VALUES_DRAWN, edited_bytes
+from tests.chain import chain_of
+from tests.modules import compiled
+from tests.oracles.numpy_model import planar_arm
 
 
 def noisy(log, size, seed=0):
@@ -67,40 +62,9 @@ def test_a_simulated_arm_comes_back_within_its_sigmas(fitted):
         assert joint.rms == pytest.approx(np.sqrt(np.mean(residual[own] ** 2)))
         expected = np.linalg.norm(residual[own]) / np.linalg.norm(seen.y[own])
         assert joint.relative_error == pytest.approx(expected)
-
-
-def test_the_json_tells_shares_of_sigma_and_the_text_every_joint(fitted):
-    _, seen, fit = fitted
-    raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
+    raw, text = json.loads(json.dumps(fit.to_json(), allow_nan=False)), "\n".join(fit.lines())
     assert set(raw["joints"]) == {"1", "2"} and raw["samples"] == len(seen.time)
-    first, text = raw["parameters"][0], "\n".join(fit.lines())
-    share = 100 * first["sigma"] / abs(first["value"])
-    assert first["relative_sigma_percent"] == pytest.approx(share)
-    assert "relative error" in text and "joint 2:" in text and fit.parameters[0].name in text
-
-
-def test_a_joint_that_stands_still_is_set_aside_by_name():
-    free = planar_arm(friction=False)
-    log = exact_log(free, some_beta(free))
-    still = {n: np.zeros_like(log.q) for n in ("q", "qd", "qdd")}
-    for name, values in still.items():
-        values[:, 0] = getattr(log, name)[:, 0]
-    tau = free.base_regressor(still["q"], still["qd"], still["qdd"]) @ some_beta(free)
-    fit = identify(observe(free, [dataclasses.replace(log, tau=tau, **still)]))
-    aside = [p for p in fit.parameters if p.status == "set aside"]
-    assert fit.status == "rank deficient" and aside and fit.relative_error < 1e-8
-    for parameter in aside:
-        assert parameter.value == 0.0 and parameter.sigma is None and not parameter.essential
-        assert any(s.startswith(f"{parameter.name} ") for s in fit.sentences)
-        assert any(s.startswith(parameter.name) and "set aside" in s for s in fit.lines())
-    json.dumps(fit.to_json(), allow_nan=False)
-
-
-def test_fewer_rows_than_parameters_is_refused(arm):
-    log = exact_log(arm, some_beta(arm), seconds=0.2)
-    seen = observe(arm, [log])
-    with pytest.raises(DataError, match=f"run: {len(seen.y)} rows for .* parameters; record more"):
-        identify(seen)
+    assert "relative error" in text and "joint 2:" in text
 
 
 LOAD = {"M": 2.8, "MX": 0.3, "MY": -0.1, "MZ": 0.2, "ZZ": 0.05, "XX": 0.03, "YY": 0.02}
@@ -108,19 +72,18 @@ LOAD = {"M": 2.8, "MX": 0.3, "MY": -0.1, "MZ": 0.2, "ZZ": 0.05, "XX": 0.03, "YY"
 
 @cache
 def loaded_robot():
-    """A 3R arm, bare and with a load on link 3; (model, bare log, loaded log)."""
-    robot = NumpyModel([Row(), Row(-np.pi / 2), Row(0.0, 0.4)])
+    """An arm, bare and with a load on link 3; (model, bare log, loaded log)."""
+    robot = compiled("demo-arm")
     beta = some_beta(robot)
     bare = exact_log(robot, beta, "bare", seconds=15)
     log = exact_log(robot, beta, "loaded", seconds=15, seed=8)
-    chi = np.zeros(len(robot.names))
-    for letters, value in LOAD.items():
-        chi[robot.names.index(f"{letters}3")] = value
+    names = [parameter.name for parameter in robot.spec.standard]
+    chi = [LOAD.get(name[:-1], 0.0) if name[-1] == "3" else 0.0 for name in names]
     more = robot.regressor(log.q, log.qd, log.qdd) @ chi
     return robot, bare, dataclasses.replace(log, tau=log.tau + more)
 
 
-def test_an_unknown_load_is_weighed():
+def test_an_unknown_load_is_weighed_and_a_known_mass_goes_to_the_measurement():
     robot, bare, loaded = loaded_robot()
     seen = observe(robot, [noisy(bare, 0.05), noisy(loaded, 0.05, 1)])
     fit = identify_with_payloads(robot, seen, [Payload(("loaded",))])
@@ -128,16 +91,9 @@ def test_an_unknown_load_is_weighed():
     for letters in ("M", "MX", "MY"):
         found = loads[f"{letters}3_load"]
         assert abs(found.value - LOAD[letters]) < 4.0 * found.sigma and found.sigma < 0.05
-    sigma = np.array([parameter.sigma for parameter in fit.parameters])
-    assert np.all(np.abs(fit.beta - some_beta(robot)) < 4.5 * sigma)
     assert len(fit.parameters) == len(robot.spec.base) == len(fit.covariance)
     # Only differences of the axial inertias of a link show: at least one letter is grouped.
-    assert 0 < len(fit.loads) < 11
-    assert "M3_load" in "\n".join(fit.lines()) and fit.to_json()["loads"][0]["name"] == "M3_load"
-
-
-def test_a_known_mass_goes_to_the_measurement():
-    robot, bare, loaded = loaded_robot()
+    assert 0 < len(fit.loads) < 11 and "M3_load" in "\n".join(fit.lines())
     seen = observe(robot, [bare, loaded])
     fit = identify_with_payloads(robot, seen, [Payload(("loaded",), "3", 2.8, "tool")])
     values = {parameter.name: parameter.value for parameter in fit.loads}
@@ -145,8 +101,6 @@ def test_a_known_mass_goes_to_the_measurement():
     assert values["MX3_tool"] == pytest.approx(0.3, abs=1e-6)
     np.testing.assert_allclose(fit.beta, some_beta(robot), rtol=1e-5)
     assert fit.relative_error < 1e-8
-    wrong = identify_with_payloads(robot, seen, [Payload(("loaded",), "3", 1.0)])
-    assert wrong.relative_error > 1e-3
 
 
 def test_impossible_payloads():
@@ -155,7 +109,7 @@ def test_impossible_payloads():
     for payloads, words in (
         ([Payload(("other",))], "payload load: no log other; there are bare, loaded"),
         ([Payload(())], "no log is named"),
-        ([Payload(("loaded",), "7")], "no link 7; numpy_model has 1, 2, 3"),
+        ([Payload(("loaded",), "7")], "no link 7; demo-arm has 1, 2, 3"),
         ([Payload(("loaded",), mass=-1.0)], "mass -1.0 kg; expected above 0"),
         ([Payload(("bare",)), Payload(("loaded",))], "same name"),
         ([Payload(("bare",)), Payload(("loaded",), name="b")], "every log carries a load"),
@@ -318,7 +272,9 @@ def test_entries_may_not_be_added_taken_away_or_put_in_another_order(tmp_path, m
     assert "'x0', 'x1', 'x2' and 6 more" in refusal(path, many)
     joints = dict(reversed(raw["fit"]["joints"].items()))
     assert "fit (the values" in refusal(path, {**raw, "fit": {**raw["fit"], "joints": joints}})
-    path.write_text(json.dumps(dict(reversed(raw.items()))))  # what has no meaning may differ
+    assert "JSON, but not a model file" in refusal(path, {"hello": 1})
+    text = json.dumps(dict(reversed(raw.items())), indent=1)  # what has no meaning may differ
+    path.write_bytes(b"\xef\xbb\xbf" + text.encode().replace(b"\n", b"\r\n"))
     assert load_model(path).beta.tolist() == model.beta.tolist()
 
 
@@ -347,41 +303,12 @@ def test_what_is_no_json_is_refused_in_one_line(tmp_path, case):
     assert words in line and "not a model file: it " in line
 
 
-def test_unreadable_model_files(tmp_path, model):
-    with pytest.raises(ManifestError, match="cannot be read"):
-        load_model(tmp_path / "none.model")
-    with pytest.raises(ManifestError, match="cannot be read"):
-        load_model(tmp_path)
-    path, _ = saved(tmp_path, model)
-    assert "JSON, but not a model file" in refusal(tmp_path / "other", {"hello": 1})
-    assert "not a model file: it is not JSON, or cut off" in refusal(path, path.read_bytes()[:500])
-
-
-def test_a_byte_order_mark_and_other_line_ends_change_nothing(tmp_path, model):
-    path, _ = saved(tmp_path, model)
-    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\n", b"\r\n"))
-    assert load_model(path).beta.tolist() == model.beta.tolist()
-
-
-MANY_DIGITS = "a whole number of 10 000 digits"
-STRANGE = [
-    None, True, False, 0, -1, 1e-300, -7.5, 2**62, 10**40, MANY_DIGITS, "", "x", "1.0", "\x00",
-    "\ud800", "../../x", "\u202e", "é" * 3000, [], [[]], {}, {"": None}, [1e308] * 3,
-    math.nan, math.inf, -math.inf,
-]  # fmt: skip
-
-
 @pytest.fixture(scope="module")
 def saved_text(tmp_path_factory) -> str:
     """The text of a fitted two-link arm's model file."""
-    model, two_link = module("two-link"), compiled("two-link")
-    log = exact_log(two_link, some_beta(two_link), seconds=10)
-    noise = np.random.default_rng(0).normal(0.0, 0.1, log.tau.shape)
-    seen = observe(two_link, [dataclasses.replace(log, tau=log.tau + noise)])
-    place = tmp_path_factory.mktemp("model") / "arm.json"
-    text, emitted = model.model.robot.text, model.emitted
-    save_model(place, IdentifiedModel(text, emitted.spec, emitted.files, identify(seen),
-                                      provenance(seen.report)))  # fmt: skip
+    two_link, place = compiled("two-link"), tmp_path_factory.mktemp("model") / "arm.json"
+    log = noisy(exact_log(two_link, some_beta(two_link), seconds=10), 0.1)
+    save_model(place, chain_of("two-link").fit([log]))
     return place.read_text()
 
 
@@ -393,20 +320,6 @@ def test_a_saved_model_compiles_and_predicts_the_same(saved_text, tmp_path):
     torque = again.compile().inverse_dynamics(*motion, again.beta)
     np.testing.assert_allclose(torque, own.inverse_dynamics(*motion, again.beta), atol=1e-9)
     np.testing.assert_allclose(torque, log.tau, atol=0.2)
-
-
-def entries(raw, above=()):
-    """Paths to everything in it."""
-    for key in raw if isinstance(raw, dict) else range(len(raw)):
-        yield (*above, key)
-        if isinstance(raw[key], dict | list):
-            yield from entries(raw[key], (*above, key))
-
-
-def inner(raw, path):
-    for key in path[:-1]:
-        raw = raw[key]
-    return raw, path[-1]
 
 
 def moved(value, draw: random.Random):
@@ -426,11 +339,12 @@ def moved(value, draw: random.Random):
 def changed_entry(text: str, draw: random.Random, how: str) -> dict:
     """The file's content with one entry replaced, moved a little, left out or repeated."""
     raw = json.loads(text)
-    top = draw.choice(sorted(raw))  # every part as often, however long it is
-    paths = [path for path in entries(raw) if path[0] == top]
-    holder, key = inner(raw, draw.choice(paths))
+    holder, key = raw, draw.choice(sorted(raw))  # every part as often, however long it is
+    while isinstance(holder[key], dict | list) and holder[key] and draw.random() < 0.9:
+        holder = holder[key]
+        key = draw.choice(list(holder) if isinstance(holder, dict) else range(len(holder)))
     if how == "strange":
-        holder[key] = copy.deepcopy(draw.choice(STRANGE))
+        holder[key] = copy.deepcopy(draw.choice(VALUES_DRAWN))
     elif how == "moved":
         holder[key] = moved(holder[key], draw)
     elif isinstance(holder, list) and draw.random() < 0.5:
@@ -438,28 +352,6 @@ def changed_entry(text: str, draw: random.Random, how: str) -> dict:
     else:
         del holder[key]
     return raw
-
-
-def text_of(raw) -> bytes:
-    return json.dumps(raw).replace(f'"{MANY_DIGITS}"', "9" * 10_000).encode()
-
-
-def changed_bytes(data: bytes, draw: random.Random) -> bytes:
-    """Bits turned, bytes put in or taken out, the file cut off, or a piece of it repeated."""
-    place, size = draw.randrange(len(data)), draw.choice((1, 1, 2, 30, 3000))
-    kind = draw.randrange(6)
-    if kind == 0:
-        turned = bytes([data[place] ^ (1 << draw.randrange(8))])
-        return data[:place] + turned + data[place + 1 :]
-    if kind == 1:
-        return data[:place] + draw.randbytes(size) + data[place:]
-    if kind == 2:
-        return data[:place] + data[place + size :]
-    if kind == 3:
-        return data[:place]
-    if kind == 4:
-        return data[:place] + data[place : place + size] + data[place:]
-    return data[:place] + draw.choice((b"[" * 100_000, b"9" * 10_000, b"\xff\xfe")) + data[place:]
 
 
 def read(place, content: bytes) -> IdentifiedModel | None:
@@ -483,7 +375,7 @@ def test_a_changed_entry_is_told(how, saved_text, tmp_path):
     refused = 0
     for seed in range(40):
         raw = changed_entry(saved_text, random.Random(f"{how} {seed}"), how)
-        model = read(tmp_path / "m.json", text_of(raw))
+        model = read(tmp_path / "m.json", json.dumps(raw).encode())
         if model is None:
             refused += 1
         else:  # what stood there before, an empty list made shorter
@@ -491,10 +383,17 @@ def test_a_changed_entry_is_told(how, saved_text, tmp_path):
     assert refused > 34
 
 
+BYTES = ("cut", "repeat", "replace", "insert", "flip", "exchange")
+TOKENS = (*NUMBERS, "[" * 100_000, "9" * 10_000, "\x00", "\u00e9", " ", "{", '"')
+
+
 def test_changed_bytes_are_told(saved_text, tmp_path):
     refused = 0
     for seed in range(50):
-        content = changed_bytes(saved_text.encode(), random.Random(seed))
+        draw = random.Random(seed)
+        kind, *numbers = draw.choice(BYTES), draw.randrange(10**6), draw.choice((1, 2, 30, 3000))
+        edit = (kind, *numbers, draw.randrange(10**6))
+        content = edited_bytes(saved_text.encode(), [edit], TOKENS)
         model = read(tmp_path / "m.json", content)
         if model is None:
             refused += 1
@@ -513,7 +412,7 @@ def test_whoever_makes_the_checksums_fit_gets_a_line_or_a_model_that_can_be_used
             raw["checksums"] = checksums(raw)
         except (ValueError, TypeError):
             continue  # NaN and the like: no checksum makes them fit
-        model = read(tmp_path / "m.json", text_of(raw))
+        model = read(tmp_path / "m.json", json.dumps(raw).encode())
         if model is not None:
             again = read(tmp_path / "n.json", resaved(tmp_path / "s.json", model).encode())
             assert again is not None and again.beta.tolist() == model.beta.tolist()

@@ -7,33 +7,19 @@ white noise on the torque.
 import numpy as np
 import pytest
 
-from modeler import api
 from modeler.observation.log import Log
+from tests.chain import chain_of
 from tests.rotation import rotating
 
 STAGE = """
 name = "stage"
 gravity = [0, 0, 0]
-
+effects = {viscous = "all", coulomb = "all", offset = "all"}
 [mdh]
 columns = ["j", "a", "alpha", "d", "theta", "r"]
 rows = [["1", "0", 0, 0, "q1", 0]]
-
-[effects]
-viscous = "all"
-coulomb = "all"
-offset = "all"
 """
 RATE, SECONDS = 1000.0, 20.0
-
-
-@pytest.fixture(scope="module")
-def stage(tmp_path_factory):
-    place = tmp_path_factory.mktemp("stage") / "stage.toml"
-    place.write_text(STAGE)
-    derivation = api.derive(api.load(place))
-    emitted = api.generate(derivation)
-    return derivation, emitted, api.compile_model(emitted)
 
 
 def machine(draw):
@@ -49,14 +35,13 @@ def machine(draw):
     return values, time, q, qd, qdd
 
 
-def fitted(stage, draw, measured):
+def fitted(draw, measured):
     """The truth, and the fit to what is measured of the positions."""
-    derivation, emitted, compiled = stage
     values, time, q, qd, qdd = machine(draw)
     tau = np.column_stack([qdd, qd, np.sign(qd), np.ones(len(q))]) @ values
     tau += draw.normal(0.0, 0.02 * np.std(tau), len(tau))
     log = Log("run", ("1",), time, measured(q, draw)[:, None], tau[:, None])
-    fit = api.fit(derivation, emitted, api.observe(compiled, [log])).fit
+    fit = chain_of(STAGE).fit([log]).fit
     names = [parameter.name for parameter in fit.parameters]
     assert names == ["ZZ1", "Fv1", "Fs1", "Off1"]
     return values, fit
@@ -86,20 +71,20 @@ def slow_noise(size):
 @pytest.mark.parametrize(
     ("measured", "seed"), [*rotating((counts(2**20), 1), (counts(4096), 2)), (white(2e-3), 3)]
 )
-def test_sigmas_hold_the_noise_of_the_positions(stage, measured, seed):
+def test_sigmas_hold_the_noise_of_the_positions(measured, seed):
     """z = error over sigma of 10 machines: without it, 2 mrad alone give 5."""
     draw = np.random.default_rng(seed)
     z = []
     for _ in range(10):
-        truth, fit = fitted(stage, draw, measured)
+        truth, fit = fitted(draw, measured)
         z.append((fit.beta - truth) / [parameter.sigma for parameter in fit.parameters])
     assert 0.5 < np.sqrt(np.mean(np.square(z))) < 1.4
     assert np.mean(np.abs(z) < 1.96) > 0.87
 
 
-def test_what_the_noise_would_have_bent_is_said(stage):
-    _, fine = fitted(stage, np.random.default_rng(4), counts(2**20))
-    _, coarse = fitted(stage, np.random.default_rng(4), white(5e-2))
+def test_what_the_noise_would_have_bent_is_said():
+    _, fine = fitted(np.random.default_rng(4), counts(2**20))
+    _, coarse = fitted(np.random.default_rng(4), white(5e-2))
     told = "the widest cut-offs and the chosen ones disagree by"
     assert not any(told in line for line in fine.sentences)
     assert any(told in line and "sigma (" in line for line in coarse.sentences)
@@ -108,8 +93,8 @@ def test_what_the_noise_would_have_bent_is_said(stage):
     assert fine.verdict.valid_for == "parameters"
 
 
-def test_a_motion_that_is_mostly_noise_gives_no_values(stage):
-    _, fit = fitted(stage, np.random.default_rng(5), slow_noise(0.3))
+def test_a_motion_that_is_mostly_noise_gives_no_values():
+    _, fit = fitted(np.random.default_rng(5), slow_noise(0.3))
     assert fit.verdict.valid_for != "parameters"
     assert any(
         "values may be drawn to zero by more than their sigmas" in line

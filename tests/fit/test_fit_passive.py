@@ -9,8 +9,7 @@ from test_observation_rows import exact_log, some_beta
 from modeler.core.errors import DataError
 from modeler.derivation.numeric_rank import grouping_matrix
 from modeler.estimation.identify import identify
-from modeler.observation.observe import observe
-from modeler.observation.read import read_log
+from modeler.observation import observe, read_log
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.modules import compiled, module
 from tests.oracles.numpy_model import NumpyModel, Row
@@ -64,10 +63,6 @@ def test_a_dead_channel_leaves_the_other_joints_alone(arm):
     for parameter, true in zip(fit.parameters, beta, strict=True):
         if parameter.sigma is not None and parameter.name[-1] == "3":
             assert abs(parameter.value - true) < 5.0 * parameter.sigma
-
-
-def test_the_unit_of_the_torque_does_not_decide_the_rank(arm):
-    """What the motion tells apart is a matter of W alone."""
-    robot, _, log = arm
+    # the unit of a torque does not decide the rank: what the motion tells apart is a matter of W
     weak = dataclasses.replace(log, tau=log.tau * [1e-13, 1.0, 1.0])
     assert identify(observe(robot, [weak])).status == "ok"

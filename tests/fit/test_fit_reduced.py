@@ -11,22 +11,12 @@ from scipy.signal import lfilter
 from test_observation_rows import exact_log, some_beta
 
 from modeler.core.errors import DataError
-from modeler.estimation.covariance import autocorrelation
+from modeler.estimation import IdentifiedModel, autocorrelation, identify, least_squares, load_model
 from modeler.estimation.essential import essential_parameters
-from modeler.estimation.identify import identify
-from modeler.estimation.least_squares import least_squares
-from modeler.estimation.model_file import (
-    IdentifiedModel,
-    load_model,
-    provenance,
-    save_model,
-    with_essential_only,
-)
+from modeler.estimation.model_file import provenance, save_model, with_essential_only
 from modeler.estimation.result import FitResult, fit_from_json
 from modeler.numerics.least_squares import compress
-from modeler.observation.observation import MASKS, WHY, masks_of
-from modeler.observation.observe import observe
-from modeler.observation.settings import Processing
+from modeler.observation import MASKS, WHY, Processing, masks_of, observe
 from modeler.validation.prediction import DEVIATIONS, sigma_of
 from tests.modules import compiled
 from tests.oracles.numpy_model import planar_arm
@@ -107,14 +97,6 @@ def test_it_is_told_and_saved(fitted):
     assert fit_from_json(raw, fit.covariance).essential is None
 
 
-def test_a_fit_of_essential_parameters_only_prints_one_table(robot):
-    arm, beta = robot
-    seen = observe(arm, [exact_log(arm, np.where(beta == 0.0, 0.7, beta), seconds=10)])
-    fit = identify(seen)
-    assert fit.essential.dropped == () and fit.essential.limit is None
-    assert "reduced model" not in "\n".join(fit.lines())
-
-
 def test_a_model_predicts_with_it(robot, fitted, tmp_path):
     (arm, _), (seen, fit) = robot, fitted
     model = IdentifiedModel("name = 'arm'\n", arm.spec, {}, fit, provenance(seen.report))
@@ -153,7 +135,9 @@ def test_a_reduced_model_that_predicts_worse_is_not_offered(fitted, monkeypatch)
     module = sys.modules["modeler.estimation.identify"]
     monkeypatch.setattr(module, "held_out_errors", lambda *_: ((0.01, 0.02), False))
     refused = identify(seen, "ordinary")
-    assert not refused.essential.dropped and all(p.essential for p in refused.parameters)
+    assert not refused.essential.dropped and refused.essential.limit is None
+    assert all(p.essential for p in refused.parameters)
+    assert not any(line.startswith("reduced model: ") for line in refused.lines())
     assert any(
         "no reduced model: one by an F-test; cross-validated error 2 % (full model: 1 %)" in s
         for s in refused.sentences
@@ -187,33 +171,32 @@ def known_set(arm, seed):
     return compress(W, y, joint, joints, names), {names[k] for k in none}
 
 
-@pytest.fixture(scope="module")
-def orthoglide():
-    return compiled("orthoglide-2003-similar-legs")
-
-
-def test_known_sets_are_found_among_columns_that_are_alike(orthoglide):
+def test_known_sets_are_found_among_columns_that_are_alike():
     """Backward selection alone finds 10 of these 24."""
-    found = better = 0
+    orthoglide, found, better = compiled("orthoglide-2003-similar-legs"), 0, 0
     for seed in range(24):
         data, none = known_set(orthoglide, seed)
         essential = essential_parameters(data, least_squares(data, "ordinary"), "ordinary")
         found += set(essential.dropped) == none
         kept = [data.names.index(name) for name in essential.names]
         out = [data.names.index(name) for name in essential.dropped]
-        least = squares(data, kept) * (1.0 - 1e-9)
-        better += any(
-            squares(data, [*(k for k in kept if k != old), new]) < least
-            for new in out for old in kept
-        )  # fmt: skip
+        better += any(some_exchange_is_better(data, kept, out))
     assert found >= 12 and better == 0
 
 
-def squares(data, kept):
-    """Least sum of squares with these columns only."""
+def some_exchange_is_better(data, kept, out):
+    """Whether the least squares fall with one of `out` in place of each column that is kept."""
     R = data.whole(np.ones(len(data.rows)))
-    Q = np.linalg.qr(R[:, kept])[0]
-    return float(np.sum((R[:, -1] - Q @ (Q.T @ R[:, -1])) ** 2))
+
+    def left(columns, of):
+        Q = np.linalg.qr(R[:, columns])[0]
+        return of - Q @ (Q.T @ of)
+
+    least = np.sum(left(kept, R[:, -1]) ** 2) * (1.0 - 1e-9)
+    for old in kept:
+        *others, error = left([k for k in kept if k != old], R[:, [*out, -1]]).T
+        gains = [(other @ error) ** 2 / (other @ other) for other in others]
+        yield error @ error - max(gains, default=0.0) < least
 
 
 def test_a_share_of_the_value_that_sigmas_stay_below_may_rule_instead(robot):
@@ -249,7 +232,7 @@ def repeated(memory: float) -> tuple[np.ndarray, np.ndarray, FitResult]:
     (RUNS, c) errors in standard deviations; (RUNS,) share of the rows of other motion whose
     noiseless torque lies in the band; the last fit.
     """
-    arm, cut = planar_arm(), Processing(parallel_cutoff=10.0)
+    arm, cut = compiled("two-link"), Processing(parallel_cutoff=10.0)
     beta = some_beta(arm)
     other = observe(arm, [exact_log(arm, beta, seed=99, seconds=10.0, rate=100)], cut)
     log = exact_log(arm, beta, seed=1, seconds=30.0, rate=100)
@@ -293,7 +276,7 @@ def test_the_band_is_the_spread_of_draws() -> None:
 
 def test_rows_say_why_they_do_not_count() -> None:
     """A torque at its limit for a second, one missing for half a second, and slow motion."""
-    arm = planar_arm()
+    arm = compiled("two-link")
     log = exact_log(arm, some_beta(arm), seed=4, seconds=20.0, rate=100)
     tau = log.tau.copy()
     clipped = (log.time > 5.0) & (log.time < 6.0)
@@ -305,16 +288,13 @@ def test_rows_say_why_they_do_not_count() -> None:
     of = {name: masks == k for k, name in enumerate(MASKS)}
     middle = (seen.time > 5.1) & (seen.time < 5.9)
     assert of["torque at its limit"][middle, 0].all()
-    assert not of["torque at its limit"][~clipped_near(seen.time), 0].any()
+    near = (seen.time > 4.8) & (seen.time < 6.2)
+    assert not of["torque at its limit"][~near, 0].any()
     assert of["no good value"][(seen.time > 12.1) & (seen.time < 12.4), 1].all()
     slow = of["low speed"][:, 0]
     floor = seen.report.processing.speed_floors["1"]
     assert slow.any() and np.abs(seen.qd[slow, 0]).max() < 3.0 * floor
     assert set(WHY) == set(MASKS)
-
-
-def clipped_near(time: np.ndarray) -> np.ndarray:
-    return (time > 4.8) & (time < 6.2)
 
 
 def test_autocorrelation_ends_at_segments_gaps_and_where_white():

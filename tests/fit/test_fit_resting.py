@@ -8,7 +8,7 @@ import pytest
 from modeler.cli import main
 from modeler.core.estimators import ABOUT
 from tests.modules import compiled
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
 
@@ -48,13 +48,14 @@ def folder(tmp_path_factory):
 
 
 LONG = ("didim-robust", "iv-direct-consistent", "didim-consistent")
-SHORT_FITS = [
-    f"fit {ROBOT} R --method weighted --out X", f"fit {ROBOT} R --method two-step --out X",
-    f"fit {ROBOT} R --payload-log loaded.csv --payload-mass {MASS} --out X",
-]  # fmt: skip
-SHORT = [
+COMMANDS = [
     f"log R --robot {ROBOT}", "diagnose m.json full.csv --holdout R", "add m.json spring R --out Y",
     f"fit {ROBOT} R --out own.json", "physical own.json", "compare own.json full.csv",
+    "generate own.json --out own_c --force", "compare m.json R", "diagnose m.json R",
+]  # fmt: skip
+OTHERS = [
+    f"fit {ROBOT} R --model energy --out X", f"fleet {ROBOT} R full.csv",
+    f"fit {ROBOT} R --holdout other.csv --method weighted,ridge", "compare m.json R --free-run",
 ]  # fmt: skip
 FITS, LONG_FITS = (
     [f"fit {ROBOT} R --method {m} --out X" for m in ABOUT if (m in LONG) == long]
@@ -63,7 +64,8 @@ FITS, LONG_FITS = (
 LOADED = [
     f"fit {ROBOT} {logs} --payload-mass {MASS} --method {method} --out X"
     for logs, method in (
-        ("R --payload-log RL", "weighted"), ("full.csv --payload-log RL", "robust"),
+        ("R --payload-log RL", "weighted"), ("R --payload-log loaded.csv", "weighted"),
+        ("full.csv --payload-log RL", "robust"),
         ("bare_i.csv --payload-log RLI", "tls"),
     )
 ]  # fmt: skip
@@ -71,21 +73,14 @@ BOTH = [
     f"fit {ROBOT} RI --payload-log {log} --payload-mass {MASS} --method tls --out X"
     for log in ("loaded_i.csv", "RLI")
 ]
-OTHERS = [
-    f"fit {ROBOT} R --model energy --out X", f"fleet {ROBOT} R full.csv",
-    f"fit {ROBOT} R --holdout other.csv --method weighted,ridge", "compare m.json R",
-    "compare m.json R --free-run", "diagnose m.json R", f"fit {ROBOT} R --out own.json",
-    "generate own.json --out own_c --force",
-]  # fmt: skip
 ONE, ALL = (1,), (0, 1, 2)
 
 
 @pytest.mark.rotating("long tests of fit")
 @pytest.mark.parametrize(
     ("rest", "commands"),
-    [(ONE, SHORT), (ONE, SHORT_FITS),
-     *rotating(*((ONE, own) for own in (FITS[::2], FITS[1::2], LOADED, OTHERS))),
-     *rotating(*((ALL, own) for own in (SHORT + OTHERS, SHORT_FITS + FITS, LOADED))),
+    [*((rest, own) for rest in (ONE, ALL)
+       for own in (COMMANDS, OTHERS, FITS[::2], FITS[1::2], LOADED)),
      *(pytest.param(rest, own, marks=ROTATING)
        for rest in (ONE, ALL) for own in (LONG_FITS, BOTH))],
 )  # fmt: skip

@@ -7,22 +7,12 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.core.manifest import SignalSpec
 from modeler.estimation.identify import identify
-from modeler.estimation.two_step import (
-    Directions,
-    single_joint_motions,
-    single_joint_moves,
-    two_steps,
-)
+from modeler.estimation.two_step import Directions, two_steps
 from modeler.estimation.two_step_result import identify_in_two_steps, inertia_rows
-from modeler.observation.log import Log
-from modeler.observation.observe import observe
-from modeler.observation.settings import Processing
-from modeler.robot.motors import joint_directions
-from modeler.robot.read import read_robot
-from modeler.robot.robot import Limits
-from modeler.runtime.model import CompiledModel
+from modeler.estimation.verdict import with_verdict
+from modeler.observation import Log, Processing, observe
+from modeler.robot import Limits, joint_directions, read_robot
 from modeler.simulation import SimulationSettings, simulate
 from modeler.simulation.trajectory import one_joint_reference, point_to_point_reference
 from tests.modules import compiled, module
@@ -68,7 +58,10 @@ def _observed(name: str, *logs: Log):
 
 @pytest.fixture(scope="module")
 def exact():
-    observation = _observed(_ROBOT, _log(_ROBOT))
+    """Of exact logs, some of whose torques are missing."""
+    log = _log(_ROBOT)
+    log.tau[1000:1100, 1] = np.nan
+    observation = _observed(_ROBOT, log)
     return identify_in_two_steps(compiled(_ROBOT), observation, _directions(_ROBOT))
 
 
@@ -120,15 +113,11 @@ def test_the_sigmas_of_both_fits_are_those_of_many_runs():
 def test_moves_of_the_first_joint_tell_16_of_17():
     """Joint-1-only moves leave ZZ2R, the constant of J22 (PJ19); moves of joint 2 add it."""
     model, ways = compiled("wrist"), _directions("wrist")
-    first = _observed("wrist", _log("wrist", only=[0]))
-    estimate = two_steps(model, first, ways).estimate
+    first = _log("wrist", only=[0])
+    estimate = two_steps(model, _observed("wrist", first), ways).estimate
     assert [tangle.name for tangle in estimate.rank.aside] == ["ZZ2R"]
-    both = _observed(
-        "wrist",
-        _log("wrist", only=[0]),
-        dataclasses.replace(_log("wrist", only=[1]), name="second.csv"),
-    )
-    estimate = two_steps(model, both, ways).estimate
+    second = dataclasses.replace(_log("wrist", only=[1]), name="second.csv")
+    estimate = two_steps(model, _observed("wrist", first, second), ways).estimate
     assert not estimate.rank.aside
     assert np.abs(estimate.beta - _beta("wrist")).max() < 1e-10
 
@@ -150,25 +139,6 @@ def test_the_inertias_have_the_rank_of_the_papers_functions(exact):
         assert np.linalg.matrix_rank(rows, 1e-8) == np.linalg.matrix_rank(paper[:count], 1e-8)
 
 
-def test_too_few_configurations_are_not_persistently_exciting():
-    observation = _observed(_ROBOT, _log(_ROBOT, 40.0))
-    found = identify_in_two_steps(compiled(_ROBOT), observation, _directions(_ROBOT))
-    assert found.excitation[0].rank < found.excitation[0].possible_rank
-    assert any("not persistently exciting; move it at" in s for s in found.result.sentences)
-
-
-def test_pieces_of_several_joints_are_left_out(exact):
-    log = _log(_ROBOT)
-    observation = _observed(_ROBOT, log)
-    moves, several, total = single_joint_moves(observation, _directions(_ROBOT))
-    speeds = np.abs(log.qd @ np.linalg.inv(_directions(_ROBOT).rows))
-    for move in moves:
-        others = np.delete(speeds[move.window], move.joint, axis=1)
-        assert others.max() < 0.03 * speeds.max()
-    assert 0.0 < several < 0.4 * total
-    assert exact.steps.several == several
-
-
 @pytest.mark.digits
 @pytest.mark.parametrize("name", ["emps", *rotating("scara")])
 def test_joints_that_feel_nothing_of_each_other(name):
@@ -187,54 +157,20 @@ def test_joints_that_feel_nothing_of_each_other(name):
 
 
 def test_links_that_turn_in_a_parallelogram_of_changing_inertia_are_left_out():
-    robot = read_robot("orthoglide-2003")
-    model, ways = compiled("orthoglide-2003"), _directions("orthoglide-2003")
+    model = compiled("five-bar")
     settings = SimulationSettings(motion="one-joint", duration=10.0, rate=100.0)
-    run = simulate(robot, settings)
+    run = simulate(read_robot("five-bar"), settings)
     log = Log("one.csv", run.joints, run.time, run.q, run.tau)
     with pytest.raises(DataError, match="other functions than those of one body that turns"):
-        two_steps(model, observe(model, [log]), ways)
+        two_steps(model, observe(model, [log]), _directions("five-bar"))
 
 
-def test_logs_without_such_a_piece_are_refused():
+def test_logs_without_such_a_piece_are_refused(tmp_path, capsys):
     log = _log("wrist", 20.0, motion=point_to_point_reference)
     with pytest.raises(DataError, match=r"^one.csv: no piece in which one joint moves") as error:
         two_steps(compiled("wrist"), _observed("wrist", log), _directions("wrist"))
     assert "use --method weighted" in str(error.value) and "\n" not in str(error.value)
-
-
-def test_effects_that_read_more_than_the_motion_are_refused():
-    model = compiled("wrist")
-    warm = dataclasses.replace(model.spec, signals=(SignalSpec("time", "", "s", 0.0),))
-    warm_model = CompiledModel(warm, model._library)
-    with pytest.raises(DataError, match="some effect of the robot reads time"):
-        single_joint_motions(warm_model, np.zeros(3), 0.0, np.eye(3)[0], (-1.0, 1.0), np.eye(3))
-
-
-def test_a_joint_without_a_motor_says_nothing():
-    """Its pieces are left out, and where there are no others, that is told."""
-    log = _log("wrist", only=[0])
-    observation = _observed("wrist", log)
-    idle = tuple(dataclasses.replace(joint, actuated=False) for joint in observation.joints)
-    with pytest.raises(DataError, match="left out: the joint has no motor"):
-        two_steps(
-            compiled("wrist"), dataclasses.replace(observation, joints=idle), _directions("wrist")
-        )
-
-
-def test_missing_torques_are_left_out():
-    """Rows without a measurement do not count; the fit stays exact."""
-    log = _log(_ROBOT)
-    tau = log.tau.copy()
-    tau[1000:1100, 1] = np.nan
-    observation = _observed(_ROBOT, dataclasses.replace(log, tau=tau))
-    steps = two_steps(compiled(_ROBOT), observation, _directions(_ROBOT))
-    assert np.abs(steps.estimate.beta - _beta(_ROBOT)).max() < 1e-9
-
-
-def test_logs_of_joints_are_told_from_logs_of_motors(tmp_path, capsys):
-    log = _log("wrist", 20.0)
-    path = tmp_path / "joints.csv"
+    path = tmp_path / "joints.csv"  # of joints, not of motors
     names = ["time", *(f"q{j}" for j in log.joints), *(f"tau{j}" for j in log.joints)]
     np.savetxt(path, np.column_stack([log.time, log.q, log.tau]), delimiter=",",
                header=",".join(names), comments="")  # fmt: skip
@@ -243,38 +179,24 @@ def test_logs_of_joints_are_told_from_logs_of_motors(tmp_path, capsys):
     assert "no column qm1" in capsys.readouterr().err
 
 
-def test_loads_are_not_known_to_it(tmp_path, capsys):
-    words = "fit wrist-coupled a.csv --payload-log b.csv --method two-step --out"
-    assert main([*words.split(), str(tmp_path / "x.json")]) == 1
-    assert "--payload-log: got it with --method two-step" in capsys.readouterr().err
+def test_a_joint_without_a_motor_says_nothing():
+    """Its pieces are left out, and where there are no others, that is told."""
+    log = _log("wrist", only=[0])
+    observation = _observed("wrist", log)
+    idle = tuple(dataclasses.replace(joint, actuated=False) for joint in observation.joints)
+    without = dataclasses.replace(observation, joints=idle)
+    with pytest.raises(DataError, match="left out: the joint has no motor"):
+        two_steps(compiled("wrist"), without, _directions("wrist"))
 
 
-SLIDE = """name = "pr"
-gravity = [0, 0, "-g"]
-[symbols]
-g = 9.81
-[mdh]
-columns = ["j", "sigma", "alpha", "d", "theta", "r"]
-rows = [["z", 1, 0, 0, 0, "qz"], ["e", 0, "pi/2", 0.2, "qe", 0]]
-[effects]
-viscous = "all"
-coulomb = "all"
-[limits]
-z = [-0.2, 0.3, 1, 6]
-e = [-2, 2, 3, 15]
-"""
-
-
-@pytest.mark.rotating("long tests of fit")
-def test_a_joint_that_never_moves_alone_is_named(tmp_path, capsys):
-    """12 s reach the slide only: that, and no unit or sign, is why the elbow is not described."""
-    robot, log = tmp_path / "pr.toml", tmp_path / "a.parquet"
-    robot.write_text(SLIDE)
-    words = f"simulate {robot} --motion one-joint --duration 12 --seed 1 --out {log}"
-    assert main(words.split()) == 0
-    words = f"fit {robot} {log} --method two-step --out {tmp_path / 'm.json'}"
-    assert main(words.split()) == 0
-    out = capsys.readouterr().out
-    assert "Not valid: joint e never moved alone for long enough" in out
-    assert "check units, signs and columns" not in out
-    assert main(words.replace("two-step", "weighted").split()) == 0
+def test_too_few_configurations_and_joints_that_never_move_alone_are_named():
+    """That, and no unit or sign, is why joint 1 is not described in the second log."""
+    short, second = (_observed(_ROBOT, _log(_ROBOT, 40.0, only=only)) for only in (None, [1]))
+    few = identify_in_two_steps(compiled(_ROBOT), short, _directions(_ROBOT))
+    assert few.excitation[0].rank < few.excitation[0].possible_rank
+    assert any("not persistently exciting; move it at" in s for s in few.result.sentences)
+    steps = identify_in_two_steps(compiled(_ROBOT), second, _directions(_ROBOT))
+    told = steps.doubts()
+    line = with_verdict(compiled(_ROBOT), second, steps.result, told=told).verdict.line
+    assert line.startswith("Not valid: joint 1, 3 never moved alone for long enough")
+    assert "check units, signs and columns" not in line
