@@ -11,16 +11,13 @@ from modeler.api import Load, fit_gains
 from modeler.api.fitting import FitRequest, estimated
 from modeler.codegen import derive, generate
 from modeler.core.errors import DataError
+from modeler.estimation import PREFIXES, body_covariance, least_squares, prior_of
 from modeler.estimation.covariance import Halves
 from modeler.estimation.identify import base_equations, fit_equations, identify
-from modeler.estimation.least_squares import least_squares
-from modeler.estimation.nearest_body import PREFIXES
 from modeler.estimation.payload import Payload, identify_with_payloads
-from modeler.estimation.prior import body_covariance, prior_of
 from modeler.estimation.result import fit_from_json
 from modeler.numerics.least_squares import compress, merged
-from modeler.observation import Log, observe
-from modeler.observation.read import read_log
+from modeler.observation import Log, observe, read_log
 from modeler.robot import robot_from_text
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.bodies import ten_of_points
@@ -54,11 +51,11 @@ def base_names(model):
 
 
 def estimated_beside(model, seed, chi, **how):
-    """The posterior of white rows, with the least squares it came from."""
+    """The posterior of white rows, with the least squares and the data it came from."""
     _, W, y, joint = rows(model, seed, chi, **how)
     data = compress(W, y, joint, 3, base_names(model))
     white = least_squares(data, "weighted")
-    return prior_of(model.spec).applied(white, data, white.covariance), white
+    return prior_of(model.spec).applied(white, data, white.covariance), white, data
 
 
 def true_chi(seed):
@@ -73,7 +70,7 @@ def base_values(model, chi):
 
 
 def test_the_posterior_is_bayes_rule_on_all_standard_parameters(model):
-    found, white = estimated_beside(model, 3, true_chi(3), noise=5.0)
+    found, white, data = estimated_beside(model, 3, true_chi(3), noise=5.0)
     phi, _, y, joint = rows(model, 3, true_chi(3), noise=5.0)
     assert not found.contradicted
     prior, names = prior_of(model.spec), [p.name for p in model.spec.standard]
@@ -90,13 +87,18 @@ def test_the_posterior_is_bayes_rule_on_all_standard_parameters(model):
     sigma = np.sqrt(np.diag(K @ np.linalg.solve(information, K.T)))
     told = np.array([name != "Fv3" for name in prior.names])
     np.testing.assert_allclose(np.sqrt(np.diag(found.covariance))[told], sigma[told], rtol=1e-3)
+    # what halves disagree about stays in the standard deviations and moves no value
+    more = 30.0 * np.diag(white.covariance)
+    raised = prior.applied(white, data, white.covariance, more)
+    np.testing.assert_allclose(raised.beta, found.beta, rtol=1e-6)
+    assert np.all(np.diag(raised.covariance)[told] >= more[told])
 
 
 def test_z_scores_are_those_of_the_prior_and_the_noise(model):
     z = []
     for seed in range(30):
         chi = true_chi(seed)
-        found, _ = estimated_beside(model, seed, chi, noise=5.0)
+        found, *_ = estimated_beside(model, seed, chi, noise=5.0)
         free = np.array([name != "Fv3" for name in prior_of(model.spec).names])
         apart = found.beta - base_values(model, chi)
         z.append((apart / np.sqrt(np.diag(found.covariance)))[free])
@@ -144,7 +146,7 @@ def test_a_body_that_the_data_contradict_is_told_and_left_out(model):
     for seed in range(20):
         chi = true_chi(seed)
         chi |= {p + "3": 2.2 * NOMINAL[p + "3"] for p in PREFIXES}
-        found, white = estimated_beside(model, seed, chi)
+        found, white, _ = estimated_beside(model, seed, chi)
         told += len(found.contradicted) == 1 and found.contradicted[0].startswith("link 3: the dat")
         free = [i for i, base in enumerate(model.spec.base) if base.name.endswith("3")]
         np.testing.assert_allclose(found.beta[free], white.beta[free], rtol=0.2, atol=0.3)
@@ -246,79 +248,38 @@ def test_a_load_is_found_beside_the_prior_of_the_robot(model):
     assert 0.75 < np.sqrt(np.mean(np.square(z))) < 1.3
 
 
-METHODS = pytest.mark.parametrize("method", ["ridge", "consistent"])
-
-
-@METHODS
-def test_an_estimator_with_a_prior_of_its_own_cannot_hold_single_values(model, seen, method):
-    told = f"method {method} cannot hold parameters.*; got Fv1, Fv2, Fv3, Fs3.* method weighted"
+@pytest.mark.parametrize("method", ["ridge", "consistent", "energy"])
+def test_an_estimator_without_this_prior_says_so_and_cannot_hold_single_values(
+    model, seen, method, bodies
+):
+    """It takes the stated values of the bodies, or does without them."""
+    robot, compiled_bodies = bodies
+    asked = FitRequest(energy=True) if method == "energy" else FitRequest(method)
+    who = "the energy model" if asked.energy else f"method {method}"
+    told = f"{who} cannot hold parameters.*; got Fv1, Fv2, Fv3, Fs3"
     with pytest.raises(DataError, match=told):
-        identify(seen, method, model)
-
-
-@METHODS
-def test_it_takes_the_stated_values_of_the_bodies_and_says_so(method):
-    bodies = compiled(text(NOMINAL, {"inertial": 0.1}))
+        estimated(asked, robot, model, seen)
     chi = NOMINAL | FRICTION
-    fit = identify(observe(bodies, [log_of(bodies, chi, 4)]), method, bodies)
+    observation = observe(compiled_bodies, [log_of(compiled_bodies, chi, 4)])
+    fit = estimated(asked, robot, compiled_bodies, observation).result
     assert sum("does not use inertial = 0.1 of [param" in line for line in fit.sentences) == 1
-    apart = fit.beta - base_values(bodies, chi)
+    apart = fit.beta - base_values(compiled_bodies, chi)
     assert np.abs(apart / np.sqrt(np.diag(fit.covariance))).max() < 5.0
 
 
-def test_other_ways_to_fit_cannot_hold_single_values(model, seen):
-    robot = robot_from_text(text(NOMINAL, {"inertial": 0.1}), "stated.toml")
-    for asked in (FitRequest("two-step"), FitRequest(energy=True)):
-        with pytest.raises(DataError, match=r"cannot hold parameters .*; got Fv1, Fv2, Fv3, Fs3"):
-            estimated(asked, robot, model, seen)
+@pytest.fixture(scope="module")
+def bodies():
+    """A robot of whose parameters no single one is held or has a deviation."""
+    stated = text(NOMINAL, {"inertial": 0.1})
+    return robot_from_text(stated, "stated.toml"), compiled(stated)
+
+
+def test_other_ways_to_fit_cannot_hold_single_values(model, seen, bodies):
+    with pytest.raises(DataError, match=r"cannot hold parameters .*; got Fv1, Fv2, Fv3, Fs3"):
+        estimated(FitRequest("two-step"), bodies[0], model, seen)
     held = robot_from_text(text(NOMINAL | FRICTION, {}, held=("Fv3",)), "stated.toml")
     with pytest.raises(DataError, match=r"method tls cannot hold parameters .*; got Fv3"):
         fit_gains(derive(held), [], Load(["none.csv"], 3.0))
-
-
-def test_the_energy_model_fits_without_the_values_and_says_so():
-    bodies = compiled(text(NOMINAL, {"inertial": 0.1}))
-    seen = observe(bodies, [log_of(bodies, NOMINAL | FRICTION, 4)])
-    robot = robot_from_text(text(NOMINAL, {"inertial": 0.1}), "stated.toml")
-    found = estimated(FitRequest(energy=True), robot, bodies, seen)
-    assert "the energy model does not use inertial = 0.1" in "\n".join(found.result.sentences)
-
-
-def test_a_fit_with_a_prior_is_the_least_of_its_objective(model):
-    """|V^-1/2 (beta - theta)|^2 + |R (beta - beta_0)|^2 on 15 problems; what halves disagree about
-    stays in the standard deviations and moves no value."""
-    for seed in range(15):
-        rng = np.random.default_rng([seed, 3])
-        _, W, y, joint = rows(model, seed, true_chi(seed))
-        y = y + rng.uniform(0.0, 2.0) * np.sign(rng.normal(size=len(y)))  # no noise of the model
-        names = base_names(model)
-        data = compress(W, y, joint, 3, names)
-        white = least_squares(data, "weighted")
-        raised = rng.uniform(1.0, 3.0) * white.covariance
-        more = rng.uniform(0.0, 30.0, len(names)) * np.diag(raised)
-        prior = prior_of(model.spec)
-        found = prior.applied(white, data, raised, more)
-        V = np.linalg.inv(raised)
-        if found.contradicted:
-            continue
-        # lengths of the columns beside which what is held is held, as the fit has them
-        lengths = np.sqrt(np.diag(V))
-        R = prior.rows(lengths)
-        slope = V @ (found.beta - white.beta) + R[:, :-1].T @ (R[:, :-1] @ found.beta - R[:, -1])
-        size = np.sqrt(np.diag(V + R[:, :-1].T @ R[:, :-1]))
-        assert np.abs(slope / size).max() < 1e-4
-        moving = np.diag(found.covariance) > 0.0
-        assert np.all(np.diag(found.covariance)[moving] >= more[moving])
-
-
-def test_a_weighted_fit_is_the_least_of_its_objective(model):
-    """sum_j |y_j - W_j beta|^2 / sigma_j^2 with the weights that it ends with."""
-    for seed in range(15):
-        _, W, y, joint = rows(model, seed, true_chi(seed), noise=0.2 + 0.02 * seed)
-        found = least_squares(compress(W, y, joint, 3, base_names(model)), "weighted")
-        X = W / found.sigma[joint][:, None]
-        slope = X.T @ (X @ found.beta - y / found.sigma[joint])
-        assert np.abs(slope / np.linalg.norm(X, axis=0)).max() < 1e-6
 
 
 def test_a_prior_that_raises_the_error_of_a_joint_is_named(model, monkeypatch):

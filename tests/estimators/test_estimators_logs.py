@@ -4,38 +4,33 @@ import dataclasses
 import json
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 from scipy.integrate import solve_ivp
 
 from modeler import api
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.estimation.direct_model import DirectModel
+from modeler.estimation import DirectModel, machine_of, nearest_possible
 from modeler.estimation.identify import base_equations, identify
 from modeler.estimation.least_squares import Problem
 from modeler.estimation.methods import METHODS
-from modeler.estimation.nearest_body import machine_of, nearest_possible
 from modeler.estimation.payload import Payload, identify_with_payloads
 from modeler.observation.log import Log
-from modeler.robot.read import robot_from_text
+from modeler.observation.read import cut
+from tests.chain import chain_of
 from tests.estimators.__main__ import main as suite
-from tests.estimators.coverage import CASES, Case, compiled, covered, measured, table
+from tests.estimators.coverage import compiled, covered, measured, table
 from tests.estimators.measured import tried
-from tests.rotation import rotating_with
+from tests.rotation import rotating, rotating_with
 
-SIMULATED = ("iv-direct", "didim")
-FOLLOWED = tuple(method for method in METHODS if method.startswith(SIMULATED))
-SLOW = ("iv-direct-consistent", "didim-consistent")  # each a simulation and a convex problem, often
+FOLLOWED = tuple(method for method in METHODS if method.startswith(("iv-direct", "didim")))
 
 
 def rotating_but(first, methods):
     """The methods as parameters; those that simulate rotate, but for one."""
-    return [
-        pytest.param(method, marks=pytest.mark.rotating)
-        if method in FOLLOWED and method != first
-        else method
-        for method in methods
-    ]
+    turn = [method for method in methods if method in FOLLOWED and method != first]
+    return [*(method for method in methods if method not in turn), *rotating(*turn)]
 
 
 @pytest.fixture(scope="module")
@@ -46,17 +41,28 @@ def run():
 
 @pytest.fixture(scope="module")
 def observation(run):
-    return api.observe(compiled(), [run[0]])
+    """Of that log with a tenth of a second without torques of a joint."""
+    tau = run[0].tau.copy()
+    tau[500:600, 0] = np.nan
+    return api.observe(compiled(), [dataclasses.replace(run[0], tau=tau)])
+
+
+@pytest.fixture(scope="module")
+def few_rows(run):
+    few = api.Processing(parallel_cutoff=5.0, decimation=100)
+    return api.observe(compiled(), [cut(run[0], slice(0, 400))], few)
 
 
 @pytest.mark.parametrize("method", rotating_but("didim-consistent", METHODS))
-def test_every_method_finds_the_values_of_a_well_measured_arm(observation, run, method):
+def test_every_method_finds_the_values_of_a_well_measured_arm(observation, few_rows, run, method):
     fit = identify(observation, method, compiled())
     sigma = np.array([parameter.sigma for parameter in fit.parameters])
     assert fit.status == "ok" and fit.method == method and fit.relative_error < 0.01
     assert np.abs((fit.beta - run[1]) / sigma).max() < 5.0
     np.testing.assert_allclose(fit.beta, run[1], atol=0.03 * np.abs(run[1]).max())
     assert json.loads(json.dumps(fit.to_json()))["method"] == method
+    with pytest.raises(DataError, match=r"rows for 10 parameters"):
+        identify(few_rows, method, compiled())
 
 
 @rotating_with("estimators on logs")
@@ -92,21 +98,20 @@ def test_where_the_values_are_those_of_a_machine_the_consistent_ones_are_the_sam
 @pytest.fixture(scope="module")
 def badly_known():
     """A wrist in noise: least squares and instruments make no machine of it."""
-    log, truth = measured(7, "bound")
-    observation = api.observe(compiled("wrist"), [log])
-    equations = base_equations(observation)
+    observation = api.observe(compiled("wrist"), [measured(7, "bound")[0]])
+    return problem_of(observation, base_equations(observation), compiled("wrist"))
+
+
+def problem_of(observation, equations, model):
     alive = np.ones(len(equations.y), dtype=bool)
     data = equations.compressed(alive)
-    return Problem(
-        observation, equations.W, equations.y, alive, equations.names, data, compiled("wrist")
-    ), truth
+    return Problem(observation, equations.W, equations.y, alive, equations.names, data, model)
 
 
 @pytest.mark.rotating("estimators on one log")
 def test_instruments_end_in_the_machine_nearest_in_their_own_metric(badly_known):
     """By another formulation and another solver: the cone of all bodies, no logarithm in it."""
-    problem, _ = badly_known
-    free, bound = (METHODS[method].estimate(problem) for method in ("iv", "iv-consistent"))
+    free, bound = (METHODS[m].estimate(badly_known) for m in ("iv", "iv-consistent"))
     R, machine = free.whole[:, :-1], machine_of(compiled("wrist").spec)
     near = nearest_possible(machine, free.beta, R)
     rise = np.linalg.norm(R @ (bound.beta - free.beta)) ** 2
@@ -121,16 +126,14 @@ def test_a_row_that_moves_pulls_a_consistent_estimate_as_it_says():
     log, _ = measured(3, "torque")
     observation = api.observe(compiled(), [log])
     equations = base_equations(observation)
-    alive = np.ones(len(equations.y), dtype=bool)
 
     def estimate(y):
         moved = dataclasses.replace(equations, y=y)
-        given = (observation, moved.W, y, alive, moved.names, moved.compressed(alive), compiled())
-        return METHODS["iv-consistent"].estimate(Problem(*given))
+        return METHODS["iv-consistent"].estimate(problem_of(observation, moved, compiled()))
 
     start, row = estimate(equations.y), 40
     e = 0.5 * start.sigma[observation.row_joint[row]]
-    other = estimate(equations.y + e * (np.arange(len(alive)) == row))
+    other = estimate(equations.y + e * (np.arange(len(equations.y)) == row))
     sigma = np.sqrt(np.diag(start.covariance))
     told, seen = e * start.pull[row] / sigma, (other.beta - start.beta) / sigma
     assert np.abs(told).max() > 0.01
@@ -140,12 +143,10 @@ def test_a_row_that_moves_pulls_a_consistent_estimate_as_it_says():
 AXIS = """
 name = "axis"
 gravity = [0, 0, 0]
+effects = {viscous = "all", offset = "all"}
 [mdh]
 columns = ["j", "a", "sigma", "r"]
 rows = [["1", "0", 1, "q1"]]
-[effects]
-viscous = "all"
-offset = "all"
 """
 MASS, VISCOUS, OFFSET = 80.0, 150.0, 4.0
 SPEED_LOOP, RATIO = 60.0, 1.5  # rad/s, position loop over speed loop: a drive without integrator
@@ -154,7 +155,7 @@ SPEED_LOOP, RATIO = 60.0, 1.5  # rad/s, position loop over speed loop: a drive w
 @pytest.fixture(scope="module")
 def axis():
     """A linear axis under proportional loops, its equation solved by Runge and Kutta."""
-    model = api.compile_model(api.generate(api.derive(robot_from_text(AXIS, "axis"))))
+    model = chain_of(AXIS).compiled
     time = np.arange(0.0, 8.0, 0.002)
 
     def wanted(t):
@@ -201,12 +202,11 @@ def test_the_axis_comes_back_from_its_force_alone(axis, method):
 @pytest.mark.rotating("estimators on one log")
 def test_methods_that_simulate_say_what_they_lack_without_commands(run):
     log, truth = run
-    bare = Log("bare", log.joints, log.time, log.q, log.tau)
+    bare = dataclasses.replace(log, name="bare", commanded=None)
     observation = api.observe(compiled(), [bare])
     for method in ("iv", "iv-consistent"):
-        with pytest.raises(
-            DataError, match=f'^bare: method "{method}" needs commanded.*columns qc1'
-        ):
+        words = f'^bare: method "{method}" needs commanded.*columns qc1'
+        with pytest.raises(DataError, match=words):
             identify(observation, method, compiled())
     fit = identify(observation, "iv-direct", compiled())
     assert any("no commanded positions in these logs" in said for said in fit.own)
@@ -214,8 +214,7 @@ def test_methods_that_simulate_say_what_they_lack_without_commands(run):
 
 
 def test_a_command_that_does_not_move_is_refused(run):
-    log, _ = run
-    still = Log("still", log.joints, log.time, log.q, log.tau, commanded=0.0 * log.q)
+    still = dataclasses.replace(run[0], commanded=0.0 * run[0].q)
     with pytest.raises(DataError, match="the instruments tell nothing of a parameter"):
         identify(api.observe(compiled(), [still]), "iv", compiled())
 
@@ -225,7 +224,7 @@ def test_a_joint_without_a_motor_cannot_be_followed(run):
     text = AXIS.replace('"a", "sigma"', '"a", "mu", "sigma"').replace(
         'rows = [["1", "0", 1, "q1"]]', 'rows = [["1", "0", 1, 1, "q1"], ["2", "1", 0, 1, "q2"]]'
     )
-    model = api.compile_model(api.generate(api.derive(robot_from_text(text, "cart"))))
+    model = chain_of(text).compiled
     time = np.arange(0.0, 4.0, 0.002)
     q = np.column_stack([np.sin(3 * time), np.sin(5 * time + 1)])
     log = Log("cart", ("1", "2"), time, q, np.column_stack([np.cos(3 * time), 0 * time]))
@@ -239,30 +238,11 @@ def test_loads_and_missing_robots_are_refused_in_a_line(run, observation):
     for method in ("iv", "didim-robust", "iv-direct-consistent"):
         with pytest.raises(DataError, match=f'method "{method}" evaluates the robot; got no comp'):
             identify(observation, method)
-    loaded = Log("loaded", log.joints, log.time, log.q + 0.1, log.tau, commanded=log.commanded)
+    loaded = dataclasses.replace(log, name="loaded", q=log.q + 0.1)
     both = api.observe(compiled(), [log, loaded])
     with pytest.raises(DataError, match=r'method "didim" knows the columns of the bare robot only'):
         identify_with_payloads(compiled(), both, [Payload(("loaded",))], "didim")
     assert identify_with_payloads(compiled(), both, [Payload(("loaded",))], "robust").loads
-
-
-@pytest.mark.parametrize("method", rotating_but("iv-direct", [m for m in METHODS if m not in SLOW]))
-def test_too_few_rows_and_missing_values_are_treated_alike(run, method):
-    log, truth = run
-    short = Log(
-        "short", log.joints, log.time[:400], log.q[:400], log.tau[:400],
-        commanded=log.commanded[:400],
-    )  # fmt: skip
-    rows = api.observe(compiled(), [short], api.observe(compiled(), [log]).report.processing)
-    few = api.observe(compiled(), [short], api.Processing(parallel_cutoff=5.0, decimation=100))
-    assert len(few.y) < len(truth) <= len(rows.y) or len(few.y) < len(truth)
-    with pytest.raises(DataError, match=r"rows for 10 parameters"):
-        identify(few, method, compiled())
-    tau, commanded = log.tau.copy(), log.commanded.copy()
-    tau[500:600, 0] = np.nan
-    holes = Log("holes", log.joints, log.time, log.q, tau, commanded=commanded)
-    fit = identify(api.observe(compiled(), [holes]), method, compiled())
-    np.testing.assert_allclose(fit.beta, truth, atol=0.03 * np.abs(truth).max())
 
 
 def pieces(seed):
@@ -293,9 +273,7 @@ def test_short_pieces_with_derivatives_of_their_own_are_followed_by_these():
 def test_didim_says_where_it_ends_worse_than_it_began(run, observation):
     """Commands that come late are not the ones that the robot followed."""
     log, _ = run
-    wrong = Log(
-        "late", log.joints, log.time, log.q, log.tau, commanded=np.roll(log.commanded, 100, axis=0)
-    )
+    wrong = dataclasses.replace(log, commanded=np.roll(log.commanded, 100, axis=0))
     fit = identify(api.observe(compiled(), [wrong]), "didim", compiled())
     start = identify(observation, "weighted", compiled())
     assert fit.relative_error > 10.0 * start.relative_error
@@ -304,47 +282,24 @@ def test_didim_says_where_it_ends_worse_than_it_began(run, observation):
     assert not any("times the error" in said for said in honest.own)
 
 
-@rotating_with("estimators on logs")
-def test_a_loop_that_loses_the_robot_later_is_given_up(monkeypatch):
-    """An encoder so coarse that the values of a later step are those of no machine.
-
-    Whether a loop is lost or just holds depends on the last digits; all that are lost are told.
-    """
-    monkeypatch.setitem(CASES, "coarser", Case(counts=2000))
-    lost = []
-    for seed in (1, 2):
-        log, _ = measured(seed, "coarser")
-        bare = Log("bare", log.joints, log.time, log.q, log.tau)
-        wide = api.Processing(position_cutoff=80.0, parallel_cutoff=30.0)  # lets the noise in
-        observation = api.observe(compiled(), [bare], wide)
-        told = [" ".join(identify(observation, m, compiled()).own) for m in SIMULATED]
-        lost += [said for said in told if "none that was tried holds the robot" in said]
-        if seed == 1:  # machines that could be built can be held
-            said = " ".join(identify(observation, "didim-consistent", compiled()).own)
-            assert "has speed loops of" in said and "not positive definite" not in said
-    assert len(lost) >= 2
-    assert all("not positive definite in" in said for said in lost)
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     made = tmp_path_factory.mktemp("logs")
     for name, seed in (("a", 1), ("held", 2)):
-        argv = ["simulate", "two-link", "--duration", "5", "--rate", "500", "--seed", str(seed)]
-        assert main([*argv, "--out", str(made / f"{name}.parquet")]) == 0
+        words = (
+            f"simulate two-link --duration 5 --rate 500 --seed {seed} --out {made}/{name}.parquet"
+        )
+        assert main(words.split()) == 0
     return made
 
 
 def test_the_command_compares_on_the_same_data(folder, capsys):
     page, raw = folder / "page.html", folder / "all.json"
-    argv = ["fit", "two-link", str(folder / "a.parquet")]
-    argv += ["--holdout", str(folder / "held.parquet"), "--report", str(page), "--json", str(raw)]
-    methods = ["weighted", "iv"]
-    argv += ["--method", ",".join(methods)]
-    assert main(argv) == 0
+    words = f"fit two-link {folder}/a.parquet --holdout {folder}/held.parquet --method weighted,iv"
+    assert main([*words.split(), "--report", str(page), "--json", str(raw)]) == 0
     out = capsys.readouterr().out
     said = json.loads(raw.read_text())
-    assert [own["method"] for own in said["methods"]] == methods
+    assert [own["method"] for own in said["methods"]] == ["weighted", "iv"]
     for own in said["methods"]:
         assert own["fit"]["relative_error"] < 0.02 and own["held_out_error"] < 0.02
         assert own["seconds"] > 0.0 and own["remarks"] and own["avoid"]
@@ -355,68 +310,35 @@ def test_the_command_compares_on_the_same_data(folder, capsys):
 
 @pytest.mark.rotating("estimators on one log")
 def test_the_command_shows_a_refusal_in_its_row(folder, capsys, tmp_path):
-    lines = ["time,q1,q2,tau1,tau2"]
-    log, _ = measured(3, "torque")
-    for row in zip(log.time, *log.q.T, *log.tau.T, strict=True):
-        lines.append(",".join(map(repr, map(float, row))))
-    (tmp_path / "bare.csv").write_text("\n".join(lines) + "\n")
-    argv = ["fit", "two-link", str(tmp_path / "bare.csv"), "--method", "weighted,iv"]
+    table = pq.read_table(folder / "a.parquet", columns=["time", "q1", "q2", "tau1", "tau2"])
+    pq.write_table(table, tmp_path / "bare.parquet")
+    argv = ["fit", "two-link", str(tmp_path / "bare.parquet"), "--method", "weighted,iv"]
     assert main(argv) == 0
     out = capsys.readouterr().out
     assert any(line.split()[:2] == ["iv", "refused"] for line in out.splitlines())
-    assert "\niv: bare.csv: method" in out
+    assert "\niv: bare.parquet: method" in out
 
 
-def test_a_method_named_twice_is_told_once(capsys):
-    assert main(["estimators", "weighted,ridge,weighted"]) == 0
-    out = capsys.readouterr().out
-    assert out.count("weighted least squares\n") == 1 and out.startswith("weighted")
-
-
-@pytest.mark.parametrize("method", ["iv", "didim-robust", "iv-consistent", "two-step"])
-def test_methods_without_loads_say_so_before_any_log_is_read(capsys, tmp_path, method):
-    log = tmp_path / "bad.csv"
-    log.write_text("no log\n")
-    argv = ["fit", "two-link", log, "--payload-log", log, "--method", method, "--out", "m.json"]
-    assert main([*map(str, argv)]) == 1
-    err = capsys.readouterr().err
-    assert f"--payload-log: got it with --method {method}, which knows no loads" in err
-
-
-def test_the_list_says_law_source_and_when_not(capsys):
-    assert main(["estimators", "--json", "-"]) == 0
-    said = json.loads(capsys.readouterr().out)
-    assert [own["method"] for own in said] == list(METHODS)
-    assert all(own["law"] and own["source"] and own["avoid"] for own in said)
+ROBUST = "fit emps a.csv --method didim-robust --out m"
 
 
 @pytest.mark.parametrize(
-    ("argv", "line"),
+    ("words", "line"),
     [
-        (["estimators", "magic"], "estimators: got magic; expected one of weighted"),
-        (["fit", "emps", "a.csv", "--method", "all", "--out", "m"], "--out: got it with --method"),
-        (["fit", "emps", "a.csv", "--method", "iv,ridge", "--model", "energy"], "--model: got it"),
-        (
-            ["fit", "emps", "a.csv", "--method", "didim-robust", "--model", "energy", "--out", "m"],
-            "--method didim-robust: got it with --model energy, whose rows are windows",
-        ),
-        (
-            ["fit", "emps", "a.csv", "--method", "didim-robust", "--robot-out", "r", "--out", "m"],
-            "--robot-out: --method didim-robust ends in base parameters",
-        ),
-        (["fit", "emps", "a.csv", "--out", "m", "--holdout", "b.csv"], "--holdout: got it with"),
+        ("estimators magic", "estimators: got magic; expected one of weighted"),
+        ("fit emps a.csv --method all --out m", "--out: got it with --method"),
+        ("fit emps a.csv --method iv,ridge --model energy", "--model: got it"),
+        (f"{ROBUST} --model energy", "didim-robust: got it with --model energy, whose rows are wi"),
+        (f"{ROBUST} --robot-out r", "--robot-out: --method didim-robust ends in base parameters"),
+        ("fit emps a.csv --out m --holdout b.csv", "--holdout: got it with"),
+        (f"{ROBUST} --payload-log a.csv", "got it with --method didim-robust, which knows no load"),
+        ("fit emps a.csv --method two-step --payload-log a.csv --out m", "which knows no loads"),
     ],
 )
-def test_bad_input_is_one_line(argv, line, capsys):
-    assert main(argv) == 1
+def test_bad_input_is_one_line(words, line, capsys):
+    assert main(words.split()) == 1
     err = capsys.readouterr().err
     assert line in err and err.count("\n") == 1
-
-
-def test_the_suite_refuses_unknown_names():
-    for argv in (["coverage", "--methods", "magic"], ["measured", "--sets", "magic"]):
-        with pytest.raises(SystemExit, match="unknown: magic"):
-            suite(argv)
 
 
 @rotating_with("estimators on logs")
