@@ -26,8 +26,9 @@ def main() -> int:
         made.add_argument(name, type=kind, default=default, help="default: %(default)s")
     args = made.parse_args()
     runs = runs_of(args.robot, args.mass, args.duration, args.rate)
-    names = [joint.name for joint in runs.compiled.spec.joints if joint.actuated]
-    gains, values, refused = [], [], 0
+    names = [f"g_tau{joint.name}" for joint in runs.compiled.spec.joints if joint.actuated]
+    z: dict[str, list[float]] = {name: [] for name in (*names, "parameters")}
+    refused = 0
     for seed in range(args.seeds):
         seen = runs.seen(np.ones(len(runs.compiled.spec.joints)), args.noise, seed)
         try:
@@ -36,23 +37,17 @@ def main() -> int:
             refused += 1
             print(f"seed {seed}: {error}")
             continue
-        gains.append([(g.value - 1.0) / (g.sigma or np.inf) for g in fit.gains])
-        values.append(
-            [(p.value - t) / p.sigma for p, t in zip(fit.parameters, runs.beta, strict=True)
-             if p.sigma]
-        )  # fmt: skip
+        for name, gain in zip(names, fit.gains, strict=True):
+            z[name].append((gain.value - 1.0) / (gain.sigma or np.inf))
+        pairs = zip(fit.parameters, runs.beta, strict=True)
+        z["parameters"] += [(p.value - true) / p.sigma for p, true in pairs if p.sigma]
     print(
         f"{args.robot}: {args.seeds} seeds, {refused} refused, noise {args.noise:g} of the torque"
     )
-    if not gains:
-        return 1
     print(f"{'':<12} {'rms z':>6} {'mean z':>7}")
-    for i, name in enumerate(names):
-        column = np.array([row[i] for row in gains])
-        print(f"{f'g_tau{name}':<12} {np.sqrt(np.mean(column**2)):6.2f} {column.mean():7.2f}")
-    every = np.concatenate(values)
-    print(f"{'parameters':<12} {np.sqrt(np.mean(every**2)):6.2f} {every.mean():7.2f}")
-    return 0
+    for name, values in z.items() if refused < args.seeds else ():
+        print(f"{name:<12} {np.sqrt(np.mean(np.square(values))):6.2f} {np.mean(values):7.2f}")
+    return int(refused == args.seeds)
 
 
 if __name__ == "__main__":

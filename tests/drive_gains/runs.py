@@ -4,15 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.api import compile_model, derive, generate, load
+from modeler.api import load
 from modeler.estimation.payload import Payload
-from modeler.observation.log import Log
-from modeler.observation.observation import Observation
-from modeler.observation.observe import observe
-from modeler.robot.edit import with_drive_gains
-from modeler.robot.read import robot_from_text
+from modeler.observation import Log, Observation, observe
+from modeler.robot import with_drive_gains
 from modeler.runtime.model import CompiledModel
 from modeler.simulation import SimulatedLog, SimulationSettings, hidden_from_text, simulate
+from tests.chain import chain_of
 
 BARE, LOADED = "bare", "loaded"
 
@@ -42,25 +40,14 @@ class Runs:
             noise: of the torques, share of their rms.
             seed: of the noise.
         """
-        rng = np.random.default_rng(seed)
-        return [
-            self._log(run, name, gains, noise, rng)
-            for run, name in ((self.bare, BARE), (self.loaded, LOADED))
-        ]
-
-    def _log(
-        self,
-        run: SimulatedLog,
-        name: str,
-        gains: np.ndarray,
-        noise: float,
-        rng: np.random.Generator,
-    ) -> Log:
-        rms = np.sqrt(np.mean(run.tau**2, axis=0))
-        tau = run.tau + noise * rms * rng.normal(size=run.tau.shape)
+        rng, logs = np.random.default_rng(seed), []
         joints = tuple(joint.name for joint in self.compiled.spec.joints)
         sources = tuple(f"current{joint} x 1" for joint in joints)
-        return Log(name, joints, run.time, run.q, tau / gains, torque_source=sources)
+        for run, name in ((self.bare, BARE), (self.loaded, LOADED)):
+            rms = np.sqrt(np.mean(run.tau**2, axis=0))
+            tau = run.tau + noise * rms * rng.normal(size=run.tau.shape)
+            logs.append(Log(name, joints, run.time, run.q, tau / gains, torque_source=sources))
+        return logs
 
     def seen(self, gains: np.ndarray, noise: float = 0.02, seed: int = 0) -> Observation:
         """The observation of both logs."""
@@ -75,16 +62,14 @@ def runs_of(robot: str, mass: float, duration: float, rate: float) -> Runs:
     """A bare and a loaded run of a built-in robot with drive gains of 1; the rest is drawn."""
     source = load(robot)
     ones = {joint.name: 1.0 for joint in source.coordinates}
-    derivation = derive(robot_from_text(with_drive_gains(source.text, ones), robot))
-    compiled = compile_model(generate(derivation))
-    runs = []
-    for seed, hidden in ((1, []), (2, [f"payload:mass={mass}"])):
-        settings = SimulationSettings(
-            duration=duration, rate=rate, seed=seed, torque_noise=0.0,
-            hidden=tuple(map(hidden_from_text, hidden)),
-        )  # fmt: skip
-        runs.append(simulate(derivation.robot, settings))
-    bare, loaded = runs
+    chain = chain_of(with_drive_gains(source.text, ones))
+    compiled = chain.compiled
+    load_of = hidden_from_text(f"payload:mass={mass}")
+    bare, loaded = (
+        simulate(chain.derivation.robot, SimulationSettings(
+            duration=duration, rate=rate, seed=seed, torque_noise=0.0, hidden=hidden
+        )) for seed, hidden in ((1, ()), (2, (load_of,)))
+    )  # fmt: skip
     truth = bare.truth.parameters
     beta = [sum(t.value * truth[t.parameter] for t in base.terms) for base in compiled.spec.base]
     return Runs(compiled, bare, loaded, mass, np.array(beta))

@@ -1,6 +1,7 @@
 """A free run against what must come out: other physics, closed solutions, the definition."""
 
 import dataclasses
+from functools import cache
 
 import numpy as np
 import pytest
@@ -8,25 +9,75 @@ from scipy.integrate import solve_ivp
 
 from modeler.api import load, recompile
 from modeler.core.errors import DataError
-from modeler.robot.edit import with_effects
-from modeler.robot.read import robot_from_text
+from modeler.estimation.model_file import IdentifiedModel
+from modeler.observation import Log, Processing
+from modeler.observation.read import cut
+from modeler.robot import Robot, robot_from_text, with_effects
+from modeler.runtime.model import CompiledModel
+from modeler.simulation import SimulationSettings, simulate
 from modeler.validation.forward_dynamics import FittedPlant
 from modeler.validation.free_run import FreeRunSettings, Lanes, free_run, walk
 from modeler.validation.free_run_result import free_run_pictures
 from modeler.validation.stability import fit_percentage, horizons
-from tests.freerun.machines import (
-    INERTIA,
-    MOMENT,
-    RUBS,
-    G,
-    fitted,
-    pendulum,
-    simulated,
-    true_model,
-    with_values,
-    without_commands,
-)
+from tests.chain import chain_of
 from tests.rotation import ROTATING, rotating_with
+
+PENDULUM = """\
+name = "pendulum"
+title = "One link on a horizontal axis, q from the vertical"
+gravity = [{up}, 0, 0]
+effects = {{viscous = "all"}}
+[mdh]
+columns = ["j", "a", "sigma", "theta"]
+rows = [["1", "0", 0, "q1"]]
+"""
+INERTIA, MOMENT, RUBS, G = 0.5, 0.6, 0.2, 9.81  # kg m^2, kg m, N m s/rad, m/s^2
+STEP = 0.005  # s
+
+
+@cache
+def pendulum(stands: bool) -> tuple[IdentifiedModel, Log]:
+    """The pendulum about the upright posture, or hanging, swung by 0.1 rad; nothing is noisy.
+
+    I qdd + b qd -+ m l g sin q = tau, written down by hand.
+    """
+    robot = robot_from_text(PENDULUM.format(up=-G if stands else G), "pendulum")
+    time = np.arange(0.0, 2.0 * np.pi, STEP)  # whole periods of both sines
+    q, qd, qdd = np.sum([
+        (a * np.sin(w * time), a * w * np.cos(w * time), -a * w**2 * np.sin(w * time))
+        for a, w in ((0.06, 2.0), (0.04, 5.0))
+    ], axis=0)  # fmt: skip
+    pull = MOMENT * G * np.sin(q) * (-1.0 if stands else 1.0)
+    tau = INERTIA * qdd + RUBS * qd + pull
+    log = Log("swing.parquet", ("1",), time, q[:, None], tau[:, None], qd[:, None], qdd[:, None])
+    return fitted(robot, [log])[0], log
+
+
+def fitted(robot: Robot, logs: list[Log]) -> tuple[IdentifiedModel, CompiledModel]:
+    """A fit to logs, and the compiled robot."""
+    chain = chain_of(robot)
+    processing = Processing(position_cutoff=40.0, parallel_cutoff=8.0)
+    return chain.fit(logs, processing, "ordinary"), chain.compiled
+
+
+def with_values(model: IdentifiedModel, beta: np.ndarray) -> IdentifiedModel:
+    """The model with other values."""
+    parameters = tuple(
+        dataclasses.replace(p, value=float(value))
+        for p, value in zip(model.fit.parameters, beta, strict=True)
+    )
+    return dataclasses.replace(model, fit=dataclasses.replace(model.fit, parameters=parameters))
+
+
+def true_model(name: str | Robot, duration: float, **settings):
+    """Model with the true values, compiled robot, log of the simulator with ideal sensors."""
+    robot = name if isinstance(name, Robot) else load(name)
+    own = {"encoder_counts": 0, "torque_noise": 0.0, "rate": 500.0, "seed": 1} | settings
+    made = simulate(robot, SimulationSettings(duration=duration, **own))
+    log = Log("run1.parquet", made.joints, made.time, made.q, made.tau, commanded=made.qc)
+    model, compiled = fitted(robot, [log])
+    chi = [made.truth.parameters[p.name] for p in compiled.spec.standard]
+    return with_values(model, compiled.base_parameters(chi)), compiled, log
 
 
 @pytest.fixture(scope="module")
@@ -61,7 +112,7 @@ def test_a_wrong_value_is_seen(arm, arm_run, name: str, share: float) -> None:
     model, compiled, log = arm
     beta = model.beta.copy()
     beta[[p.name for p in model.fit.parameters].index(name)] *= share
-    wrong = free_run(with_values(model, beta), [without_commands(log)], compiled)
+    wrong = free_run(with_values(model, beta), [dataclasses.replace(log, commanded=None)], compiled)
     ours, theirs = wrong.joints[0], arm_run.joints[0]
     assert 100.0 - ours.fit > 4.0 * (100.0 - theirs.fit)
     assert wrong.stability.unstable == arm_run.stability.unstable
@@ -78,7 +129,8 @@ def five_bar():
 @rotating_with("free runs")
 def test_loops_are_run_too(five_bar) -> None:
     model, compiled, log = five_bar
-    found = free_run(model, [without_commands(log)], compiled, FreeRunSettings(window=0.5))
+    bare = dataclasses.replace(log, commanded=None)
+    found = free_run(model, [bare], compiled, FreeRunSettings(window=0.5))
     assert all(joint.fit > 99.0 for joint in found.joints)
     assert FittedPlant(compiled, model.beta).shafts == 4
 
@@ -116,23 +168,10 @@ def test_errors_of_an_upright_pendulum_grow_at_that_rate() -> None:
     compiled = recompile(model)
     plant, rate = FittedPlant(compiled, model.beta), free_run(model, [log], compiled).stability.rate
     q = np.array([[0.0], [1e-6]])
-    tau = np.repeat(log.tau[:1000, None], 2, axis=1)
-    around = np.repeat(log.q[:1000, None], 2, axis=1)
-    path = walk(
-        plant, Lanes(q, np.full((2, 1), log.qd[0, 0]), tau, None, 0.002, np.ones(1), around), 1
-    )
-    apart = np.log((path[:, 1] - path[:, 0])[[500, 900], 0])
+    tau, around = (np.repeat(values[:400, None], 2, axis=1) for values in (log.tau, log.q))
+    lanes = Lanes(q, np.full((2, 1), log.qd[0, 0]), tau, None, STEP, np.ones(1), around)
+    apart = np.log(np.diff(walk(plant, lanes, 1)[:, :, 0])[[200, 360], 0])
     assert (apart[1] - apart[0]) / 0.8 == pytest.approx(rate, rel=0.01)
-
-
-@rotating_with("free runs")
-def test_a_free_axis_is_neither_stable_nor_unstable() -> None:
-    """A mass that only rubs: eigenvalues 0 and -b/m."""
-    model, compiled, log = true_model("emps", 4.0)
-    found = free_run(model, [without_commands(log)], compiled)
-    assert found.stability.rate == pytest.approx(0.0, abs=1e-6)
-    assert "integrated twice" in found.stability.sentence() and not found.stability.unstable
-    assert found.joints[0].fit > 99.5
 
 
 def test_a_swinging_pendulum_of_order_2() -> None:
@@ -162,22 +201,40 @@ SLIDE = """\
 name = "slide"
 title = "A mass that rubs"
 gravity = [0, 0, 0]
+effects = {coulomb = "all"}
 [mdh]
 columns = ["j", "a", "sigma", "r"]
 rows = [["1", "0", 1, "q1"]]
-[effects]
-coulomb = "all"
 """
 
 
 @pytest.fixture(scope="module")
 def slide():
-    return simulated(robot_from_text(SLIDE, "slide"), 4.0, 1)[0]
+    return true_model(robot_from_text(SLIDE, "slide"), 2.4, rate=200.0)
+
+
+def test_a_free_axis_is_neither_stable_nor_unstable_and_what_is_said_of_it(slide) -> None:
+    """A mass that only rubs: no eigenvalue but 0."""
+    model, compiled, log = slide
+    found = free_run(model, [log], compiled)
+    assert found.stability.rate == pytest.approx(0.0, abs=1e-6) and not found.stability.unstable
+    assert "integrated twice" in found.stability.sentence()
+    text, raw = found.summary(), found.to_json()
+    assert len(repr(found)) < 150 and "slide" in repr(found)
+    assert "free run under the logged torques on run1.parquet: 2 windows of 1 s" in text
+    assert set(raw["joints"]) == {"1"} and raw["joints"]["1"]["fit"] > 99.0
+    assert raw["stability"]["unstable"] is False
+    (picture,) = free_run_pictures(found)
+    measured, simulated = picture.panels[0][0].series
+    assert picture.name == "joint_1_free_run"
+    assert np.nanmax(np.abs(measured.y - simulated.y)) < 0.05 * np.nanmax(np.abs(measured.y))
+    assert found.controlled is not None and found.controlled.fit["1"] > 97.0
+    assert "under a controller (nearest to the log" in text
 
 
 def test_dry_friction_holds_lets_go_and_stops(slide) -> None:
     """m = 2 kg, Fs = 3 N: 2.9 N move nothing; 5 N for 1 s, then none: it slides on and stays."""
-    model, compiled = fitted(robot_from_text(SLIDE, "slide"), [slide])
+    model, compiled, _ = slide
     assert [p.name for p in model.fit.parameters] == ["M1", "Fs1"]
     plant = FittedPlant(compiled, np.array([2.0, 3.0]))
     tau = np.zeros((2500, 2, 1))
@@ -194,7 +251,7 @@ def test_dry_friction_holds_lets_go_and_stops(slide) -> None:
 def test_bristles_turn_as_in_the_c(slide) -> None:
     bristly = 'presliding = [{joint = "1", d = 0.01}]'
     robot = robot_from_text(SLIDE.replace('coulomb = "all"', bristly), "slide")
-    model, compiled = fitted(robot, [slide])
+    model, compiled = fitted(robot, [slide[2]])
     plant, s = FittedPlant(compiled, model.beta), np.array([0.3])
     for moved in (0.002, -0.004, 0.0, 0.03):
         way = np.sign(moved)
@@ -213,13 +270,13 @@ def test_fit_percentage_is_that_of_matlab() -> None:
     assert fit_percentage(np.ones(3), np.zeros(3)) is None
     assert fit_percentage(q, np.array([0.0, 1.0, np.nan, np.nan])) < 0.0
 
-
-def test_horizons() -> None:
+    # and how long a run is near
     error = np.array([[0.0, 0.0], [0.1, 0.3], [0.3, np.nan]])[:, None, :]
     assert horizons(error, np.array([0.2, 0.2]), 0.5).tolist() == [[1.0, 0.5]]
     assert horizons(error[:2], np.array([0.2, 0.4]), 0.5).tolist() == [[np.inf, np.inf]]
 
 
+@pytest.mark.rotating("long tests of freerun")
 def test_under_a_controller(arm_run) -> None:
     """The simulated controller is not one of ours; the nearest still explains its errors."""
     under = arm_run.controlled
@@ -230,33 +287,16 @@ def test_under_a_controller(arm_run) -> None:
     assert "under a controller (nearest to the log" in arm_run.summary()
 
 
-@rotating_with("free runs")
-def test_given_gains_are_used(arm) -> None:
-    model, compiled, log = arm
-    rows = {name: getattr(log, name)[:1000] for name in ("time", "q", "tau", "commanded")}
-    few = dataclasses.replace(log, **rows)
-    found = free_run(model, [few], compiled, FreeRunSettings(gains=(8.0, 0.5, 0.0, 0.0)))
+def test_given_gains_are_used(slide) -> None:
+    model, compiled, log = slide
+    settings = FreeRunSettings(gains=(8.0, 0.5, 0.0, 0.0))
+    log = cut(log, slice(0, 250))
+    found = free_run(model, [log], compiled, settings)
     assert found.controlled is not None and found.controlled.given
     assert found.to_json()["controller"]["speed"] == pytest.approx(8.0)
-    with pytest.raises(
-        DataError, match=r"--controller: run1.parquet: no complete columns qc1 \.\.\."
-    ):
-        free_run(
-            model, [dataclasses.replace(few, commanded=None)], compiled,
-            FreeRunSettings(gains=(8.0, 0.5, 0.0, 0.0)),
-        )  # fmt: skip
-
-
-def test_what_a_free_run_says(arm_run) -> None:
-    text, raw = arm_run.summary(), arm_run.to_json()
-    assert len(repr(arm_run)) < 150 and "two-link" in repr(arm_run)
-    assert "free run under the logged torques on run1.parquet: 4 windows of 1 s" in text
-    assert set(raw["joints"]) == {"1", "2"} and raw["joints"]["1"]["fit"] > 99.0
-    assert raw["stability"]["unstable"] is arm_run.stability.unstable
-    one, two = free_run_pictures(arm_run)
-    assert (one.name, two.name) == ("joint_1_free_run", "joint_2_free_run")
-    measured, simulated_ = one.panels[0][0].series
-    assert np.nanmax(np.abs(measured.y - simulated_.y)) < 0.05 * np.nanmax(np.abs(measured.y))
+    bare = dataclasses.replace(log, commanded=None)
+    with pytest.raises(DataError, match=r"--controller: run1.parquet: no complete columns qc1"):
+        free_run(model, [bare], compiled, settings)
 
 
 @pytest.mark.rotating("free runs of simulated machines")
@@ -269,36 +309,22 @@ def test_a_joint_that_stands_still_is_not_judged(arm) -> None:
     assert found.joints[1].fit is None and "still" in found.summary()
 
 
-@pytest.mark.parametrize(
-    ("asked", "message"),
-    [
-        (FreeRunSettings(window=0.0), "--window: got 0; expected a number above 0"),
-        (FreeRunSettings(window=float("nan")), "--window: got nan"),
-        (FreeRunSettings(bound=-0.1), "--bound: got -0.1; expected a number above 0"),
-        (
-            FreeRunSettings(window=60.0),
-            r"--window 60: the longest uninterrupted motion of these logs is 4\.\d+",
-        ),
-        pytest.param(
-            FreeRunSettings(gains=(60.0, 9.0, 9.0, 0.0)),
-            "--controller: with these gains two-link is lost",
-            marks=pytest.mark.rotating,
-        ),
-    ],
-)
-def test_what_cannot_be_is_refused(arm, asked: FreeRunSettings, message: str) -> None:
-    model, compiled, log = arm
-    with pytest.raises(DataError, match=message):
-        free_run(model, [log], compiled, asked)
+@pytest.mark.parametrize("asked", [{"window": 0.0}, {"window": np.nan}, {"bound": -0.1}])
+def test_what_cannot_be_is_refused(slide, asked) -> None:
+    model, compiled, log = slide
+    ((name, value),) = asked.items()
+    with pytest.raises(DataError, match=f"--{name}: got {value:g}; expected a number above 0"):
+        free_run(model, [log], compiled, FreeRunSettings(**asked))
 
 
 @pytest.mark.rotating("free runs of simulated machines")
-def test_values_without_inertia_are_refused(arm) -> None:
+def test_values_without_inertia_and_gains_that_lose_the_robot_are_refused(arm) -> None:
     model, compiled, log = arm
-    with pytest.raises(
-        DataError, match="is not positive definite in 100 % of the postures, most a"
-    ):
+    words = "is not positive definite in 100 % of the postures, most a"
+    with pytest.raises(DataError, match=words):
         free_run(with_values(model, -model.beta), [log], compiled)
+    with pytest.raises(DataError, match="--controller: with these gains two-link is lost"):
+        free_run(model, [log], compiled, FreeRunSettings(gains=(60.0, 9.0, 9.0, 0.0)))
 
 
 @pytest.mark.rotating("free runs of simulated machines")

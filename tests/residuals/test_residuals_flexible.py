@@ -1,12 +1,9 @@
 """The flexible rival, where it is known how much of a residual is noise."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-import modeler.numerics.splines as rival
 from modeler.numerics.splines import Measurements, flexible, functions, stretches
 
 STEP, ROWS, JOINTS = 1.0 / 80.0, 1600, 7
@@ -58,9 +55,7 @@ def test_noise_of_any_colour_is_not_predicted(memory: float) -> None:
     lambda m: np.tanh(3.0 * np.sin(4.0 * m.q[:, 1])),
     lambda m: m.load[:, 3],
 ])  # fmt: skip
-def test_functions_of_what_was_measured_are_predicted(
-    function: Callable[[Measurements], np.ndarray],
-) -> None:
+def test_functions_of_what_was_measured_are_predicted(function) -> None:
     """Half of the variance; every row by fits that did not see it."""
     m = measured(1)
     known = function(m)
@@ -88,35 +83,6 @@ def test_the_set_that_suffices_is_told_and_the_answer_is_the_same_twice() -> Non
     found = flexible(functions(m), y, fold())
     assert max(found.alone, key=lambda name: found.alone[name]) == "4"
     np.testing.assert_array_equal(found.prediction, flexible(functions(m), y, fold()).prediction)
-
-
-@pytest.mark.parametrize(("rows", "joints"), [(800, 7), (1600, 3)])
-def test_work_does_not_grow_with_rows_or_pairs_of_joints(
-    rows: int, joints: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Two ridges of each set, once for every two folds that are left out, of 150 columns at most:
-    rows enter products alone, another joint adds one set."""
-    sizes: list[int] = []
-    solved = rival._solved
-
-    def counted(gram: np.ndarray, ridge: float, side: np.ndarray) -> np.ndarray:
-        sizes.append(len(gram))
-        return solved(gram, ridge, side)
-
-    monkeypatch.setattr(rival, "_solved", counted)
-    sets = [*functions(measured(0, 0, rows, joints))]
-    flexible(sets, noise(0, rows=rows), fold(rows))
-    assert len(sets) <= 4 + joints
-    assert len(sizes) == 2 * 36 * len(sets)
-    assert max(sizes) <= 150
-
-
-def test_many_rows_are_all_predicted() -> None:
-    m = measured(3, rows=8000, joints=2)
-    y = np.sin(3.0 * m.q[:, 1]) + noise(3, rows=8000)
-    found = flexible(functions(m), y, fold(8000))
-    assert found.prediction.shape == (8000,)
-    assert found.share == pytest.approx(1.0 - 1.0 / np.var(y), abs=0.05)
 
 
 def test_nothing_is_said_of_few_rows_or_a_constant() -> None:

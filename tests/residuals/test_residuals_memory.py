@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from modeler.numerics.noise import forgotten, outbursts, returning, robust_deviation, white_noise
 
@@ -25,11 +26,7 @@ def noise(seed: int = 3) -> np.ndarray:
 
 def coloured(seconds: float) -> np.ndarray:
     """Noise that is forgotten within some seconds."""
-    keep, drawn = np.exp(-STEP / seconds), noise()
-    found = np.zeros_like(drawn)
-    for k in range(1, len(drawn)):
-        found[k] = keep * found[k - 1] + drawn[k]
-    return found
+    return np.asarray(lfilter([1.0], [1.0, -np.exp(-STEP / seconds)], noise()))
 
 
 @pytest.mark.parametrize("residual", [noise(), coloured(0.03), noise() * (1.0 + np.sin(TIME))])
