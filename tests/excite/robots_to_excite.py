@@ -8,32 +8,24 @@ import numpy as np
 from modeler.api import compile_model, derive, generate
 from modeler.cli.motion import bounds_of
 from modeler.derivation.derive import with_home
-from modeler.excitation.motion import Bounds
-from modeler.excitation.search import Wish, task_of
-from modeler.excitation.task import Task
-from modeler.robot.edit import with_effects
-from modeler.robot.read import read_robot, robot_from_text
-from modeler.robot.robot import Robot
+from modeler.excitation import Bounds, Task, Wish, task_of
+from modeler.robot import Robot, read_robot
 from modeler.runtime.model import CompiledModel
 
 
 @cache
-def robot(name: str, losses: bool = False) -> tuple[Robot, CompiledModel]:
-    """A built-in robot; with inertia and friction of its motors if `losses`."""
+def robot(name: str) -> tuple[Robot, CompiledModel]:
     found = read_robot(name)
-    if losses:
-        effects = dict.fromkeys(["rotor_inertia", "viscous", "coulomb"], "all")
-        found = robot_from_text(with_effects(found.text, effects), name)
     if found.loops:
         found = with_home(found).robot
     return found, compile_model(generate(derive(found)))
 
 
 def limits_of(
-    name: str, limits: tuple[str, ...] = (), boxes: tuple[str, ...] = (), losses: bool = False
+    name: str, limits: tuple[str, ...] = (), boxes: tuple[str, ...] = ()
 ) -> tuple[CompiledModel, Bounds]:
     """The robot compiled, and its limits as the command line takes them."""
-    found, compiled = robot(name, losses)
+    found, compiled = robot(name)
     return compiled, bounds_of(found, compiled, limits, boxes)
 
 
@@ -49,11 +41,9 @@ def plausible(compiled: CompiledModel, seed: int = 0) -> np.ndarray:
     return compiled.base_parameters(values)
 
 
-def small_task(
-    name: str, criterion: str = "both", limited: float = np.inf, boxes: tuple[str, ...] = ()
-) -> Task:
+def small_task(name: str, limited: float = np.inf, boxes: tuple[str, ...] = ()) -> Task:
     """A search of few harmonics; `limited`: every torque, in N m."""
     compiled, bounds = limits_of(name, boxes=boxes)
     bounds = dataclasses.replace(bounds, torque=np.full(len(bounds.joints), limited))
     beta = plausible(compiled) if np.isfinite(limited) else None
-    return task_of(compiled, bounds, Wish(4.0, 3, criterion), None, None, beta)
+    return task_of(compiled, bounds, Wish(4.0, 3), None, None, beta)

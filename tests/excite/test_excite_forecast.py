@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from modeler.api import compile_model, derive, excite, fit, forecast, generate, load, observe
+from modeler.api import excite, forecast
 from modeler.api.motion import Encoders, subject_of
 from modeler.cli.motion import forecast_line
 from modeler.core.errors import DataError
-from modeler.estimation.model_file import IdentifiedModel
-from modeler.excitation.result import Exciting
 from modeler.observation.log import Log
+from tests.chain import chain_of
 
 RATE, NOISE = 500.0, np.array([0.6, 0.2])  # Hz; N m, white
 
@@ -17,23 +16,21 @@ RATE, NOISE = 500.0, np.array([0.6, 0.2])  # Hz; N m, white
 @pytest.fixture(scope="module")
 def arm():
     """A function that fits logs of a two-link arm, its columns and values, and its noise's rng."""
-    derivation = derive(load("two-link"))
-    emitted = generate(derivation)
-    compiled, rng = compile_model(emitted), np.random.default_rng(20)
+    chain, rng = chain_of("two-link"), np.random.default_rng(20)
+    compiled = chain.compiled
     beta = compiled.base_parameters([p.nominal for p in compiled.spec.standard])
 
-    def fitted(columns: dict[str, np.ndarray], step: float) -> IdentifiedModel:
+    def fitted(columns: dict[str, np.ndarray], step: float):
         q, qd, qdd = (np.column_stack([columns[p + j] for j in "12"]) for p in ("q", "qd", "qdd"))
         tau = compiled.base_regressor(q, qd, qdd) @ beta + NOISE * rng.normal(size=q.shape)
         seen = np.floor(q / step) * step if step else q
-        log = Log("made", ("1", "2"), columns["time"], seen, tau)
-        return fit(derivation, emitted, observe(compiled, [log]))
+        return chain.fit([Log("made", ("1", "2"), columns["time"], seen, tau)])
 
     return fitted
 
 
 @pytest.fixture(scope="module")
-def known(arm) -> tuple[IdentifiedModel, Exciting]:
+def known(arm):
     """A model of a log without noise of positions, and a motion found for it."""
     at = np.arange(0.0, 20.0, 1.0 / RATE)
     columns = {"time": at}
@@ -80,12 +77,6 @@ def test_positions_of_joints_that_slide_have_no_turns() -> None:
     for encoders in (Encoders(-1), Encoders(0, float("nan"))):
         with pytest.raises(DataError, match="expected neither below 0"):
             encoders.read(q, ["rad", "m"], np.random.default_rng(0))
-
-
-def test_a_robot_without_values_has_no_forecast() -> None:
-    subject = subject_of(load("scara"))
-    with pytest.raises(DataError, match="scara: sigmas follow from the values of its parameters"):
-        subject.check_forecast()
 
 
 def test_a_log_that_could_not_be_fitted_is_told_in_a_line(known) -> None:

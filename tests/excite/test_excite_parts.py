@@ -7,34 +7,12 @@ import pytest
 from scipy.optimize import minimize, rosen, rosen_der
 
 from modeler.core.errors import DataError
-from modeler.excitation import separate as choosing
-from modeler.excitation.criterion import (
-    CRITERIA,
-    condition,
-    log_condition,
-    log_det,
-    lost_information,
-)
+from modeler.excitation import choose, random_motion, separate as choosing
+from modeler.excitation.criterion import CRITERIA, condition, log_condition, log_det
 from modeler.excitation.families import series
-from modeler.excitation.search import random_motion
-from modeler.excitation.separate import choose
 from modeler.excitation.task import Walled
 from modeler.numerics.optimize import Landscape, descend, evolve
 from tests.excite.robots_to_excite import limits_of, small_task
-
-
-def test_a_series_rests_at_its_ends_and_its_slopes_are_derivatives():
-    rng = np.random.default_rng(1)
-    x = rng.normal(size=(2, 9))
-    ends = series(3.0, 5, np.array([0.0, 3.0]))
-    q, qd, qdd = ends.motion(x)
-    assert np.allclose(qd, 0.0, atol=1e-12) and np.allclose(qdd, 0.0, atol=1e-11)
-    assert np.allclose(q[0], q[1])
-    h = 1e-5
-    before, here, after = (series(3.0, 5, np.array([t])) for t in (0.7 - h, 0.7, 0.7 + h))
-    for values, slopes in (("values", "slopes"), ("slopes", "bends")):
-        difference = (getattr(after, values) - getattr(before, values)) / (2 * h)
-        assert np.allclose(difference, getattr(here, slopes), atol=1e-6)
 
 
 def test_between_samples_a_series_is_no_larger_than_its_room_says():
@@ -64,7 +42,7 @@ def test_the_criteria_are_what_they_are_called():
     assert condition(W, scaled=False) == pytest.approx(np.linalg.cond(W))
     assert log_det(W) == pytest.approx(np.linalg.slogdet(W.T @ W)[1])
     assert np.log(scaled) <= log_condition(W)[0] <= np.log(scaled) + np.log(5) / 4
-    assert lost_information(W)[0] == pytest.approx(-log_det(W) / 10)
+    assert CRITERIA["information"](W)[0] == pytest.approx(-log_det(W) / 10)
     W[:, 1] = 0.0
     assert all(criterion(W)[0] == np.inf for criterion in CRITERIA.values())
 
