@@ -178,6 +178,7 @@ def test_the_command_checks_a_motion_and_draws_the_nearest_two(arm, tmp_path, ca
     assert told["margin"] == 0 and told["nearest"]["distance"] == pytest.approx(near.distance)
 
 
+@pytest.mark.rotating("long tests of excite")
 def test_loops_are_kept_clear_too():
     found, compiled = built_in("five-bar")
     bounds = bounds_of(found, compiled, {}, {}, 0.02)

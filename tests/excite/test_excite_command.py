@@ -29,7 +29,7 @@ def folder(tmp_path_factory):
     place = tmp_path_factory.mktemp("excite")
     for words in (
         f"excite demo-arm --duration 6 --starts 1 --out {place}/motion.csv "
-        f"--json {place}/motion.json --picture {place}/motion.png",
+        f"--json {place}/motion.json",
         f"simulate demo-arm --motion {place}/motion.csv --rate 500 --noise 0.05 "
         f"--out {place}/log.parquet",
         f"fit demo-arm {place}/log.parquet --out {place}/m.json",
@@ -43,7 +43,6 @@ def test_what_is_written_is_the_motion_and_what_it_uses(folder):
     raw = json.loads((folder / "motion.json").read_text())
     table = pacsv.read_csv(folder / "motion.csv")
     assert table.column_names == ["time", *(f"{p}{j}" for p in ("q", "qd", "qdd") for j in "123")]
-    assert (folder / "motion.png").read_bytes().startswith(b"\x89PNG")
     assert raw["condition_scaled"] < raw["random"]["condition_scaled_best"]
     for name, joint in raw["joints"].items():
         q = table[f"q{name}"].to_numpy()
@@ -160,6 +159,7 @@ def test_one_line_for_what_cannot_be(capsys, folder, tmp_path, monkeypatch, mode
     assert not (tmp_path / "m.csv").exists()
 
 
+@pytest.mark.rotating("long tests of excite")
 def test_sigmas_of_a_model_are_forecast(capsys, folder, tmp_path):
     words = ("--duration", 3, "--starts", 1, "--rate", 500, "--out", tmp_path / "m.csv")
     page = tmp_path / "j.json"

@@ -16,6 +16,7 @@ from modeler.robot import read_robot
 from modeler.simulation import curve_of, read_motion
 from tests.chain import chain_of
 from tests.excite.robots_to_excite import limits_of
+from tests.rotation import rotating
 
 NEW = sorted({*FAMILIES} - {"fourier"})
 
@@ -32,7 +33,7 @@ def test_a_family_rests_at_its_ends_and_its_slopes_are_derivatives(family):
         assert np.allclose(np.diff(value, axis=0) / t[1], middle, atol=1e-3 * np.abs(slope).max())
 
 
-@pytest.mark.parametrize("family", NEW)
+@pytest.mark.parametrize("family", [NEW[0], *rotating(*NEW[1:])])
 def test_no_limit_is_broken_between_samples(family):
     """Of a random motion as large as may be, and of the best one: twenty thousand places."""
     compiled, bounds = limits_of("scara")
@@ -68,7 +69,7 @@ def test_a_trapezoid_stops_at_its_places_and_its_jerk_is_constant_by_pieces():
     assert 0.2 < top.mean() < 0.3  # a quarter of its time at one speed
 
 
-@pytest.mark.parametrize("family", NEW)
+@pytest.mark.parametrize("family", [NEW[0], *rotating(*NEW[1:])])
 def test_the_command_writes_a_family_in_the_same_columns(family, tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("modeler.excitation.search.RANDOM", 7)
     place, told = tmp_path / "m.csv", tmp_path / "m.json"

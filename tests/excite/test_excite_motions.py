@@ -14,7 +14,7 @@ from modeler.robot.edit import with_gravity
 from modeler.robot.read import builtin_text, robot_from_text
 from modeler.simulation.closing import constraints_of, distances, followed, rates
 from tests.excite.robots_to_excite import limits_of, plausible, robot
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, rotating
 
 
 def finely(motion):
@@ -146,7 +146,7 @@ def heavy_arm(first, second):
     return subject, bounds_of(subject.robot, subject.compiled, limits, {})
 
 
-@pytest.mark.parametrize("first,second", [(16, 4), (1.67, 0.86)])
+@pytest.mark.parametrize(("first", "second"), [(1.67, 0.86), *rotating((16, 4))])
 def test_wider_torques_are_never_refused_and_the_narrowest_hold_at_all_times(first, second):
     subject, bounds = heavy_arm(first, second)
     wish = Wish(6.0, 4, starts=1, seed=1, time_limit=0.4)
@@ -163,7 +163,7 @@ def test_torques_below_dry_friction_are_refused_in_a_line():
         subject.search(bounds, Wish(6.0, 4))
 
 
-@pytest.mark.parametrize("steps", [1, 900])
+@pytest.mark.parametrize("steps", [900, *rotating(1)])
 def test_every_loop_asks_for_the_time(monkeypatch, steps):
     """A clock that a look at the columns moves on: what comes after the limit is bounded."""
     subject, bounds = heavy_arm(4.0, 1.0)

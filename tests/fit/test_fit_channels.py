@@ -273,8 +273,8 @@ MORE = ("stribeck", "presliding", "load_friction", "asymmetric_viscous", "payloa
 
 @pytest.mark.parametrize(
     ("name", "hidden"),
-    [("demo-arm", hidden) for hidden in EFFECTS[:3]]
-    + rotating(*(("demo-arm", hidden) for hidden in EFFECTS[3:]))
+    [("demo-arm", "elasticity")]
+    + rotating(*(("demo-arm", hidden) for hidden in EFFECTS if hidden != "elasticity"))
     + [pytest.param("ur10e", hidden, marks=ROTATING) for hidden in EFFECTS[1::2] + MORE[::2]],
 )
 def test_physics_is_not_late(name, hidden):

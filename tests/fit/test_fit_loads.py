@@ -166,6 +166,7 @@ def test_drive_gains_are_refused_where_the_mass_is_not_told(tmp_path, capsys):
     assert "or from the load's inertia" in capsys.readouterr().err
 
 
+@pytest.mark.rotating("long tests of fit")
 def test_a_mass_that_is_not_told_is_not_tested_and_a_sum_is_called_a_sum(logs):
     for mass in (UNTOLD, 1.5 * UNTOLD):
         assert fit_loaded(logs, f"--payload-mass {mass} --json {logs}/f.json") == 0

@@ -414,9 +414,12 @@ SMOOTH = Processing(position_cutoff=0.0, parallel_cutoff=20.0, derivatives="log"
     [
         ("wrist", PLAIN, 0.2, "weighted"),  # residuals that remember
         ("wrist", PLAIN, 0.0, "robust"),  # reads rows, and has them
-        ("wrist", SMOOTH, 0.1, "ordinary"),
         ("five-bar", PLAIN, 0.0, "weighted"),
-        *rotating(("wrist", THIRD, 0.0, "weighted"), ("wrist", PLAIN, 0.0, "ordinary")),
+        *rotating(
+            ("wrist", SMOOTH, 0.1, "ordinary"),
+            ("wrist", THIRD, 0.0, "weighted"),
+            ("wrist", PLAIN, 0.0, "ordinary"),
+        ),
     ],
 )
 def test_a_fit_without_w_is_the_fit_with_it(monkeypatch, name, processing, memory, method):

@@ -287,6 +287,7 @@ def test_under_a_controller(arm_run) -> None:
     assert "under a controller (nearest to the log" in arm_run.summary()
 
 
+@pytest.mark.rotating("free runs of simulated machines")
 def test_given_gains_are_used(slide) -> None:
     model, compiled, log = slide
     settings = FreeRunSettings(gains=(8.0, 0.5, 0.0, 0.0))
