@@ -293,6 +293,7 @@ def folder(tmp_path_factory):
     return made
 
 
+@pytest.mark.rotating("estimators on one log")
 def test_the_command_compares_on_the_same_data(folder, capsys):
     page, raw = folder / "page.html", folder / "all.json"
     words = f"fit two-link {folder}/a.parquet --holdout {folder}/held.parquet --method weighted,iv"

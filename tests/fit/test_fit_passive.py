@@ -12,7 +12,6 @@ from modeler.estimation.identify import identify
 from modeler.observation import observe, read_log
 from modeler.simulation import SimulationSettings, simulate, write_log
 from tests.modules import compiled, module
-from tests.oracles.numpy_model import NumpyModel, Row
 
 
 @pytest.mark.parametrize(
@@ -39,7 +38,7 @@ def test_a_simulated_robot_with_passive_joints_comes_back(name, tmp_path):
 @pytest.fixture(scope="module")
 def arm():
     """A 3R arm, values and log with 1 % noise."""
-    robot = NumpyModel([Row(), Row(-np.pi / 2), Row(0.0, 0.4)])
+    robot = compiled("demo-arm")
     beta = some_beta(robot)
     log = exact_log(robot, beta, seconds=20)
     noise = np.random.default_rng(5).normal(size=log.tau.shape)
