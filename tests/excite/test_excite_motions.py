@@ -110,7 +110,7 @@ def test_loops_close_all_along_away_from_singular_postures(name):
 
 
 def test_the_same_seed_gives_the_same_motion_and_another_one_another():
-    compiled, bounds = limits_of("wrist")
+    compiled, bounds = limits_of("two-link")
     wishes = [Wish(4.0, 3, starts=1, seed=seed) for seed in (3, 3, 4)]
     one, again, other = (excite(compiled, bounds, wish) for wish in wishes)
     assert np.array_equal(one.x, again.x) and one.to_json() == again.to_json()
