@@ -335,16 +335,17 @@ print("peak:", resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=sys.stde
 @rotating_with("memory of long logs")
 def test_memory_does_not_grow_with_the_log(tmp_path):
     """Peak memory of a fit of 300 000 and of 1 200 000 rows: within 30 MB; read, they are 48 MB."""
-    random, time, peaks = np.random.default_rng(1), np.arange(100_000) * 1e-3, []
-    noise = random.normal(scale=0.1, size=(2, len(time)))
-    q = np.stack([np.sin(0.7 * time), np.cos(1.1 * time)]) + 1e-4 * noise
-    columns = {"q1": q[0], "q2": q[1], "tau1": 5 * q[0] + noise[0], "tau2": 2 * q[1] + noise[1]}
+    noise, peaks = np.random.default_rng(1).normal(scale=0.1, size=(2, 100_000)), []
     for parts in (3, 12):
-        path = tmp_path / f"run{parts}.parquet"
-        tables = [pa.table({"time": time + 100.0 * part} | columns) for part in range(parts)]
-        with pa.parquet.ParquetWriter(path, tables[0].schema) as file:
-            for table in tables:
-                file.write_table(table)
+        path, writer = tmp_path / f"run{parts}.parquet", None
+        for part in range(parts):
+            time = (np.arange(100_000) + part * 100_000) * 1e-3
+            q = np.stack([np.sin(0.7 * time), np.cos(1.1 * time)]) + 1e-4 * noise
+            columns = [time, *q, *(np.array([[5.0], [2.0]]) * q + noise)]
+            table = pa.table(columns, names=["time", "q1", "q2", "tau1", "tau2"])
+            writer = writer or pa.parquet.ParquetWriter(path, table.schema)
+            writer.write_table(table)
+        writer.close()
         words = [sys.executable, "-c", _MEMORY, str(path), str(tmp_path / "m.json")]
         done = subprocess.run(words, capture_output=True, text=True, timeout=600)
         assert done.returncode == 0, done.stderr
