@@ -29,7 +29,7 @@ def rotating(*cases: Any) -> list[Any]:
     ]
 
 
-def rotating_with(group: str) -> Any:
+def slow_rotating(group: str) -> Any:
     """Decorator of a long test beside quick ones of its subject; those of a group rotate."""
 
     def marked(function: Any) -> Any:

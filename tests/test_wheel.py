@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from tests.repository import ROOT, kept_files
-from tests.rotation import rotating_with
+from tests.rotation import slow_rotating
 
 pytestmark = pytest.mark.slow
 
@@ -158,7 +158,7 @@ def test_the_sdist_installs_what_the_wheel_does(installed: Path, from_sdist: Pat
     assert re.fullmatch(r"modeler \d+\.\d+\.\d+\S*\n", told)
 
 
-@rotating_with("the wheel used")
+@slow_rotating("the wheel used")
 def test_what_a_stranger_does_first(installed: Path, tmp_path: Path) -> None:
     """A log, a fit, a page, C that checks itself; the C in Python, against a textbook."""
     run = _runner(installed, tmp_path)
@@ -176,7 +176,7 @@ def test_what_a_stranger_does_first(installed: Path, tmp_path: Path) -> None:
     assert run("python", "-c", _USE, "arm") == "used\n"
 
 
-@rotating_with("the wheel used")
+@slow_rotating("the wheel used")
 def test_the_demonstration_from_the_wheel(installed: Path, tmp_path: Path) -> None:
     """Short: on the arm the hidden effect is found all the same."""
     told = _runner(installed, tmp_path)("modeler", "demo", "--duration", "5", "--out", "demo")
@@ -220,7 +220,7 @@ print("told")
 """
 
 
-@rotating_with("the wheel used")
+@slow_rotating("the wheel used")
 def test_the_story_of_one_object_from_the_wheel(installed: Path, tmp_path: Path) -> None:
     assert _runner(installed, tmp_path)("python", "-c", _STORY) == "told\n"
     assert (tmp_path / "out" / "manifest.json").is_file()

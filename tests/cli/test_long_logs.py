@@ -18,7 +18,7 @@ from modeler.estimation import stream
 from modeler.validation import compare_long
 from tests.cli.running import complaint, run
 from tests.modules import compiled
-from tests.rotation import rotating_with
+from tests.rotation import slow_rotating
 
 ROWS = 9000
 
@@ -235,7 +235,7 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit)
 """
 
 
-@rotating_with("memory of long logs")
+@slow_rotating("memory of long logs")
 def test_memory_does_not_grow_with_the_rows(place, model, tmp_path):
     """360 000 rows more of five columns: 14 MB as floats, and many times that read whole."""
     table = pa.parquet.read_table(place / "run.parquet")

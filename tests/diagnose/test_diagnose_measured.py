@@ -16,7 +16,7 @@ from modeler.estimation.model_file import IdentifiedModel
 from modeler.runtime.model import load as load_compiled
 from tests.chain import chain_of
 from tests.measured_sets.sets import DATA, SETS
-from tests.rotation import rotating_with
+from tests.rotation import slow_rotating
 
 pytestmark = [
     pytest.mark.measured,
@@ -50,7 +50,7 @@ def test_emps_has_friction_that_differs_between_the_directions() -> None:
     assert found.joints["1"].error_after < 0.031
 
 
-@rotating_with("measured logs are diagnosed")
+@slow_rotating("measured logs are diagnosed")
 def test_ur10e_the_errors_fall_as_effects_are_added(ur10e_model: IdentifiedModel) -> None:
     model, (training, held_out) = ur10e_model, logs("ur10e")
     compiled = load_compiled(model.spec, model.sources)
@@ -62,14 +62,14 @@ def test_ur10e_the_errors_fall_as_effects_are_added(ur10e_model: IdentifiedModel
     assert errors["1"] < 0.07 and errors["2"] < 0.018 and errors["3"] < 0.016
 
 
-@rotating_with("measured logs are diagnosed")
+@slow_rotating("measured logs are diagnosed")
 def test_ur10e_a_load_is_found_first_with_its_mass(ur10e_model: IdentifiedModel) -> None:
     found = diagnose(ur10e_model, [DATA / "ur10e" / "ur-20_02_19_14harm50secLoad.parquet@:1912"])
     assert found.effects[0].effect == "payload"
     assert found.effects[0].parameters["mass"] == pytest.approx(2.805, rel=0.1)
 
 
-@rotating_with("measured logs are diagnosed")
+@slow_rotating("measured logs are diagnosed")
 def test_tx40_the_motor_of_joint_6_turns_joint_5_too() -> None:
     """From a robot file that couples nothing; errors below those of the published model."""
     text = builtin_text("tx40").partition("[coupling]")[0]

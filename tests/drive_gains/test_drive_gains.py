@@ -17,7 +17,7 @@ from modeler.numerics.least_squares import compress
 from modeler.observation.observe import observe
 from modeler.robot.edit import with_drive_gains
 from tests.drive_gains.runs import Runs, runs_of
-from tests.rotation import rotating_with
+from tests.rotation import slow_rotating
 
 TRUE = np.array([1.2, 0.9, 25.0])  # N m per unit
 ROWS = 400  # of each drive
@@ -91,7 +91,7 @@ def test_standard_deviations_are_those_of_many_draws():
     assert estimated(*drawn(1, 1.0)).singular[-1] == pytest.approx(1.0, abs=0.02)
 
 
-@rotating_with("gains of drives")
+@slow_rotating("gains of drives")
 def test_noisy_runs_of_an_arm_spread_as_the_sigmas_say(arm):
     gains, values = [], []
     for seed in range(25):
@@ -189,7 +189,7 @@ def test_gains_are_not_found_without_a_known_mass_and_all_currents(arm):
         identify_gains(arm.compiled, seen, [arm.payload()])
 
 
-@rotating_with("gains of drives")
+@slow_rotating("gains of drives")
 def test_a_real_arm_has_one_set_of_gains_and_a_load_that_was_turned(measured_folder):
     """UR10e: pairs of runs agree; both loaded runs together do not, until each has its own load."""
     folder = measured_folder / "ur10e"

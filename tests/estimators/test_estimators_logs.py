@@ -22,7 +22,7 @@ from tests.chain import chain_of
 from tests.estimators.__main__ import main as suite
 from tests.estimators.coverage import compiled, covered, measured, table
 from tests.estimators.measured import tried
-from tests.rotation import rotating, rotating_with
+from tests.rotation import rotating, slow_rotating
 
 FOLLOWED = tuple(method for method in METHODS if method.startswith(("iv-direct", "didim")))
 
@@ -65,7 +65,7 @@ def test_every_method_finds_the_values_of_a_well_measured_arm(observation, few_r
         identify(few_rows, method, compiled())
 
 
-@rotating_with("estimators on logs")
+@slow_rotating("estimators on logs")
 def test_the_noise_of_a_coarse_encoder_bends_weighted_values_and_not_those_of_iv():
     """1500 counts a turn: over machines the weighted values lie to one side, by many sigmas."""
     found = covered(range(1, 7), "coarse", ["weighted", "iv"])
@@ -77,7 +77,7 @@ def test_the_noise_of_a_coarse_encoder_bends_weighted_values_and_not_those_of_iv
     assert "| weighted | " in text and "1500 counts" in text
 
 
-@rotating_with("estimators on logs")
+@slow_rotating("estimators on logs")
 def test_sensors_that_are_wrong_at_times_bend_didim_and_not_its_robust_steps():
     methods = ["robust", "didim", "didim-robust"]
     found = covered((11, 12), "bursts", methods)
@@ -259,7 +259,7 @@ def pieces(seed):
     )  # fmt: skip
 
 
-@rotating_with("estimators on logs")
+@slow_rotating("estimators on logs")
 def test_short_pieces_with_derivatives_of_their_own_are_followed_by_these():
     """Differentiating q again, and a controller that follows its noise: 4.0 % in the mean."""
     error = [
@@ -269,7 +269,7 @@ def test_short_pieces_with_derivatives_of_their_own_are_followed_by_these():
     assert np.mean(error) < 0.026
 
 
-@rotating_with("estimators on logs")
+@slow_rotating("estimators on logs")
 def test_didim_says_where_it_ends_worse_than_it_began(run, observation):
     """Commands that come late are not the ones that the robot followed."""
     log, _ = run
@@ -342,7 +342,7 @@ def test_bad_input_is_one_line(words, line, capsys):
     assert line in err and err.count("\n") == 1
 
 
-@rotating_with("estimators on logs")
+@slow_rotating("estimators on logs")
 def test_real_axis_and_every_method(measured_folder, capsys):
     """EMPS has published loops: 14 Hz of speed, 1.8 times that of position, nothing else."""
     assert suite(["measured", "--sets", "emps"]) == 0
@@ -351,7 +351,7 @@ def test_real_axis_and_every_method(measured_folder, capsys):
     assert out.count("no integral action and no feedforward") == len(FOLLOWED)
 
 
-@rotating_with("estimators on logs")
+@slow_rotating("estimators on logs")
 @pytest.mark.parametrize("name", ["kinova_gen3", "panda"])
 def test_real_arms_without_commands_are_simulated_as_well_as_fitted(measured_folder, name):
     """Pieces of half a second; and a wrist whose fitted inertia is negative."""

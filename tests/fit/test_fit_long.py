@@ -24,7 +24,7 @@ from modeler.observation.settings import Processing
 from modeler.observation.survey import FactsSoFar, WholeLogNeeded, survey
 from modeler.runtime.model import CompiledModel
 from tests.modules import compiled
-from tests.rotation import rotating, rotating_with
+from tests.rotation import rotating, slow_rotating
 
 ROWS = 1024  # of a chunk
 
@@ -332,7 +332,7 @@ print("peak:", resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=sys.stde
 """
 
 
-@rotating_with("memory of long logs")
+@slow_rotating("memory of long logs")
 def test_memory_does_not_grow_with_the_log(tmp_path):
     """Peak memory of a fit of 300 000 and of 1 200 000 rows: within 30 MB; read, they are 48 MB."""
     noise, peaks = np.random.default_rng(1).normal(scale=0.1, size=(2, 100_000)), []

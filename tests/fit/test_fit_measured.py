@@ -15,7 +15,7 @@ from modeler.observation.settings import Processing
 from modeler.robot.read import robot_from_text
 from tests.chain import chain_of
 from tests.measured_sets.sets import DATA, SETS
-from tests.rotation import ROTATING, rotating_with
+from tests.rotation import ROTATING, slow_rotating
 
 pytestmark = [
     pytest.mark.measured,
@@ -84,7 +84,7 @@ def test_held_out_errors_are_below_the_published_ones(robot):
     assert verdict.usable is (valid_for != "nothing")
 
 
-@rotating_with("fits of measured logs")
+@slow_rotating("fits of measured logs")
 @pytest.mark.parametrize(
     ("robot", "log", "words"),
     [
@@ -99,7 +99,7 @@ def test_other_measured_logs_make_no_model(robot, log, words):
     assert line.startswith("Not valid: ") and words in line
 
 
-@rotating_with("fits of measured logs")
+@slow_rotating("fits of measured logs")
 def test_every_exception_is_still_needed():
     for (robot, joint), limit in EXCEPTIONS.items():
         found = 100 * results(robot)[1].joints[joint - 1].relative_error

@@ -11,7 +11,7 @@ from modeler.fleet.naming import Named
 from modeler.fleet.result import Fleet, fleet_lines, sentence
 from modeler.fleet.summary import SkippedLog
 from tests.fleet.machines import Planted, Scene, compiled, summaries
-from tests.rotation import rotating, rotating_with
+from tests.rotation import rotating, slow_rotating
 
 
 def fleet(scene: Scene, seed: int, robot: str = "two-link") -> Fleet:
@@ -22,7 +22,7 @@ def told(found: Fleet) -> list[tuple[str, str, str]]:
     return [(one.machine, one.quantity.parameter, one.shape) for one in found.findings]
 
 
-@rotating_with("fleets that drift")
+@slow_rotating("fleets that drift")
 @pytest.mark.parametrize(
     ("scene", "seeds", "most"),
     [
@@ -80,7 +80,7 @@ def test_a_load_is_no_gain(robot: str) -> None:
     assert not any("too few to know how values scatter" in note for note in found.notes)
 
 
-@rotating_with("fleets that drift")
+@slow_rotating("fleets that drift")
 def test_a_gain_is_no_load_and_both_may_be_in_one_fleet() -> None:
     """Six joints: the load of r3 makes the scatter known, and r5's gain pretends to 0.04 kg."""
     plans = (Planted(4, "gain2", (0.0,) * 3 + (0.05,) * 3),

@@ -20,7 +20,7 @@ from modeler.validation.free_run import FreeRunSettings, Lanes, free_run, walk
 from modeler.validation.free_run_result import free_run_pictures
 from modeler.validation.stability import fit_percentage, horizons
 from tests.chain import chain_of
-from tests.rotation import ROTATING, rotating_with
+from tests.rotation import ROTATING, slow_rotating
 
 PENDULUM = """\
 name = "pendulum"
@@ -126,7 +126,7 @@ def five_bar():
     return true_model(robot_from_text(text, "five-bar that rubs"), 3.0)
 
 
-@rotating_with("free runs")
+@slow_rotating("free runs")
 def test_loops_are_run_too(five_bar) -> None:
     model, compiled, log = five_bar
     bare = dataclasses.replace(log, commanded=None)

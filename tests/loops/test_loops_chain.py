@@ -14,7 +14,7 @@ from modeler.robot.read import read_robot
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.further_robots import FurtherRobots
 from tests.robots import ROBOTS
-from tests.rotation import ROTATING, rotating_with
+from tests.rotation import ROTATING, slow_rotating
 
 
 @pytest.mark.rotating("long tests of loops")
@@ -66,7 +66,7 @@ def logged(robot: str, folder: Path, name: str, seed: int, *hidden: str) -> str:
     return str(folder / name)
 
 
-@rotating_with("logs of robots with loops")
+@slow_rotating("logs of robots with loops")
 def test_a_load_on_the_platform_is_called_a_load(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

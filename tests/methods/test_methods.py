@@ -13,7 +13,7 @@ from modeler.core.errors import RobotError
 from modeler.papers.methods import MethodTable, Outcome, Row, figures, quoted, recovered
 from modeler.papers.paper import read_paper
 from tests.json_schemas import check_schema
-from tests.rotation import rotating_with
+from tests.rotation import slow_rotating
 
 TITLES = {
     "guegan-2003": "Blocks; Table 2; The direction; Table 3; Condition; The exciting",
@@ -27,7 +27,7 @@ def test_every_paper_has_its_method():
     assert set(METHODS) == set(paper_names())
 
 
-@rotating_with("identifications of papers")
+@slow_rotating("identifications of papers")
 @pytest.mark.parametrize("name", paper_names())
 def test_every_identification_is_reproduced(name, capsys, tmp_path):
     place = tmp_path / "methods.json"

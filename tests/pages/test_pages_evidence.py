@@ -24,7 +24,7 @@ from modeler.robot.read import robot_from_text
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, demonstration, motion, on_joint
 from tests.diagnose.test_diagnose_effects import motor_ripple, spring, stribeck
-from tests.rotation import rotating, rotating_with
+from tests.rotation import rotating, slow_rotating
 
 
 @cache
@@ -104,7 +104,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
         assert after.y[place] < 0.1 * before.y[place]
 
 
-@rotating_with("pages of effects")
+@slow_rotating("pages of effects")
 def test_a_spring_is_as_sure_as_its_coefficient() -> None:
     """Its law is k (q - q0): far out its band grows as the deviation of k does."""
     diagnosis = diagnosis_of(demonstration(1000.0, seconds=(30.0, 20.0)), spring)

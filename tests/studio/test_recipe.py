@@ -17,7 +17,7 @@ from modeler.core.builtin import builtin_text
 from modeler.studio import commands, recipe
 from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.tasks import LogPart, Step, Stretch, Task, bookkeeping
-from tests.rotation import rotating_with
+from tests.rotation import slow_rotating
 from tests.studio.hubs import hub_of, run_tasks
 
 LOGS = (
@@ -159,7 +159,7 @@ def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
     assert before == {p: p.stat().st_mtime_ns for p in worked.folder.rglob("*") if p.is_file()}
 
 
-@rotating_with("screens of the studio")
+@slow_rotating("screens of the studio")
 def test_the_notebook_makes_the_same_in_an_empty_folder(worked, tmp_path):
     book = json.loads(recipe.notebook(retold(worked)))
     assert (book["nbformat"], book["nbformat_minor"]) == (4, 5)

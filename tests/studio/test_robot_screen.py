@@ -17,7 +17,7 @@ from modeler.studio.commands import words_of
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Step, Task
 from tests.browser.chromium import until
-from tests.rotation import rotating_with
+from tests.rotation import slow_rotating
 from tests.studio.texts import GERMAN
 from tests.studio.window import Window, served
 
@@ -115,7 +115,7 @@ def test_a_pasted_table_is_edited_and_nothing_is_lost(window, tmp_path) -> None:
         assert w.complaints == []
 
 
-@rotating_with("screens of the studio")
+@slow_rotating("screens of the studio")
 def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_path) -> None:
     folder, text = tmp_path / "orthoglide", builtin_text("orthoglide-2003")
     folder.mkdir()

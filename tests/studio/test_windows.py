@@ -15,12 +15,12 @@ from modeler.studio.commands import words_of
 from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.running import Outcome
 from modeler.studio.tasks import Step, Stretch, Task
-from tests.rotation import rotating_with
+from tests.rotation import slow_rotating
 from tests.studio.hubs import hub_of, run_tasks
 from tests.studio.window import served
 
 
-@rotating_with("screens of the studio")
+@slow_rotating("screens of the studio")
 def test_a_second_studio_reads_and_follows_and_takes_over_when_the_first_ends(
     tmp_path: Path, window
 ) -> None:
