@@ -10,8 +10,8 @@ PYTEST = env -u PYTHONDONTWRITEBYTECODE OPENBLAS_NUM_THREADS=1 $(BIN)/python -m 
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-test coverage: EVERY = 5
-test-all docs: EVERY = 1
+test: EVERY = 5
+test-all coverage docs: EVERY = 1
 .PHONY: help demo test test-all coverage lint docs regenerate clean
 
 help:
@@ -20,7 +20,7 @@ help:
 	@echo '                  cases that repeat what others show run in one of EVERY=5 runs'
 	@echo 'make test-all     every test, the long ones too: all robots, many seeds, mutated files'
 	@echo '                  (EVERY=5: those that repeat what others show in one of five runs)'
-	@echo 'make coverage     make test, then the lines and branches it ran, and the functions least covered'
+	@echo 'make coverage     make test-all, then the lines and branches it ran, and the functions least covered'
 	@echo 'make lint         ruff and mypy only'
 	@echo 'make docs         the documentation as a site, in build/site; nothing in it needs the network'
 	@echo '                  (EVERY=5: of the pictures that take long, today a fifth)'
@@ -39,7 +39,7 @@ test-all: .venv/.installed-test
 	@$(call beside_mypy,$(PYTEST) --every $(EVERY) $(TESTS))
 
 coverage: .venv/.installed-test
-	$(PYTEST) --cov --cov-report= -m 'not slow' --every $(EVERY) $(TESTS)
+	$(PYTEST) --cov --cov-report= --every $(EVERY) $(TESTS)
 	$(BIN)/python -m tests.coverage_report
 
 lint: .venv/.installed-test

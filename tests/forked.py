@@ -30,11 +30,16 @@ PACKAGES = ("sympy", "cffi", "jinja2", "scipy.signal", "pyarrow.parquet", "pyarr
 """What is loaded: no matplotlib, which reads the environment when it is loaded."""
 
 
+def without_coverage() -> dict[str, str]:
+    """The environment of a process that may write little: coverage would write its record there."""
+    return {name: value for name, value in os.environ.items() if not name.startswith("COVERAGE")}
+
+
 class Forks:
     """A process that has loaded the program, and forks for every command."""
 
     def __init__(self) -> None:
-        env = {**os.environ, "PYTHONPATH": str(ROOT)}
+        env = {**without_coverage(), "PYTHONPATH": str(ROOT)}
         self._server = subprocess.Popen(
             [sys.executable, "-m", "tests.forked"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             text=True, env=env,

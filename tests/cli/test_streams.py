@@ -10,6 +10,7 @@ import pytest
 
 from modeler.cli import main
 from tests.cli.running import program
+from tests.forked import without_coverage
 from tests.rotation import rotating
 
 ARM = """\
@@ -29,8 +30,6 @@ import resource, sys
 resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]), resource.RLIM_INFINITY))
 sys.argv[:2] = ["modeler"]
 from modeler.cli import main
-from tests.cli.running import program
-from tests.rotation import rotating
 sys.exit(main())
 """
 
@@ -46,7 +45,8 @@ def test_a_full_disk_under_stdout_is_one_line(
         done = subprocess.run(
             [sys.executable, "-c", _LIMITED, room, *words.split()], stdout=out, timeout=60,
             stderr=subprocess.PIPE, text=True,
-            env=os.environ | {"PYTHONUNBUFFERED": buffering, "PYTHONDONTWRITEBYTECODE": "1"},
+            env=without_coverage()
+            | {"PYTHONUNBUFFERED": buffering, "PYTHONDONTWRITEBYTECODE": "1"},
         )  # fmt: skip
     assert done.returncode == 1
     assert done.stderr.startswith("modeler: stdout: cannot be written (File too large); choose")
