@@ -423,6 +423,9 @@ def test_a_second_window_reads_until_it_takes_over(tmp_path: Path) -> None:
             await second.sees("this window only reads")
             await second.click("Try the demo")
             assert second.project.steps == ()
+            with second.user:
+                assert not second.hub.studios[1].change(without=("offset",))
+            assert second.project.without == ()
             await second.click("Take over")
             await first.sees("this window only reads")
             await second.until(lambda: not second.every(text="Take over"))
