@@ -226,6 +226,7 @@ LONG = tuple(
     for page in (
         "how-to/servo-arms", "how-to/drive-gains", "how-to/diagnosis", "how-to/learned-law",
         "explanation/diagnosis", "how-to/free-run", "how-to/excitation", "how-to/motor-side",
+        "explanation/least-squares", "explanation/motion-noise",
     )
 )  # fmt: skip
 DEAR = (
@@ -233,7 +234,7 @@ DEAR = (
     *(
         f"docs/{page}.md"
         for page in (
-            "explanation/least-squares", "explanation/motion-noise", "explanation/paper",
+            "explanation/paper",
             "how-to/better-urdf", "how-to/closed-forms", "how-to/controller",
             "how-to/energy-model", "how-to/estimators", "how-to/exporting", "how-to/fleet",
             "how-to/logs", "how-to/microcontrollers", "how-to/parallel-robots",

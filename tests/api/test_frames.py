@@ -13,9 +13,10 @@ from modeler.api.workflow import listed
 from modeler.core.errors import DataError
 from tests.modules import compiled
 from tests.rotation import rotating
+from tests.when_used import WhenUsed
 
-pandas = pytest.importorskip("pandas")
-polars = pytest.importorskip("polars")
+pandas = WhenUsed("pandas")
+polars = WhenUsed("polars")
 
 ODD = {"time": "t_ms", "q1": "a", "q2": "b", "tau1": "moment_a", "tau2": "moment_b"}
 MAPPING = {
@@ -64,7 +65,7 @@ def arrays(frame: Any) -> dict[str, np.ndarray]:
 KINDS: dict[str, Callable[[Any], Any]] = {
     "pandas": lambda f: f,
     "pandas by time": lambda f: f.set_index("time"),
-    "polars": polars.from_pandas,
+    "polars": lambda f: polars.from_pandas(f),
     "Arrow": pa.table,
     "dict of columns": lambda f: {name: f[name].to_numpy() for name in f},
     "dict of lists": lambda f: {name: list(f[name]) for name in f},

@@ -7,21 +7,13 @@ import pytest
 
 import modeler as md
 from modeler.core.errors import DataError
+from tests.when_used import WhenUsed
 
-pytest.importorskip("sklearn")
-
-from sklearn.base import clone, is_regressor
-from sklearn.exceptions import NotFittedError
-from sklearn.model_selection import (
-    GridSearchCV,
-    GroupKFold,
-    LeaveOneGroupOut,
-    cross_val_predict,
-    cross_val_score,
-)
-from sklearn.utils import estimator_checks
-
-from modeler.api.regressor import TorqueRegressor, log_rows
+base = WhenUsed("sklearn.base")
+selection = WhenUsed("sklearn.model_selection")
+estimator_checks = WhenUsed("sklearn.utils.estimator_checks")
+exceptions = WhenUsed("sklearn.exceptions")
+regressor = WhenUsed("modeler.api.regressor", "NOT CHECKED: scikit-learn is not installed")
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +24,7 @@ def runs() -> list[Any]:
 
 @pytest.fixture(scope="module")
 def rows(runs: list[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    return log_rows("two-link", runs)
+    return regressor.log_rows("two-link", runs)
 
 
 def test_rows_are_those_of_the_logs(runs: list[Any], rows: Any) -> None:
@@ -44,24 +36,24 @@ def test_rows_are_those_of_the_logs(runs: list[Any], rows: Any) -> None:
         np.testing.assert_array_equal(y[groups == k], run.tau)
     missing = {"time": runs[0].time, "q": runs[0].q.copy(), "tau": runs[0].tau}
     missing["q"][100:103, 1] = np.nan
-    assert len(log_rows("two-link", missing)[0]) == 997
+    assert len(regressor.log_rows("two-link", missing)[0]) == 997
 
 
 def test_with_speeds_and_accelerations_where_every_log_has_them(runs: list[Any]) -> None:
     truth = [r.truth for r in runs[:2]]
     logs = [{"time": r.time, "q": r.q, "qd": t.qd, "qdd": t.qdd, "tau": r.tau}
             for r, t in zip(runs, truth, strict=False)]  # fmt: skip
-    assert log_rows("two-link", logs)[0].shape[1] == 8
+    assert regressor.log_rows("two-link", logs)[0].shape[1] == 8
     del logs[1]["qdd"]
-    X, y, _ = log_rows("two-link", logs)
+    X, y, _ = regressor.log_rows("two-link", logs)
     assert X.shape[1] == 6
-    assert TorqueRegressor("two-link").fit(X, y).score(X, y) > 0.98
+    assert regressor.TorqueRegressor("two-link").fit(X, y).score(X, y) > 0.98
 
 
 def test_a_fit_is_that_of_identify(runs: list[Any], rows: Any) -> None:
     X, y, groups = rows
     some = groups < 2
-    fitted = TorqueRegressor("two-link", "robust").fit(X[some], y[some])
+    fitted = regressor.TorqueRegressor("two-link", "robust").fit(X[some], y[some])
     model = md.identify("two-link", [{"time": r.time, "q": r.q, "tau": r.tau} for r in runs[:2]],
                         method="robust")  # fmt: skip
     np.testing.assert_allclose(fitted.model_.beta, model.beta, rtol=1e-9)
@@ -75,17 +67,19 @@ def test_a_fit_is_that_of_identify(runs: list[Any], rows: Any) -> None:
 @pytest.mark.slow  # some seconds
 def test_one_group_a_log(rows: Any) -> None:
     X, y, groups = rows
-    robot = TorqueRegressor("two-link")
-    assert is_regressor(robot) and clone(robot).get_params() == robot.get_params()
-    scores = cross_val_score(robot, X, y, groups=groups, cv=LeaveOneGroupOut())
+    robot = regressor.TorqueRegressor("two-link")
+    assert base.is_regressor(robot) and base.clone(robot).get_params() == robot.get_params()
+    scores = selection.cross_val_score(robot, X, y, groups=groups, cv=selection.LeaveOneGroupOut())
     assert scores.shape == (3,) and (scores > 0.95).all()
-    out = cross_val_predict(robot, X, y, groups=groups, cv=GroupKFold(3))
+    out = selection.cross_val_predict(robot, X, y, groups=groups, cv=selection.GroupKFold(3))
     left = y[groups == 1] - out[groups == 1]
     r2 = 1.0 - (left**2).sum(axis=0) / ((y[groups == 1] - y[groups == 1].mean(axis=0)) ** 2).sum(
         axis=0)  # fmt: skip
     assert scores[1] == pytest.approx(r2.mean())
     grid = {"method": ["weighted", "ordinary"]}
-    search = GridSearchCV(robot, grid, cv=GroupKFold(3)).fit(X, y, groups=groups)
+    search = selection.GridSearchCV(robot, grid, cv=selection.GroupKFold(3)).fit(
+        X, y, groups=groups
+    )
     assert search.best_estimator_.model_.fit.method in grid["method"]
 
 
@@ -102,13 +96,15 @@ CHECKS = (
 @pytest.mark.parametrize("name", CHECKS)
 def test_checks_of_estimators_that_need_no_data_of_a_robot(name: str) -> None:
     """The others fit random rows of any width, which are the motion of no robot."""
-    getattr(estimator_checks, f"check_{name}")("TorqueRegressor", TorqueRegressor("two-link"))
+    getattr(estimator_checks, f"check_{name}")(
+        "TorqueRegressor", regressor.TorqueRegressor("two-link")
+    )
 
 
 def test_what_cannot_be_is_refused_in_one_line(rows: Any) -> None:
     X, y, _ = rows
-    robot = TorqueRegressor("two-link")
-    with pytest.raises(NotFittedError):
+    robot = regressor.TorqueRegressor("two-link")
+    with pytest.raises(exceptions.NotFittedError):
         robot.predict(X)
     for given, said in (
         ((X[:, :3], y), "X has 3 columns; expected number of the log, time, .* of 2 joints"),

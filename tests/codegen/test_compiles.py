@@ -8,7 +8,7 @@ from modeler.codegen.package import write_emitted
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.emitted_folders import CPP, run
 from tests.modules import STRICT, compiler
-from tests.rotation import rotating
+from tests.rotation import ROTATING, rotating
 
 FLAGS = {
     "gcc": [*STRICT, "-Wundef", "-Wcast-align=strict"],
@@ -19,8 +19,9 @@ FLAGS = {
 FOLDERS = [
     *(("gcc", "emps"), ("clang", "emps"), ("g++", "emps")),
     *rotating(("clang++", "orthoglide-2003"), ("gcc", "orthoglide-2003"), ("clang", "slow-arm"),
-              ("gcc", "slow-arm"), ("g++", "slow-arm"), ("clang", "five-bar"), ("gcc", "evra"),
+              ("gcc", "slow-arm"), ("g++", "slow-arm"), ("clang", "five-bar"),
               ("gcc", "sr400"), ("gcc", "wrist-coupled"), ("clang", "sr400-tree")),
+    pytest.param("gcc", "evra", marks=ROTATING),
 ]  # fmt: skip
 
 

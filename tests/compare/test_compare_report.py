@@ -22,7 +22,6 @@ from modeler.core.figure import Band, Bars, Heat, Panel, Picture
 from modeler.core.thinning import LIMIT, thin_curves, thin_points
 from modeler.observation.observation import MASKS
 from modeler.report.comparison import all_pictures, comparison_page
-from modeler.report.figure_matplotlib import images
 from modeler.report.figure_page import Numbers, drawn, keys, picture_csv, write_files
 from modeler.report.page import page_text, write_page
 from modeler.validation.comparison import Comparison, compare
@@ -30,6 +29,9 @@ from modeler.validation.pictures import binned_means, overlay_picture
 from modeler.validation.prediction import Prediction
 from modeler.validation.time_picture import masked_spans, time_picture
 from tests.captions import assert_named, colours_drawn, colours_said
+from tests.when_used import WhenUsed
+
+figure_matplotlib = WhenUsed("modeler.report.figure_matplotlib")
 
 
 @pytest.fixture(scope="module")
@@ -209,7 +211,7 @@ def test_svg_is_the_same_twice() -> None:
         "t", "x [s]", "y [m]", (Heat("h", ("a",), ("b",), np.ones((1, 1)), (("1",),), 2),)
     )
     picture = Picture("p", "p", "c", ((panel,),), 200)
-    assert images(picture) == images(picture)
+    assert figure_matplotlib.images(picture) == figure_matplotlib.images(picture)
     assert picture_csv(picture).splitlines()[1:] == ["t,h,a / b,1,"]
 
 
@@ -323,7 +325,7 @@ def test_both_drawers_draw_what_is_shaded_and_the_band(
     plain = drawn(picture, Numbers())
     assert {color for color, _ in plain["rows"][0][0]["spans"]} == {s.color for s in whole.spans}
     assert any(series["kind"] == "band" for series in plain["rows"][0][1]["series"])
-    svg = images(picture)["svg"].decode()
+    svg = figure_matplotlib.images(picture)["svg"].decode()
     for span in whole.spans:
         assert span.color.lower() in svg.lower() and span.label in svg
     assert band.label in svg and f"{band.label}," in picture_csv(picture)

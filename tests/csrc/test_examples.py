@@ -12,7 +12,6 @@ from modeler.codegen.emit import emit
 from modeler.core.builtin import builtin_text
 from modeler.core.figure import Curve, Panel, Picture
 from modeler.core.style import BLUE, GREEN, VERMILLION, Style
-from modeler.report.figure_matplotlib import images
 from modeler.robot.edit import with_effects
 from modeler.robot.read import read_robot, robot_from_text
 from modeler.runtime import load_folder
@@ -21,6 +20,9 @@ from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.emitted_folders import built, make
 from tests.csrc.simulated_machine import Machine, fitted_folder, observed, replies, rms, true_folder
 from tests.modules import loaded, module, unoptimised
+from tests.when_used import WhenUsed
+
+figure_matplotlib = WhenUsed("modeler.report.figure_matplotlib")
 
 FROM = 1.5  # s, when the push begins
 TOOL = """
@@ -163,7 +165,7 @@ def draw_learning(time: np.ndarray, off: np.ndarray, error: np.ndarray) -> None:
           Panel("", "time [s]", "tracking error [mrad]", tuple(joints))),), 320,
     )  # fmt: skip
     place = Path(__file__).parents[2] / "docs" / "how-to" / "adaptive.svg"
-    place.write_bytes(images(picture)["svg"])
+    place.write_bytes(figure_matplotlib.images(picture)["svg"])
 
 
 @pytest.mark.rotating("long tests of csrc")

@@ -13,9 +13,10 @@ from modeler.core.errors import BuildError
 from modeler.core.files import resource_dir
 from tests.csrc.emitted_folders import run as run_command
 from tests.modules import STRICT, compiler, loaded
+from tests.when_used import WhenUsed
 
-fmpy = pytest.importorskip("fmpy", reason="NOT CHECKED: no FMPy")
-validation = pytest.importorskip("fmpy.validation", reason="NOT CHECKED: no FMPy")
+fmpy = WhenUsed("fmpy", "NOT CHECKED: no FMPy")
+validation = WhenUsed("fmpy.validation", "NOT CHECKED: no FMPy")
 
 STEP, LENGTH = 2e-3, 0.2
 WIDTH = 0.02

@@ -92,7 +92,7 @@ def arm_run(arm):
     return free_run(model, [log], compiled)
 
 
-@pytest.mark.rotating("long tests of freerun")
+@slow_rotating("long tests of freerun")
 def test_the_true_values_give_the_simulated_motion(arm_run) -> None:
     """Within 0.5 % of the spread of positions, on joints that reverse and stick many times.
 
@@ -103,7 +103,7 @@ def test_the_true_values_give_the_simulated_motion(arm_run) -> None:
     assert arm_run.numerical < 2e-3
 
 
-@pytest.mark.rotating("long tests of freerun")
+@slow_rotating("long tests of freerun")
 @pytest.mark.parametrize(
     ("name", "share"), [("ZZ1R", 1.1), pytest.param("Fs1", 1.3, marks=ROTATING)]
 )
@@ -278,7 +278,7 @@ def test_fit_percentage_is_that_of_matlab() -> None:
     assert horizons(error[:2], np.array([0.2, 0.4]), 0.5).tolist() == [[np.inf, np.inf]]
 
 
-@pytest.mark.rotating("long tests of freerun")
+@slow_rotating("long tests of freerun")
 def test_under_a_controller(arm_run) -> None:
     """The simulated controller is not one of ours; the nearest still explains its errors."""
     under = arm_run.controlled

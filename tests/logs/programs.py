@@ -6,13 +6,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import scipy.io
 
 from tests.logs import writers
 from tests.logs.writers import START, Table, joined
+from tests.when_used import WhenUsed
+
+pd = WhenUsed("pandas")
 
 AUTO = ("auto",)
 

@@ -15,11 +15,10 @@ from modeler.core.manifest import Emitted
 from tests.codegen.fitted_library import Functions, motion, with_values
 from tests.loops.derived import of_file
 from tests.modules import compiler, module
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING
 
 HERE = Path(__file__).resolve().parent
-ROBOTS = ["five-bar", *rotating("evra"),
-          pytest.param("stewart", marks=ROTATING)]  # fmt: skip
+ROBOTS = ["five-bar", *(pytest.param(name, marks=ROTATING) for name in ("evra", "stewart"))]
 DONE, OPEN, SINGULAR, NOT_FINITE, UNFINISHED = range(5)
 
 

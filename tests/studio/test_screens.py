@@ -21,6 +21,7 @@ from modeler.studio import commands
 from modeler.studio.commands import words_of
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Stretch
+from tests.rotation import slow_rotating
 from tests.studio.hubs import hub_of, run_tasks
 from tests.studio.texts import GERMAN, URDF
 
@@ -151,7 +152,7 @@ def plots(page: Any, name: str) -> list[Any]:
     ]
 
 
-@pytest.mark.rotating("long tests of studio")
+@slow_rotating("long tests of studio")
 def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
     async def told(page: Any) -> None:
         await page.sees("Joint 2: measured and predicted")  # the worst one at first
