@@ -63,7 +63,8 @@ def ran(derivation, model, lines, motion, beta=()):
     by the printed coupling, and J_t.
     """
     q, qd, qdd = motion
-    signals = {f"{kind}{k + 1}": x for k, x in enumerate(SIGNALS) for kind in "tTz"}
+    values_of_signals = SIGNALS[: len(derivation.model.signals)]
+    signals = {f"{kind}{k + 1}": x for k, x in enumerate(values_of_signals) for kind in "tTz"}
     if derivation.model.closure is None:
         values = known(derivation, q, qd, qdd, beta) | signals
         return run_lines(lines, values), qd, qdd, np.eye(len(q))
