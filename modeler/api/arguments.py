@@ -11,14 +11,13 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from numbers import Integral, Real
 from pathlib import Path
-from typing import Any, Literal, ParamSpec, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from modeler.core.errors import DataError, ModelerError
 from modeler.core.json import shown
 from modeler.core.toml_cells import near
 
-P = ParamSpec("P")
-R = TypeVar("R")
+F = TypeVar("F", bound=Callable[..., Any])
 
 _KINDS = {
     "Robot": "a robot (load gives one)",
@@ -48,8 +47,7 @@ class _WrongKind(Exception):
     """A value is of none of the kinds that are expected."""
 
 
-@functools.cache
-def checked(function: Callable[P, R]) -> Callable[P, R]:
+def checked(function: F) -> F:
     """The function, which refuses arguments of a kind that it does not declare.
 
     Where it takes a list, one thing alone stands for a list of it; a text is never a list of
@@ -58,10 +56,16 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
     Raises:
         DataError: by the function returned: which argument, what was got, what was expected.
     """
+    wrapper: F = _wrapper_of(function)  # cached: the types of a function are lost in a cache
+    return wrapper
+
+
+@functools.cache
+def _wrapper_of(function: Callable[..., Any]) -> Any:
     signature = inspect.signature(function)
 
     @functools.wraps(function)
-    def checked_call(*args: P.args, **kwargs: P.kwargs) -> R:
+    def checked_call(*args: Any, **kwargs: Any) -> Any:
         try:
             given = signature.bind(*args, **kwargs)
         except TypeError as error:  # Python's to tell, with the name that may be meant

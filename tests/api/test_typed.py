@@ -90,7 +90,6 @@ def test_mypy_strict(programs: Path) -> None:
     assert lines_told == {"4", "5", "6", "7", "8"}, told
 
 
-@pytest.mark.xfail(reason="pyright misses the arguments of log_rows, which `checked` wraps")
 def test_pyright(programs: Path) -> None:
     if importlib.util.find_spec("pyright") is None or shutil.which("node") is None:
         pytest.skip("NOT CHECKED: pyright needs the package pyright and node")
