@@ -56,8 +56,7 @@ def checked(function: F) -> F:
     Raises:
         DataError: by the function returned: which argument, what was got, what was expected.
     """
-    wrapper: F = _wrapper_of(function)  # cached: the types of a function are lost in a cache
-    return wrapper
+    return _wrapper_of(function)  # the types of a function would be lost in its cache
 
 
 @functools.cache
