@@ -141,6 +141,12 @@ CHANGES: dict[str, Callable[[str], str]] = {
 }
 
 
+def has_range(joint: str) -> bool:
+    """Whether limits leave a range; where they do not, soft limits are told together with them."""
+    ends = dict(re.findall(r'\b(lower|upper)\s*=\s*"([^"]*)"', joint))
+    return "continuous" in joint or float(ends.get("lower", 0)) < float(ends.get("upper", 0))
+
+
 def mutants(text: str, rng: np.random.Generator) -> list[str]:
     """Mutants of a URDF: an element more, another one, twice the same, another number."""
     moves = r'<joint\b[^>]*\btype\s*=\s*"(?:revolute|continuous|prismatic)"[^>]*>.*?</joint>'
@@ -158,6 +164,8 @@ def mutants(text: str, rng: np.random.Generator) -> list[str]:
     for more in INSIDE:
         tag = re.match(r"<([\w:]+)", more)
         assert tag
+        if tag[1] == "safety_controller" and not has_range(one):
+            continue
         bare = re.sub(rf"<{tag[1]}\b[^>]*?(/>|>.*?</{tag[1]}>)", "", one, flags=re.DOTALL)
         more = more.format(**names)
         for joint in (bare.replace("</joint>", f"{more}</joint>"),
