@@ -3,7 +3,6 @@
 NiceGUI is imported in fixtures and functions: it costs each process of the tests a second.
 """
 
-import asyncio
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -14,6 +13,7 @@ from modeler.cli import main
 from modeler.core.builtin import builtin_text
 from modeler.studio.project import FOLDERS, Project, ProjectLog, Workspace
 from modeler.studio.tasks import Stretch
+from tests.coroutines import run_coroutine
 from tests.studio.requests import let_in
 from tests.studio.window import Served, Window, opened, served
 
@@ -37,7 +37,7 @@ def demonstration(tmp_path_factory: pytest.TempPathFactory) -> Path:
             await page.click("Look")
             await page.click("Preview")
 
-    asyncio.run(clicked())
+    run_coroutine(clicked())
     return folder
 
 

@@ -1,6 +1,5 @@
 """Hubs of project folders; NiceGUI is imported where one is made, not while tests are collected."""
 
-import asyncio
 import contextlib
 import resource
 from collections.abc import Callable, Iterator, Sequence
@@ -9,6 +8,7 @@ from typing import Any
 
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Step, Task
+from tests.coroutines import run_coroutine
 
 
 @contextlib.contextmanager
@@ -31,7 +31,7 @@ def run_tasks(hub: Any, *tasks: Callable[[Project], Task], keep: bool = True) ->
     async def run_all() -> list[Step]:
         return [await hub.run(task(hub.project), keep=keep) for task in tasks]
 
-    return asyncio.run(run_all())
+    return run_coroutine(run_all())
 
 
 @contextlib.contextmanager

@@ -1,10 +1,10 @@
 """Who is let in: a real server, asked as foreign pages, other users and broken clients would."""
 
-import asyncio
 import re
 
 import pytest
 
+from tests.coroutines import run_coroutine
 from tests.studio.conftest import SECRET
 from tests.studio.requests import ask, let_in, port_of, websocket_status
 from tests.studio.window import Served
@@ -157,7 +157,7 @@ def test_the_address_for_the_browser_is_good_once() -> None:
         scope = {"type": "http", "method": "GET", "path": "/"}
         scope |= {"headers": [(b"host", b"localhost:5")]}
         scope |= {"query_string": address.partition("?")[2].encode()}
-        asyncio.run(guard(scope, lambda: None, send))
+        run_coroutine(guard(scope, lambda: None, send))
         return sent[0]["status"]
 
     assert [status(guard.once), status(guard.once)] == [303, 403]

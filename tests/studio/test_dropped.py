@@ -1,6 +1,5 @@
 """Dropped files: there as a whole or not at all, whatever their names, sizes and ends."""
 
-import asyncio
 import json
 import os
 import random
@@ -17,6 +16,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from modeler.core.errors import ModelerError
+from tests.coroutines import run_coroutine
 from tests.studio.hubs import full_disk
 from tests.studio.requests import Answer, ask, let_in, port_of
 from tests.studio.window import Served, served
@@ -181,7 +181,7 @@ def receive(dropped: Any, tmp_path: Path) -> Callable[..., str]:
         for start in range(0, len(data), 65_536):
             yield data[start : start + 65_536]
 
-    return lambda data, size=None: asyncio.run(
+    return lambda data, size=None: run_coroutine(
         dropped.receive(tmp_path, "logs", "large.csv", size, stream(data))
     )
 

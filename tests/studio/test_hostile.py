@@ -1,7 +1,6 @@
 """A project that somebody else made to do harm: nothing of it is run, nothing outside touched."""
 
 import ast
-import asyncio
 import dataclasses
 import itertools
 import json
@@ -23,6 +22,7 @@ from modeler.studio.places import Roots
 from modeler.studio.project import Project, ProjectLog, Workspace, project_from_text, project_text
 from modeler.studio.recipe import notebook, recipe, script
 from modeler.studio.tasks import FIELDS, LogPart, Step, Stretch, Task, Verb, command_line
+from tests.coroutines import run_coroutine
 from tests.studio.hubs import hub_of, run_tasks
 
 # What a project of somebody else may do, once it is accepted: these commands, with these options.
@@ -156,7 +156,7 @@ def test_changed_c_of_a_model_is_never_run(axis_project: Path, tmp_path: Path) -
     with hub_of(folder) as hub:
         run_tasks(hub, lambda _: Task("compare", log), lambda _: Task("page", step=2),
                   lambda _: Task("generate"))  # fmt: skip
-        asyncio.run(Studio(hub, "fails").view("verdict", "models/1.json", ["logs/a.csv"]))
+        run_coroutine(Studio(hub, "fails").view("verdict", "models/1.json", ["logs/a.csv"]))
         assert [step.verb for step in hub.project.steps] == ["fit", "compare", "page", "generate"]
     assert not mark.exists()
     written = [path.read_text() for path in (folder / "taken").rglob("*.[ch]")]
@@ -239,7 +239,7 @@ def test_logs_outside_are_neither_run_nor_drawn(tmp_path: Path) -> None:
                 assert "outside the folders that this studio may use; start it with" in line
 
     with hub_of(folder, (tmp_path / "data",)) as hub:
-        asyncio.run(ask_all(hub))
+        run_coroutine(ask_all(hub))
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """What the studio types parses; what it retells makes the same values in an empty folder."""
 
-import asyncio
 import dataclasses
 import json
 import os
@@ -17,6 +16,7 @@ from modeler.core.builtin import builtin_text
 from modeler.studio import commands, recipe
 from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.tasks import LogPart, Step, Stretch, Task, bookkeeping
+from tests.coroutines import run_coroutine
 from tests.rotation import slow_rotating
 from tests.studio.hubs import hub_of, run_tasks
 
@@ -106,7 +106,7 @@ def worked(tmp_path_factory) -> Workspace:
     with hub_of(folder) as hub:
         run_tasks(hub, lambda project: commands.fit(project, OPTIONS), commands.diagnose)
         preview = commands.add(hub.project, "offset", "2")
-        asyncio.run(hub.run(preview, current=False))
+        run_coroutine(hub.run(preview, current=False))
         run_tasks(hub, added, commands.compare)
     return Workspace(folder)
 

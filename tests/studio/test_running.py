@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from modeler.studio.running import INTERRUPTED, Outcome, Running
+from tests.coroutines import run_coroutine
 from tests.studio.texts import URDF
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="NOT CHECKED: process groups are POSIX")
@@ -29,7 +30,7 @@ def run(folder: Path, *words: str) -> tuple[Outcome, list[tuple[float | None, st
         assert await running.wait() == outcome
         return outcome, seen
 
-    return asyncio.run(waited())
+    return run_coroutine(waited())
 
 
 def alive(mark: str) -> list[str]:
@@ -146,7 +147,7 @@ def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path, monkeypatch, sabotag
         return await running.wait()
 
     begin = time.monotonic()
-    outcome = asyncio.run(cancelled())
+    outcome = run_coroutine(cancelled())
     assert outcome.status == INTERRUPTED and outcome.error == "simulate: cancelled"
     assert outcome.cancelled and time.monotonic() - begin < 20
     assert gone(str(work), 1.0) and not list(work.iterdir())
@@ -158,7 +159,7 @@ def test_cancel_before_it_is_started(tmp_path: Path) -> None:
         running.cancel()
         return await running.wait()
 
-    assert asyncio.run(cancelled()).status == INTERRUPTED
+    assert run_coroutine(cancelled()).status == INTERRUPTED
     assert gone(str(tmp_path), 1.0) and not list(tmp_path.iterdir())
 
 
@@ -182,7 +183,7 @@ def test_what_does_not_heed_an_interrupt_is_killed(tmp_path: Path, monkeypatch, 
         running.cancel()
         return await running.wait()
 
-    assert asyncio.run(cancelled()).cancelled and gone(str(tmp_path / "below"))
+    assert run_coroutine(cancelled()).cancelled and gone(str(tmp_path / "below"))
 
 
 SERVER = """
@@ -190,6 +191,7 @@ import asyncio, signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # tests may run where it is ignored
 from pathlib import Path
 from modeler.studio.running import Running
+from tests.coroutines import run_coroutine
 async def main():
     folder = Path(sys.argv[1])
     running = Running(sys.argv[2:], folder, "simulate")
@@ -197,7 +199,7 @@ async def main():
         await asyncio.sleep(0.02)
     print("running", flush=True)
     await running.wait()
-asyncio.run(main())
+run_coroutine(main())
 """
 
 

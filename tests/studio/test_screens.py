@@ -21,6 +21,7 @@ from modeler.studio import commands
 from modeler.studio.commands import words_of
 from modeler.studio.project import Project, Workspace
 from modeler.studio.tasks import Stretch
+from tests.coroutines import run_coroutine
 from tests.rotation import slow_rotating
 from tests.studio.hubs import hub_of, run_tasks
 from tests.studio.texts import GERMAN, URDF
@@ -34,7 +35,7 @@ def story(folder: Path, told: Callable[[Any], Awaitable[None]], place: str = "/"
         async with windows(folder) as window:
             await told(await window().open(place))
 
-    asyncio.run(all_of_it())
+    run_coroutine(all_of_it())
 
 
 @pytest.mark.rotating("long tests of studio")
@@ -433,7 +434,7 @@ def test_a_second_window_reads_until_it_takes_over(tmp_path: Path) -> None:
             await first.go("Robot")
             assert not [b for b in first.every("button", "undo the edit") if b.enabled]
 
-    asyncio.run(both())
+    run_coroutine(both())
 
 
 @pytest.mark.rotating("long tests of studio")

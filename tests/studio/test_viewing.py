@@ -24,6 +24,7 @@ from modeler.estimation import load_model
 from modeler.observation import LONG
 from modeler.studio import viewing
 from modeler.studio.viewer import Viewer, answer
+from tests.coroutines import run_coroutine
 from tests.rotation import rotating
 
 HIDDEN = ("--hide", "load_friction@2", "--noise", "0.01", "--duration", "24", "--rate", "250")
@@ -274,7 +275,7 @@ def test_the_viewer_drops_stale_questions_and_starts_again_after_a_kill(folder) 
             heart.cancel()
             viewer.end()
 
-    asyncio.run(ask_all())
+    run_coroutine(ask_all())
 
 
 @pytest.mark.parametrize("error", [MemoryError(), RuntimeError("OpenBLAS: Cannot allocate memory")])
