@@ -75,7 +75,7 @@ class _Parser(argparse.ArgumentParser):
         return found, rest
 
     def _unknown(self, option: str) -> str:
-        """What is said of an option that is none; one of before is not offered."""
+        """What is said of an option that is none."""
         name = option.partition("=")[0]
         return f"unknown option {option}{did_you_mean(name, options_of(self))}"
 

@@ -135,13 +135,13 @@ def write_emitted(emitted: Emitted, folder: Path, force: bool = False) -> tuple[
 
 
 def _unwanted(emitted: Emitted) -> set[str]:
-    """Files of an earlier run with other options, or of an earlier version, not emitted now."""
+    """Files of an earlier run with other options, not emitted now."""
     prefix = emitted.spec.prefix
     units = ("fitted", "control", "joints", "batch", "tile", "regressor", "base_regressor")
     names = {f"{prefix}_{unit}.{kind}" for unit in units for kind in "hc"}
     names |= {f"{prefix}.{kind}" for kind in ("cu", "st", "a2l", "hpp")} | {f"{prefix}_generator.h"}
     names |= {"vectors.csv", "cost.json"}  # the runtime may be that of another robot's files too
-    names |= {f"{head}{name}.c" for name in PROGRAMS for head in ("", f"{FOLDER}/")}
+    names |= {f"{FOLDER}/{name}.c" for name in PROGRAMS}
     return names - emitted.files.keys()
 
 

@@ -31,9 +31,6 @@ from modeler.runtime import CompiledModel, load
 FORMAT = 4
 KIND = "modeler model"
 
-_OPENED = (3, FORMAT)  # format 3 has no mapping, and no paths of logs
-
-
 CHECKSUMS = "checksums"
 """Name of the entry with the checksums of all others."""
 
@@ -301,7 +298,6 @@ def load_model(path: str | Path) -> IdentifiedModel:
         raise _refused(where, what)
     kinds = get_type_hints(IdentifiedModel)
     as_saved = ("robot_text", "sources", "logs", "history", "mapping")
-    raw = {"mapping": {}} | raw if raw["format"] < FORMAT else raw
     further = {name: _entry(raw, name, kinds[name], where) for name in as_saved}
     return IdentifiedModel(spec=spec, fit=fit, **further)
 
@@ -343,11 +339,11 @@ def _read(path: Path) -> dict[str, Any]:
         raise ManifestError(
             f"{path}: JSON, but not a model file; expected the output of `modeler fit --out`"
         )
-    if (got := raw.get("format")) not in _OPENED:
+    if (got := raw.get("format")) != FORMAT:
         told = f"model format {shown(got)}" if "format" in raw else "no model format"
         newer = isinstance(got, int) and got > FORMAT
         raise ManifestError(
-            f"{path}: {told}, this version opens {_OPENED[0]} to {FORMAT}; "
+            f"{path}: {told}, this version opens {FORMAT}; "
             f"{'install a newer modeler' if newer else 'fit the model again'}"
         )
     return raw
@@ -499,10 +495,7 @@ def with_essential_only(model: IdentifiedModel, where: str) -> IdentifiedModel:
     """
     fit, reduced = model.fit, model.fit.essential
     if reduced is None:
-        raise DataError(
-            f"{where}: holds no reduced model (--essential), it was fitted by an earlier version; "
-            "fit it again"
-        )
+        raise DataError(f"{where}: holds no reduced model (--essential); fit it again")
     found = {parameter.name: parameter for parameter in reduced.parameters}
     none: Any = {"value": 0.0, "sigma": None, "essential": False, "interval": None}
     values = [found.get(p.name, dataclasses.replace(p, **none)) for p in fit.parameters]

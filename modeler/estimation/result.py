@@ -343,7 +343,7 @@ class FitResult(Presented):
         standard: all standard parameters by name, SI, of an estimator that ends in them.
         own: those of the sentences that the estimator says of itself; not kept in model files.
         of_joints: those of the sentences that doubt single joints; not kept in model files.
-        essential: the reduced model; None if it has no parameter, or in files that lack it.
+        essential: the reduced model; None if it has no parameter.
         directions: friction by direction, of joints whose viscous friction differs.
         energy: how it compares with the torque model; None for the torque model itself.
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
@@ -515,7 +515,7 @@ def _named(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _verdict_from_json(raw: Mapping[str, Any]) -> Verdict | None:
-    """None where nobody has judged the fit, as in files of earlier versions."""
+    """None where nobody has judged the fit."""
     if raw.get("usable") is None:
         return None
     judged = {

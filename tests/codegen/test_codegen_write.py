@@ -77,7 +77,7 @@ def test_a_generated_file_that_was_edited_is_named_and_stays(emitted, tmp_path):
 
 
 def test_a_folder_without_a_record_is_taken_where_it_says_the_same(emitted, tmp_path):
-    """As an earlier version of modeler left it, which kept no record."""
+    """As after it was copied without its record."""
     write_emitted(emitted, tmp_path)
     (tmp_path / RECORD).unlink()
     with pytest.raises(ModelerError, match=r"over emps\.h, not known to be of an earlier"):

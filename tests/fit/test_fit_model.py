@@ -157,9 +157,9 @@ def enlarged(value):
 
 # Changes, and what is said of them.
 DAMAGE = {
-    "format": ([(("format",), 99)], "model format 99, this version opens 3 to 4; install a newer"),
-    "formatless": ([(("format",),)], "no model format, this version opens 3 to 4; fit"),
-    "before": ([(("format",), 2)], "opens 3 to 4; fit the model again"),
+    "format": ([(("format",), 99)], "model format 99, this version opens 4; install a newer"),
+    "formatless": ([(("format",),)], "no model format, this version opens 4; fit"),
+    "before": ([(("format",), 3)], "opens 4; fit the model again"),
     "manifest": ([(("manifest",),)], "damaged, manifest is missing"),
     "sources": ([(("sources",), 3)], "sources is 3, expected an object"),
     "source": ([(("sources", "arm.c"), 3)], "'arm.c' is 3, expected text"),
@@ -215,24 +215,6 @@ def test_wrong_model_files_say_where_and_what_to_do(tmp_path, model, case):
     changes, words = DAMAGE[case]
     raw = damaged(raw, *changes)
     assert re.search(words, refusal(path, {**raw, "checksums": checksums(raw)}))
-
-
-def test_a_file_of_the_format_before_is_opened(tmp_path, model):
-    """It has no mapping, and of its logs neither paths nor checksums."""
-    path, raw = saved(tmp_path, dataclasses.replace(model, mapping={"columns": {"q1": "a"}}))
-    assert load_model(path).mapping == {"columns": {"q1": "a"}}
-    raw["format"] = 3
-    del raw["mapping"]
-    raw["logs"] = [{k: v for k, v in log.items() if k not in ("path", "checksum")}
-                   for log in raw["logs"]]  # fmt: skip
-    raw["checksums"] = checksums({k: v for k, v in raw.items() if k != "checksums"})
-    path.write_text(json.dumps(raw))
-    again = load_model(path)
-    assert again.mapping == {} and [log.name for log in again.logs] == ["a.csv", "b.csv"]
-    assert {(log.path, log.checksum) for log in again.logs} == {("", "")}
-    np.testing.assert_array_equal(again.beta, model.beta)
-    save_model(path, again)
-    assert json.loads(path.read_text())["format"] == 4
 
 
 EDITED = {
