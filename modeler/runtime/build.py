@@ -1,18 +1,14 @@
 """Compiling on this machine: the C compiler, its flags, the cache of libraries."""
 
-import contextlib
 import dataclasses
 import hashlib
 import os
-import re
-import secrets
 import shlex
 import shutil
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -237,23 +233,9 @@ def portable_library(sources: Mapping[str, str]) -> bytes:
         return made.read_bytes()
 
 
-# The folder of compiled libraries: which entry is whole, and which have to go.
-#
-# One folder for each library, named by a hash of all that can change it. At most `MOST` entries and
-# `LARGEST` bytes are kept, those that were used last; what was used within the last hour stays
-# whatever there is, so that no process loses a library between finding and loading it. A library
-# that a process has loaded may go: the system keeps its content until the process ends. Any
-# number of processes may use, build and remove entries at once, and none may trip over another.
-
-
-MOST = 500
-LARGEST = 256 * 2**20
-RECENT = 3600.0
-"""Seconds since it was used, within which an entry stays."""
-
-_AGAIN = 100
-_ENTRY = re.compile(r"[0-9a-f]{64}")
-_SCRATCH = (".build-", ".gone-")
+# The folder of compiled libraries: one folder for each, named by a hash of all that can change it.
+# Nothing is removed from it: it grows, and may be deleted at any time. A library that a process has
+# loaded may go: the system keeps its content until the process ends.
 
 
 def cache_folder() -> Path:
@@ -271,7 +253,7 @@ def cache_folder() -> Path:
 
 
 def libraries(folder: Path) -> list[Path]:
-    """The libraries of an entry; none where another process has removed it."""
+    """The libraries of an entry; none where there is no entry."""
     try:
         return sorted(path for path in folder.iterdir() if path.suffix == SUFFIX)
     except FileNotFoundError:
@@ -290,58 +272,13 @@ def whole(library: Path) -> bool:
 
 
 def placed(made: Path, final: Path) -> None:
-    """Moves a library into its folder, which another process may just be removing."""
-    for _ in range(_AGAIN):
-        # Gone again after `mkdir` found it, it is told to exist by Python 3.11.
-        with contextlib.suppress(FileNotFoundError, FileExistsError):
-            final.parent.mkdir(exist_ok=True)
-            try:
-                made.replace(final)
-            except PermissionError:  # Windows: a process has it loaded, who built the same
-                if not whole(final):
-                    raise
-            return
-    made.replace(final)
-
-
-def in_use(library: Path) -> None:
-    """Notes that a library is used now."""
-    with contextlib.suppress(OSError):  # a cache that may only be read
-        os.utime(library)
-
-
-def tidy(cache: Path) -> None:
-    """Remove the entries that were not used for longest, beyond `MOST` and `LARGEST`.
-
-    What cannot be removed stays: nobody waits for it.
-    """
-    now, count, size = time.time(), 0, 0
-    for used, bytes_there, folder in sorted(_entries(cache), reverse=True):
-        count, size = count + 1, size + bytes_there
-        beyond = count > MOST or size > LARGEST or folder.name.startswith(_SCRATCH)
-        if beyond and now - used > RECENT:
-            _remove(folder)
-
-
-def _entries(cache: Path) -> Iterator[tuple[float, int, Path]]:
-    """When it was used, its size and its folder, of all that is ours; others may remove it."""
+    """Moves a library into its folder."""
+    final.parent.mkdir(exist_ok=True)
     try:
-        folders = [*cache.iterdir()]
-    except OSError:
-        return
-    for folder in folders:
-        if _ENTRY.fullmatch(folder.name) or folder.name.startswith(_SCRATCH):
-            with contextlib.suppress(OSError):
-                found = [path.stat() for path in (folder, *folder.iterdir())]
-                yield max(s.st_mtime for s in found), sum(s.st_size for s in found[1:]), folder
-
-
-def _remove(folder: Path) -> None:
-    """In one step for all others, who find it whole or not at all."""
-    gone = folder.with_name(f".gone-{secrets.token_hex(8)}")
-    with contextlib.suppress(OSError):
-        folder.rename(gone)
-        shutil.rmtree(gone, ignore_errors=True)
+        made.replace(final)
+    except PermissionError:  # Windows: a process has it loaded, who built the same
+        if not whole(final):
+            raise
 
 
 # A shared library from emitted files, kept in a cache.
@@ -387,11 +324,7 @@ def _key(sources: Mapping[str, str], tools: Toolchain) -> str:
 
 def _intact(folder: Path) -> Path | None:
     """The library of `folder`, if it is still what was built."""
-    for path in libraries(folder):
-        in_use(path)  # before it is read: from here on nobody removes it
-        if whole(path):
-            return path
-    return None
+    return next((path for path in libraries(folder) if whole(path)), None)
 
 
 def _build(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
@@ -408,5 +341,4 @@ def _build(sources: Mapping[str, str], tools: Toolchain, folder: Path) -> Path:
     for other in libraries(folder):
         if other != final and not whole(other):
             other.unlink(missing_ok=True)
-    tidy(cache)
     return final
