@@ -15,7 +15,7 @@ from modeler.core.estimators import ABOUT
 from modeler.core.files import check_writable, write_all_unless_other
 from modeler.core.json import entries
 from modeler.core.toml_cells import shown
-from modeler.effects import CATALOGUE, Acts, Effect, Form, effect_named
+from modeler.effects import CATALOGUE, Effect, Form, effect_named
 from modeler.robot import (
     Robot,
     exported_effect,
@@ -28,10 +28,10 @@ from modeler.robot import (
 if TYPE_CHECKING:
     from modeler.estimation import IdentifiedModel
 
-# The signature of an effect, drawn in characters: torque against what it depends on.
+# The signature of an effect: torque against what it depends on.
 
 
-_WIDTH, _HEIGHT = 61, 13
+_POINTS = 366
 _FUNCTIONS: dict[str, Callable[[float], float]] = {
     "sin": math.sin, "cos": math.cos, "tan": math.tan, "sqrt": math.sqrt, "exp": math.exp,
     "abs": abs, "sign": lambda x: (x > 0) - (x < 0), "tanh": math.tanh,
@@ -44,27 +44,7 @@ _AXES = {
 }  # fmt: skip
 
 
-def signature_lines(effect: Effect) -> list[str]:
-    """A picture of the first column, units left out; empty for effects that have none."""
-    if effect.acts not in (Acts.JOINT, Acts.MOTOR, Acts.PASSIVE):
-        return []
-    axis, x, y = _curve(effect.forms[0], 6 * _WIDTH)
-    reach, top = max(map(abs, x)), max(map(abs, y)) or 1.0
-    grid = [[" "] * _WIDTH for _ in range(_HEIGHT)]
-    grid[_HEIGHT // 2] = ["-"] * _WIDTH
-    for row in grid:
-        row[_WIDTH // 2] = "|"
-    for a, b in zip(x, y, strict=True):
-        column = round((a / reach + 1.0) / 2.0 * (_WIDTH - 1))
-        line = round((1.0 - b / top) / 2.0 * (_HEIGHT - 1))
-        grid[line][column] = "*"
-    label = f"{axis} from {-reach:.3g} to {reach:.3g}" if effect.learned else _AXES[axis]
-    return ["", *("  " + "".join(row).rstrip() for row in grid), f"  torque against {label}"]
-
-
-def _curve(
-    form: Form, points: int, shapes: Mapping[str, float] | None = None
-) -> tuple[str, list[float], list[float]]:
+def _curve(form: Form, shapes: Mapping[str, float]) -> tuple[str, list[float], list[float]]:
     """The axis on which a form is drawn, points of it, and the first column there."""
     order = ("T", "t", "since", "load", "z", "q", "torque", "a", "v")
     late = {"z"} if form.memory is not None and form.memory.kind == "lag" else set()
@@ -72,8 +52,8 @@ def _curve(
     laws = [column.equation.law for column in form.columns]
     ends = [abs(end) for law in laws if law is not None for end in (*law.low, *law.high)]
     reach = max(ends, default=math.pi if axis == "q" else 1.0)
-    x = [reach * (2.0 * k / (points - 1) - 1.0) for k in range(points)]
-    return axis, x, [_torque(form, axis, at, shapes or {}) for at in x]
+    x = [reach * (2.0 * k / (_POINTS - 1) - 1.0) for k in range(_POINTS)]
+    return axis, x, [_torque(form, axis, at, shapes) for at in x]
 
 
 def _torque(form: Form, axis: str, x: float, shapes: Mapping[str, float]) -> float:
@@ -219,7 +199,6 @@ def run_effects(args: argparse.Namespace) -> Json:
             for name, value in fact.items():
                 if name not in ("id", "equation", "title") and value:
                     say(f"  {name:<12} {', '.join(value) if isinstance(value, list) else value}")
-            say_lines(signature_lines(chosen[0]))
     return facts
 
 
@@ -231,7 +210,7 @@ def _export(args: argparse.Namespace, robot: Robot, model: "IdentifiedModel | No
     effect = effect_named(args.export, robot.own_effects)
     assert effect is not None
     found = [at.shapes for use in robot.effects if use.effect == effect.id for at in use.instances]
-    axis, x, y = _curve(effect.forms[0], 6 * _WIDTH, found[0] if found else {})
+    axis, x, y = _curve(effect.forms[0], found[0] if found else {})
     label = {"q": "position [rad or m]", "v": "speed [rad/s or m/s]"}.get(axis, _AXES[axis])
     page = report.effect_page(effect, text, robot, model, (label, x, y))
     args.out = [Output(Path(args.out or ".", f"{effect.id}{end}")) for end in (".toml", ".html")]
