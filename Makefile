@@ -24,7 +24,8 @@ help:
 	@echo 'make lint         ruff and mypy only'
 	@echo 'make docs         the documentation as a site, in build/site; nothing in it needs the network'
 	@echo '                  (EVERY=5: of the pictures that take long, today a fifth)'
-	@echo 'make regenerate   write generated/ and the generated pages of docs/ anew'
+	@echo 'make regenerate   write generated/ and the generated pages of docs/ anew;'
+	@echo '                  DIFF=robot: show how its C differs from that of the last commit, write nothing'
 	@echo 'make clean        remove all that these commands made, .venv included'
 	@echo 'PYTHON=...        the Python to install with; default: the first of $(PYTHONS)'
 
@@ -52,7 +53,15 @@ docs: .venv/.installed-docs
 	@echo 'built: build/site/index.html'
 
 regenerate: .venv/.installed-test
+ifdef DIFF
+	@rm -rf build/difference; mkdir -p build/difference/last
+	@git archive HEAD modeler templates csrc | tar -x -C build/difference/last
+	@cd build/difference/last && '$(CURDIR)/$(BIN)/python' -m modeler -q generate '$(DIFF)' --out ../before >/dev/null
+	@$(BIN)/python -m modeler -q generate '$(DIFF)' --out build/difference/now >/dev/null
+	@cd build/difference && git diff --no-index before now && echo 'no difference' || true
+else
 	$(BIN)/python -m pytest -q --regenerate
+endif
 
 clean:
 	rm -rf .venv build dist demo .pytest_cache .mypy_cache .ruff_cache .hypothesis

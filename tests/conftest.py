@@ -2,6 +2,7 @@
 
 import difflib
 import gc
+import hashlib
 import os
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
@@ -128,35 +129,42 @@ def results_are_as_the_schemas_say() -> Iterator[None]:
     console.run_command = run_command
 
 
-@pytest.fixture
-def compare_with_generated(
-    request: pytest.FixtureRequest,
-) -> Callable[[str, Mapping[str, str]], None]:
-    """Compare emitted files with generated/<name>/, both ways; or rewrite them."""
+IN_FULL = ("wrist", "five-bar")
+"""Robots whose emitted files are kept as they are; of the others `SHA256SUMS`."""
 
-    def names(folder: Path) -> set[str]:
-        return {p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file()}
+
+@pytest.fixture
+def compare_with_generated(regenerate: bool) -> Callable[[str, Mapping[str, str]], None]:
+    """Compare emitted files with generated/<name>/, both ways; or rewrite them."""
 
     def compare(name: str, emitted: Mapping[str, str]) -> None:
         folder = ROOT / "generated" / name
-        if request.config.getoption("--regenerate"):
-            folder.mkdir(parents=True, exist_ok=True)
-            for stale in names(folder) - emitted.keys():
-                (folder / stale).unlink()
-            for file, text in emitted.items():
-                (folder / file).parent.mkdir(exist_ok=True)
+        wanted = emitted if name in IN_FULL else {"SHA256SUMS": list_digests(emitted)}
+        files = [path for path in folder.rglob("*") if path.is_file()]
+        kept = {path.relative_to(folder).as_posix(): path for path in files}
+        if regenerate:
+            for stale in kept.keys() - wanted.keys():
+                kept[stale].unlink()
+            for file, text in wanted.items():
+                (folder / file).parent.mkdir(parents=True, exist_ok=True)
                 (folder / file).write_bytes(text.encode())
             return
-        assert folder.is_dir(), f"generated/{name} is missing; make it with pytest --regenerate"
-        assert sorted(names(folder)) == sorted(emitted)
-        for file, text in emitted.items():
-            expected = (folder / file).read_bytes().decode()
-            difference = "".join(
-                difflib.unified_diff(
-                    expected.splitlines(True), text.splitlines(True),
-                    f"generated/{name}/{file}", "emitted now",
-                )
-            )  # fmt: skip
-            assert not difference, f"\n{difference}\nIf this is meant: pytest --regenerate"
+        assert sorted(kept) == sorted(wanted)
+        for file, text in wanted.items():
+            before = kept[file].read_bytes().decode().splitlines(True)
+            now = (f"generated/{name}/{file}", "emitted now")
+            difference = "".join(difflib.unified_diff(before, text.splitlines(True), *now, n=0))
+            assert not difference, (
+                f"\n{difference}\nmake regenerate DIFF={name} shows what changed since the last "
+                "commit; if it is meant: make regenerate"
+            )
 
     return compare
+
+
+def list_digests(files: Mapping[str, str]) -> str:
+    """As `sha256sum` writes them, sorted by path."""
+    return "".join(
+        f"{hashlib.sha256(text.encode()).hexdigest()}  {name}\n"
+        for name, text in sorted(files.items())
+    )

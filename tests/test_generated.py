@@ -1,4 +1,4 @@
-"""The kept emitted files of the papers' robots, letter by letter."""
+"""The kept emitted files of the papers' robots: two letter by letter, the others by digest."""
 
 import pytest
 
