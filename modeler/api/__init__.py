@@ -16,24 +16,10 @@ figure (`plot(name)`), and HTML for a notebook; docs/reference/python.md lists t
 that a stage has too are that stage's, with the usual choices; use the stages for others.
 """
 
-from types import FunctionType
-from typing import Any
-
 import lazy_loader
 
 from modeler.report import notebook
 
-_load, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
-
-
-def __getattr__(name: str) -> Any:
-    """What the face names; a function with the check of its arguments before it."""
-    found = _load(name)
-    if isinstance(found, FunctionType):
-        from modeler.api.arguments import checked
-
-        found = globals()[name] = checked(found)
-    return found
-
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 notebook.register()

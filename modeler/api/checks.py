@@ -1,6 +1,6 @@
 """Is a model true? Comparisons, free runs, several models on the same rows."""
 
-from __future__ import annotations  # what a signature names is loaded when it is checked
+from __future__ import annotations  # what a signature names need not be loaded
 
 from collections.abc import Callable, Mapping, Sequence
 from string import ascii_uppercase
@@ -10,7 +10,7 @@ import numpy as np
 import modeler.api.workflow as workflow
 from modeler import validation
 from modeler.api.log_maps import Mapped
-from modeler.api.workflow import AnyLog, are_long, sources_of, too_long
+from modeler.api.workflow import AnyLog, Logs, are_long, sources_of, too_long
 from modeler.core.errors import DataError
 from modeler.derivation import with_home
 from modeler.estimation import FitResult, IdentifiedModel, ParameterEstimate
@@ -20,7 +20,7 @@ from modeler.runtime import CompiledModel
 
 
 def compare(
-    model: IdentifiedModel | Robot, logs: Sequence[AnyLog], mapping: Mapped = ()
+    model: IdentifiedModel | Robot, logs: Logs, mapping: Mapped = ()
 ) -> validation.Comparison:
     """Measured against predicted torque on logs, after the processing of the fit.
 
@@ -33,7 +33,7 @@ def compare(
         mapping: as of `read_logs`.
     """
     (own,) = with_stated([model])
-    return compared(own, logs, workflow.recompile(own), mapping)[0]
+    return compared(own, workflow.listed(logs), workflow.recompile(own), mapping)[0]
 
 
 def with_stated(things: Sequence[IdentifiedModel | Robot]) -> list[IdentifiedModel]:
@@ -126,7 +126,7 @@ def compared(
 
 def contest(
     models: Mapping[str, IdentifiedModel | Robot] | Sequence[IdentifiedModel | Robot],
-    logs: Sequence[AnyLog],
+    logs: Logs,
     mapping: Mapped = (),
 ) -> validation.Contest:
     """Models side by side: the error of each by joint, and which is better beyond doubt.
@@ -162,7 +162,7 @@ def contest(
 def contested(
     models: Mapping[str, IdentifiedModel],
     compiled: Sequence[CompiledModel],
-    logs: Sequence[AnyLog],
+    logs: Logs,
     mapping: Mapped = (),
     places: Sequence[str] = (),
 ) -> tuple[validation.Contest, list[Log]]:
@@ -184,7 +184,7 @@ def contested(
 
 def free_run(
     model: IdentifiedModel,
-    logs: Sequence[AnyLog],
+    logs: Logs,
     asked: validation.FreeRunSettings | None = None,
     mapping: Mapped = (),
 ) -> validation.FreeRun:

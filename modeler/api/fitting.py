@@ -8,10 +8,10 @@ import numpy as np
 
 import modeler.api.workflow as workflow
 from modeler import estimation
-from modeler.api.arguments import Steps, fitting, silent
 from modeler.api.log_maps import Mapped
 from modeler.api.model import Model
-from modeler.api.workflow import AnyLog
+from modeler.api.steps import Steps, silent
+from modeler.api.workflow import AnyLog, Logs
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, TWO_STEPS, DataError, Method
 from modeler.core.estimators import ABOUT
@@ -272,7 +272,7 @@ class Load:
 
     def __post_init__(self) -> None:
         """One log alone stands for a list of it."""
-        object.__setattr__(self, "logs", fitting("Load", "logs", Sequence[AnyLog], self.logs))
+        object.__setattr__(self, "logs", workflow.listed(self.logs))
 
     def payloads(self, loaded: Sequence[Log]) -> list[estimation.Payload]:
         """It, as the fit knows it; one for each log if it was taken off in between."""
@@ -281,7 +281,7 @@ class Load:
 
 
 def fit_gains(
-    derivation: Derivation, logs: Sequence[AnyLog], load: Load, processing: Processing | None = None
+    derivation: Derivation, logs: Logs, load: Load, processing: Processing | None = None
 ) -> Model:
     """The model whose robot file has the drive gains that logs tell (docs/how-to/drive-gains.md).
 
@@ -295,7 +295,9 @@ def fit_gains(
         DataError: logs of torques, rows given twice, or gains that the logs do not tell.
     """
     compiled = workflow.compile_model(workflow.generate(derivation))
-    return found_with_gains(derivation, compiled, logs, load, processing or Processing())[0]
+    return found_with_gains(
+        derivation, compiled, workflow.listed(logs), load, processing or Processing()
+    )[0]
 
 
 def found_with_gains(
@@ -359,8 +361,8 @@ def found_with_gains(
 
 def side_by_side(
     robot: Robot | CompiledModel,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog] = (),
+    logs: Logs,
+    holdout: Logs = (),
     methods: Sequence[str] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> estimation.SideBySide:
@@ -393,8 +395,8 @@ def side_by_side(
 
 def observe_held_out(
     compiled: CompiledModel,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog],
+    logs: Logs,
+    holdout: Logs,
     mapping: Mapped = (),
     processing: Processing | None = None,
 ) -> tuple[Observation, Observation | None]:

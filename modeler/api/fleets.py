@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from modeler.api.log_maps import Mapped, file_and_span, log_maps
-from modeler.api.workflow import AnyLog, compile_model, read_logs
+from modeler.api.workflow import AnyLog, compile_model, listed, read_logs
 from modeler.codegen import derive, generate
 from modeler.core.errors import DataError, LoopError, file_and_window
 from modeler.core.jobs import Workers, open_workers, untold
@@ -31,7 +31,7 @@ Progress = Callable[[float], None]
 
 def fleet(
     robot: Robot,
-    logs: Sequence[str | Path] | Mapping[str, Mapping[str, AnyLog]],
+    logs: str | Path | Sequence[str | Path] | Mapping[str, Mapping[str, AnyLog]],
     name: str | None = None,
     *,
     processing: Processing | None = None,
@@ -68,7 +68,7 @@ def fleet(
         pairs = {Named(machine, period, f"{machine}, {period}"): log
                  for machine, own in logs.items() for period, log in own.items()}  # fmt: skip
         return fleet_of(emitted.spec, _reduced(compiled, pairs, processing, mapping, progress))
-    named = named_logs([file_and_at(str(place)) for place in logs], name)
+    named = named_logs([file_and_at(str(place)) for place in listed(logs)], name)
     with open_workers(dask, processes) as workers:
         given = reduce_logs(compiled, emitted, named, workers, processing, mapping, progress)
     return fleet_of(emitted.spec, given)

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from modeler.api import fitting, workflow
-from modeler.api.arguments import Steps, silent
 from modeler.api.log_maps import Mapped, settled
 from modeler.api.long_logs import Telling, fit_if_long
 from modeler.api.model import Model
+from modeler.api.steps import Steps, silent
 from modeler.api.workflow import AnyLog, Logs, listed, read_logs
 from modeler.codegen import Derivation
 from modeler.core.errors import GAIN_METHOD, DataError, FitWarning, Method
@@ -88,7 +88,7 @@ def identify(
         processing or workflow.processing_of(stated), mapping, check, Telling(steps),
     )  # fmt: skip
     for line in made.warning:
-        warnings.warn(line, FitWarning, stacklevel=3)  # of who called, past the check of arguments
+        warnings.warn(line, FitWarning, stacklevel=2)  # of who called
     memory = [log for log in given if isinstance(log, Log)]
     memory += [log for log in loaded if not log.path]
     return dataclasses.replace(

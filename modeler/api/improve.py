@@ -1,15 +1,15 @@
 """Effects into a model: one by its name, all that a diagnosis names; the last one out again."""
 
-from __future__ import annotations  # what a signature names is loaded when it is checked
+from __future__ import annotations  # what a signature names need not be loaded
 
 import dataclasses
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeler import diagnosis
-from modeler.api.arguments import Steps, silent
 from modeler.api.log_maps import Mapped
-from modeler.api.workflow import AnyLog, M, read_logs, recompile
+from modeler.api.steps import Steps, silent
+from modeler.api.workflow import Logs, M, read_logs, recompile
 from modeler.core.errors import DataError
 from modeler.estimation import IdentifiedModel
 from modeler.observation import check_apart
@@ -21,8 +21,8 @@ _NONE = SharedEffects()
 
 def diagnose(
     model: IdentifiedModel,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog] = (),
+    logs: Logs,
+    holdout: Logs = (),
     without: Sequence[str] = (),
     progress: Callable[[float], None] | None = None,
     mapping: Mapped = (),
@@ -54,8 +54,8 @@ def diagnose(
 def add_discoveries(
     model: M,
     found: diagnosis.Diagnosis,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog] = (),
+    logs: Logs,
+    holdout: Logs = (),
     mapping: Mapped = (),
     effects_from: str | Path | None = None,
 ) -> M:
@@ -109,8 +109,8 @@ def discovered_added(
 def add(
     model: M,
     effect: str,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog] = (),
+    logs: Logs,
+    holdout: Logs = (),
     joint: str | None = None,
     mapping: Mapped = (),
     law: diagnosis.LawAsked | None = None,
@@ -148,8 +148,8 @@ def add(
 
 def auto(
     model: M,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog] = (),
+    logs: Logs,
+    holdout: Logs = (),
     progress: Callable[[float], None] | None = None,
     mapping: Mapped = (),
     learned: bool = False,
@@ -179,7 +179,7 @@ def auto(
     return like(model, auto_added(model, compiled, given, progress, silent, learned, more)[0])
 
 
-def undo(model: M, logs: Sequence[AnyLog], mapping: Mapped = ()) -> M:
+def undo(model: M, logs: Logs, mapping: Mapped = ()) -> M:
     """The model without the effect that was added last, fitted again to the logs.
 
     >>> better = add(model, "spring", ["mon.parquet"], joint="1")
@@ -277,11 +277,7 @@ def with_shared(model: M, more: SharedEffects, effect: str) -> M:
 
 
 def logs_of(
-    model: IdentifiedModel,
-    logs: Sequence[AnyLog],
-    holdout: Sequence[AnyLog],
-    mapping: Mapped = (),
-    spread: bool = False,
+    model: IdentifiedModel, logs: Logs, holdout: Logs, mapping: Mapped = (), spread: bool = False
 ) -> tuple[CompiledModel, diagnosis.Logs]:
     """The robot of a model, compiled, and the logs that it is held against.
 

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TypeGuard
 
 from modeler import observation
-from modeler.api.arguments import Steps, silent
 from modeler.api.fitting import FitOutcome, FitRequest, identified, judged
 from modeler.api.log_maps import Mapped
 from modeler.api.model import Model
+from modeler.api.steps import Steps, silent
 from modeler.api.workflow import (
     AnyLog,
     are_long as are_long,

@@ -1,6 +1,6 @@
 """A model as one object: its parameters, what it predicts, what it lacks, what it is made into."""
 
-from __future__ import annotations  # what a signature names is loaded when it is checked
+from __future__ import annotations  # what a signature names need not be loaded
 
 import dataclasses
 from collections.abc import Sequence
@@ -14,7 +14,6 @@ import numpy as np
 
 from modeler import diagnosis, estimation, report, validation
 from modeler.api import checks, improve
-from modeler.api.arguments import checked
 from modeler.api.exporting import export
 from modeler.api.log_maps import Mapped
 from modeler.api.predicting import predicted_torque
@@ -249,11 +248,9 @@ class Model(IdentifiedModel):
         return labelled(values, {"log": logs, "time": rows.time}, names)
 
     @cached_property
-    @checked
     def _rows(self) -> Observation:
         return observe(recompile(self), self.its_logs(None, "resid"), self.processing)
 
-    @checked
     def predict(self, log: AnyLog, mapping: Mapped = ()) -> Any:
         """Torque at every row of a log, in the log's own names and units; its torques are not read.
 
@@ -275,7 +272,6 @@ class Model(IdentifiedModel):
         """
         return predicted_torque(self, recompile(self), log, mapping)
 
-    @checked
     def compare(self, logs: Logs | None = None, mapping: Mapped = ()) -> validation.Comparison:
         """Measured against predicted torque; None: on the logs that were held out.
 
@@ -284,7 +280,6 @@ class Model(IdentifiedModel):
         """
         return checks.compare(self, self._others(logs, "compare"), mapping)
 
-    @checked
     def error(self, logs: Logs | None = None, mapping: Mapped = ()) -> float:
         """Relative error of the torque, ||measured - predicted|| / ||measured||.
 
@@ -300,7 +295,6 @@ class Model(IdentifiedModel):
         given = self._others(logs, "error")
         return checks.compare(self, given, mapping).relative_error
 
-    @checked
     def missing(
         self,
         held_out: Logs | None = None,
@@ -324,7 +318,6 @@ class Model(IdentifiedModel):
         own = self.its_logs(logs, "missing")
         return improve.diagnose(self, own, held, without, mapping=mapping)
 
-    @checked
     def add(
         self,
         effect: str,
@@ -392,7 +385,6 @@ class Model(IdentifiedModel):
 
     # What it is made into.
 
-    @checked
     def with_load(
         self, mass: float, centre: Sequence[float] = (0.0, 0.0, 0.0), link: str | None = None
     ) -> Model:
@@ -411,7 +403,6 @@ class Model(IdentifiedModel):
         """
         return estimation.with_load(self, mass, centre, link)
 
-    @checked
     def to_c(self, folder: str | Path, force: bool = False) -> Emitted:
         """Its C, with its values, written to a folder; as `generate`.
 
@@ -420,7 +411,6 @@ class Model(IdentifiedModel):
         """
         return generate(self, folder, force)
 
-    @checked
     def export(
         self,
         out: str | Path | None = None,

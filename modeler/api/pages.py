@@ -36,7 +36,8 @@ def write_report(thing: Reported, path: str | Path, notes: Sequence[str] = ()) -
         ModelerError: the place cannot be written.
     """
     found = presented(type(thing))
-    assert found is not None and found.document is not None  # of all that is `Reported`
+    if found is None or found.document is None:
+        raise TypeError(f"write_report: got a {type(thing).__name__}, which has no page")
     sheet = found.document(thing, notes)
     if isinstance(sheet, report.Page):
         return report.write_page(Path(path), sheet)

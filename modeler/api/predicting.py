@@ -1,6 +1,6 @@
 """The torque of a model along a log, in the names, the units and the kind of table of the log."""
 
-from __future__ import annotations  # what a signature names is loaded when it is checked
+from __future__ import annotations  # what a signature names need not be loaded
 
 from collections.abc import Mapping
 from pathlib import Path

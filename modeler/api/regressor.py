@@ -17,7 +17,6 @@ from sklearn.utils.validation import check_is_fitted, validate_data
 
 from modeler import observation, validation
 from modeler.api import fitting
-from modeler.api.arguments import checked
 from modeler.api.identifying import robot_with
 from modeler.api.log_maps import Mapped
 from modeler.api.workflow import Logs, compile_model, derived, listed, read_logs
@@ -37,7 +36,6 @@ def _made(robot: Robot | str | Path) -> tuple[Derivation, Emitted, CompiledModel
     return derivation, emitted, compile_model(emitted)
 
 
-@checked
 def log_rows(robot: Robot | str | Path, logs: Logs, mapping: Mapped = ()) -> Rows:
     """Logs as scikit-learn takes them.
 
@@ -93,7 +91,6 @@ class TorqueRegressor(MultiOutputMixin, RegressorMixin, BaseEstimator):
         """
         self.robot, self.method, self.processing = robot, method, processing
 
-    @checked
     def fit(self, X: Any, y: Any) -> "TorqueRegressor":
         """Fits the base parameters.
 
@@ -108,7 +105,6 @@ class TorqueRegressor(MultiOutputMixin, RegressorMixin, BaseEstimator):
         self.model_ = fitting.fitted(asked, derivation, emitted, compiled, rows)[0]
         return self
 
-    @checked
     def predict(self, X: Any) -> np.ndarray:
         """(n, J) torque at every row.
 

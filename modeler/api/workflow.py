@@ -1,14 +1,13 @@
 """The chain: from a robot to its C, from logs to a model."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, TypeVar
 
 from modeler import observation
-from modeler.api.arguments import fitting
 from modeler.api.log_maps import Mapped, file_and_span, log_maps, read_mapped
 from modeler.codegen import (
     Derivation as Derivation,
@@ -54,8 +53,11 @@ Logs = AnyLog | Sequence[AnyLog]
 
 def listed(logs: Logs) -> Sequence[AnyLog]:
     """One log alone as a list of it."""
-    found: Sequence[AnyLog] = fitting("logs", "logs", Sequence[AnyLog], logs)
-    return found
+    if isinstance(logs, str | Mapping) or hasattr(logs, "__arrow_c_stream__"):
+        return [logs]
+    if isinstance(logs, Sequence):
+        return logs
+    return list(logs) if isinstance(logs, Iterable) else [logs]
 
 
 M = TypeVar("M", bound=IdentifiedModel)
@@ -142,7 +144,7 @@ def compile_model(emitted: Emitted) -> CompiledModel:
 
 
 def read_logs(
-    compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = (), spread: bool = False
+    compiled: CompiledModel, logs: Logs, mapping: Mapped = (), spread: bool = False
 ) -> list[observation.Log]:
     """Logs by path, `path@start:end` for a piece of it in seconds, or as they are.
 
@@ -156,13 +158,13 @@ def read_logs(
             takes the guess of `look_at` for what is left open.
         spread: True if of a log of more than a million rows evenly spread stretches will do.
     """
-    maps = log_maps(compiled, logs, mapping)
-    every = enumerate(zip(logs, maps, strict=True))
+    given = listed(logs)
+    every = enumerate(zip(given, log_maps(compiled, given, mapping), strict=True))
     return [_log(*each, compiled.spec, spread) for each in every]
 
 
 def read_currents(
-    compiled: CompiledModel, logs: Sequence[AnyLog], mapping: Mapped = ()
+    compiled: CompiledModel, logs: Logs, mapping: Mapped = ()
 ) -> list[observation.Log]:
     """Logs of currents; where the robot file states no drive gain, torques are in drive units.
 
@@ -173,8 +175,9 @@ def read_currents(
     Raises:
         DataError: a log gives a torque instead.
     """
-    spec, maps = in_drive_units(compiled.spec), log_maps(compiled, logs, mapping)
-    read = [_log(*each, spec) for each in enumerate(zip(logs, maps, strict=True))]
+    spec, given = in_drive_units(compiled.spec), listed(logs)
+    every = enumerate(zip(given, log_maps(compiled, given, mapping), strict=True))
+    read = [_log(*each, spec) for each in every]
     check_currents(read, spec.joints)
     return read
 
@@ -265,7 +268,7 @@ def sources_of(
 
 def observe(
     compiled: CompiledModel,
-    logs: Sequence[AnyLog],
+    logs: Logs,
     processing: observation.Processing | None = None,
     mapping: Mapped = (),
 ) -> observation.Observation:

@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 
 import modeler
-from modeler.api.arguments import in_python
-from modeler.core.errors import DataError, FitWarning
-from modeler.observation import Processing
+from modeler.core.errors import FitWarning
 
 
 @pytest.fixture(scope="module")
@@ -60,21 +58,6 @@ def test_a_diagnosis_is_a_sequence_of_its_effects() -> None:
     found = object.__new__(modeler.Diagnosis)
     object.__setattr__(found, "effects", ("first", "second"))
     assert len(found) == 2 and found[0] == "first" and [*found] == ["first", "second"]
-
-
-def test_messages_name_arguments_of_python(run, tmp_path) -> None:
-    with pytest.raises(DataError, match=r"no column q2.* mapping q2=COLUMN") as error:
-        modeler.identify("two-link", {"time": run["time"], "q1": run["q"][:, 0]})
-    assert "--" not in str(error.value)
-    with pytest.raises(DataError) as error:
-        modeler.identify("two-link", run, processing=Processing(parallel_cutoff=1e-3))
-    assert "--" not in str(error.value)
-
-
-def test_commands_keep_their_options() -> None:
-    text = "use --method weighted, or run `modeler fit arm.toml log.csv --out m.json`"
-    assert in_python(text) == text.replace("--method", "method")
-    assert in_python("run--a.csv: x -- y") == "run--a.csv: x -- y"
 
 
 def test_no_panel_of_a_comparison_is_empty(run, model) -> None:

@@ -220,8 +220,3 @@ def test_logs_with_a_load_are_not_taken_for_bare_ones() -> None:
         with pytest.raises(DataError, match="some logs of the fit carried a load, which is no p"):
             act()
     assert not made.missing(logs=bare).effects
-
-
-def test_an_argument_that_there_is_not_is_told_with_the_one_that_is_meant() -> None:
-    with pytest.raises(TypeError, match=r"'map' \(did you mean \"mapping\"\?\)"):
-        md.identify("two-link", "run.csv", map="auto")  # type: ignore[call-arg]

@@ -96,7 +96,7 @@ def test_endings_of_their_own_and_figures(tmp_path: Path) -> None:
     assert made["better"].to_dict()["parameters"] == made["better"].fit.to_json()["parameters"]
     assert made["derivation"].to_dict()["rank"] == made["derivation"].base.rank
     assert write_report(made["robot"], tmp_path / "p.html").read_text() == made["robot"].to_html()
-    with pytest.raises(DataError, match="write_report: got a log as thing; expected a robot"):
+    with pytest.raises(TypeError, match="got a Log, which has no page"):
         write_report(made["log"], tmp_path / "p.html")
 
 

@@ -1,0 +1,12 @@
+"""What long functions of the API say of where they are."""
+
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+
+Steps = Callable[[str], AbstractContextManager[None]]
+"""Called with the title of a step, which lasts as long as the context."""
+
+
+def silent(title: str) -> AbstractContextManager[None]:
+    """Says nothing."""
+    return nullcontext()
