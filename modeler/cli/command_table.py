@@ -19,7 +19,6 @@ from modeler.cli.options import (
     choice,
     flag,
     repeated,
-    several,
     value,
 )
 from modeler.cli.shared_arguments import (
@@ -189,7 +188,7 @@ _CONVERT = Command(
         value("--tip", "LINK", places.Word, "last link of the chain that is meant; default: all",
               default=""),
         repeated("--lock", "JOINT=POSITION", places.Word,
-                 "hold a joint, as elbow=0.3 or 'elbow=30 deg'; may be given several times"),
+                 "hold a joint, as elbow=0.3 or 'elbow=30 deg'"),
         flag("--exact-decimals", "take 1.5708 as it is, not as pi/2, and lengths below 1 um"),
         flag("--force", "write over a file that is there"),
     ),
@@ -244,7 +243,7 @@ _LOAD = Group(
     "load", "some of the logs carry a load on a link",
     (
         repeated("--payload-log", "LOG", places.LogFile,
-                 "a further log, with the load; may be given several times"),
+                 "a further log, with the load"),
         value("--payload-mass", "KG", float, "its mass, if it is known"),
         flag("--payload-moved",
              "it was taken off between the loaded logs: the same mass, but its own centre and "
@@ -276,8 +275,8 @@ _FIT = Command(
               + f"; several with commas between, or {ALL}: compared on the same rows; `modeler "
               "estimators` says when each is the wrong one (default %(default)s)",
               default=Methods("weighted")),
-        several("--holdout", "LOG", places.LogFile,
-                "with several methods: logs of other motion, not fitted: their error"),
+        repeated("--holdout", "LOG", places.LogFile,
+                 "with several methods: logs of other motion, not fitted: their error"),
         value("--robot-out", "FILE.toml", places.Output,
               "write the robot file with the values found, for simulators (--method consistent), "
               "or with the drive gains found (--method tls)"),
@@ -386,8 +385,8 @@ _DIAGNOSE = Command(
     "modeler diagnose arm.model.json train.parquet --holdout other.parquet",
     (
         MODEL, logs(f"logs to explain; {WINDOW}"),
-        several("--holdout", "LOG", places.LogFile,
-                "logs of other motion: errors come from them, nothing is fitted to them"),
+        repeated("--holdout", "LOG", places.LogFile,
+                 "logs of other motion: errors come from them, nothing is fitted to them"),
         repeated("--without", "EFFECT[@J]", places.Word,
                  "an effect that this robot does not have, on one joint or at all"),
         EFFECTS_FROM,
@@ -416,7 +415,7 @@ _ADD = Command(
         logs("logs to fit to"),
         value("--joint", "J", places.Word, "default: where it explains most"),
         value("--out", "MODEL2", places.Output, "model file to write", **REQUIRED),
-        several("--holdout", "LOG", places.LogFile, "logs of other motion to judge on"),
+        repeated("--holdout", "LOG", places.LogFile, "logs of other motion to judge on"),
         value("--robot-out", "FILE.toml", places.Output, "write the new robot file too"),
         EFFECTS_FROM,
         MAP, *page(), pictures(),
@@ -456,10 +455,10 @@ _EXCITE = Command(
             value("--laps", "N", int, "times that this motion is driven in MOTION", default=1),
             value("--rate", "HZ", float, "samples per second of MOTION", default=200.0),
             repeated("--limit", "J=LOWER,UPPER,SPEED,ACCELERATION[,TORQUE]", places.Word,
-                     "of a joint, instead of those of the file, SI units; may be repeated; torques "
+                     "of a joint, instead of those of the file, SI units; torques "
                      "need values of the parameters"),
             repeated("--box", "FRAME=X0,X1,Y0,Y1,Z0,Z1", places.Word,
-                     "where the origin of a frame must stay, m, in frame 0; may be repeated"),
+                     "where the origin of a frame must stay, m, in frame 0"),
             value("--clearance", "M", float,
                   "that links keep from each other and from planes, m; default: 0.01 if the robot "
                   "file has [capsules], else links are not looked at"),
@@ -485,9 +484,9 @@ _EXCITE = Command(
             value("--between", "EFFECT@J,EFFECT@J", places.Word,
                   "make what the first effect alone explains large, and the second: of a MODEL"),
             value("--choose", "N", int, "take N of the motions of --from; takes no --out"),
-            several("--from", "LOG", places.MotionFile,
-                    "logs that there are: the motion adds to what they tell; with --choose: logs "
-                    "or motions to choose from", dest="candidates"),
+            repeated("--from", "LOG", places.MotionFile,
+                     "logs that there are: the motion adds to what they tell; with --choose: logs "
+                     "or motions to choose from", dest="candidates"),
             value("--check", "MOTION", places.MotionFile,
                   "does this motion or log keep to [limits], start and end at rest, and keep links "
                   "apart by --clearance? status 1 if not; takes no --out"),
@@ -526,7 +525,7 @@ _SIMULATE = Command(
             value("--parameter-seed", "N", int,
                   "of parameters the file leaves open", default=SIMULATED["parameter_seed"]),
             repeated("--hide", "EFFECT[@JOINT][:NAME=VALUE,...]", places.Word,
-                     "physics that the machine has and the robot file lacks; may be repeated; "
+                     "physics that the machine has and the robot file lacks; "
                      "joint and values left out are drawn from --parameter-seed: "
                      f"{', '.join(EFFECTS)}"),
         )),
@@ -540,7 +539,7 @@ _SIMULATE = Command(
                   "per turn, 0 for an ideal encoder", default=SIMULATED["encoder_counts"]),
             repeated("--drive-gain", "JOINT=VALUE", places.Word,
                      "true torque per drive unit of a joint; its current is logged in place of its "
-                     "torque; may be repeated"),
+                     "torque"),
         )),
     ),
     "write what was simulated for machines",
@@ -628,7 +627,7 @@ _STUDIO = Command(
               "the current one)", nargs="?", default="."),
         flag("--demo", "begin with the built-in arm that has a hidden effect"),
         repeated("--allow", "DIR", places.Word, "folder whose files may be chosen where they lie, "
-                 "besides FOLDER and the current one; may be repeated"),
+                 "besides FOLDER and the current one"),
         value("--port", "N", int, "at which it answers; 0: one that is free", default=0),
         flag("--no-open", "print the address, open no browser"),
     ),

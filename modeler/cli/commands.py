@@ -9,14 +9,7 @@ from typing import Any, NoReturn
 from modeler import __version__
 from modeler.cli.command_table import COMMANDS, FAMILIES
 from modeler.cli.console import Loudness, write_stdout
-from modeler.cli.options import (
-    arguments_of,
-    did_you_mean,
-    options_of,
-    sorted_words,
-    unknown,
-    usage_of,
-)
+from modeler.cli.options import did_you_mean, find_option, options_of, unknown, usage_of
 
 _EPILOG = """\
 example: modeler derive wrist
@@ -37,6 +30,7 @@ class _Parser(argparse.ArgumentParser):
     """
 
     _stated: str | None = None
+    _intermixed = False  # argparse parses twice: options, then arguments
 
     @property
     def usage(self) -> str | None:
@@ -53,15 +47,18 @@ class _Parser(argparse.ArgumentParser):
                 if not any(name.startswith(word) for name in options_of(self)):
                     self.error(self._unknown(word))
             return super().parse_known_args(args, namespace)
-        if any(action.nargs == argparse.REMAINDER for action in self._actions):
-            found, rest = super().parse_known_args(args, namespace)
-            found.read_as = ""
-            return found, rest
-        read = sorted_words(self, args)
-        if read.unknown:
-            self.error(self._unknown(read.unknown[0]))
-        words = read.words if arguments_of(self) else [w for w in read.words if w != "--"]
-        found, rest = super().parse_known_args(words, namespace)
+        if self._intermixed or any(a.nargs == argparse.REMAINDER for a in self._actions):
+            return super().parse_known_args(args, namespace)
+        words = list(takewhile(lambda word: word != "--", args))
+        for word in words:
+            name = word.partition("=")[0]
+            if name[:2] == "--" and not any(full.startswith(name) for full in options_of(self)):
+                self.error(self._unknown(word))
+        self._intermixed = True
+        try:  # options and arguments in any order
+            found, rest = self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self._intermixed = False
         if rest:
             options = [word for word in rest if word.startswith("-") and len(word) > 1]
             self.error(
@@ -71,7 +68,8 @@ class _Parser(argparse.ArgumentParser):
             )
         if lacks := found.lacks(found):
             self.error(lacks)
-        found.read_as, found.given = read.told, read.given
+        typed = (find_option(self, word) for word in words)
+        found.given = frozenset(action.dest for action in typed if action is not None)
         return found, rest
 
     def _unknown(self, option: str) -> str:
@@ -183,7 +181,6 @@ def parsed(words: Sequence[str]) -> tuple[argparse.Namespace, Loudness]:
     if at is not None and words[at] == "help":  # as other programs have it
         words = [*words[:at], *words[at + 1 :], "--help"]
     args = top.parse_args(words)
-    args.read_as = [*filter(None, [args.read_as])]
     wanted = [loudness for loudness in Loudness if vars(args).pop(loudness.value, False)]
     if len(wanted) > 1:
         top.error("got --quiet and --verbose; expected one of them")

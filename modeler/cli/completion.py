@@ -8,7 +8,7 @@ from pathlib import Path
 from modeler.cli import places
 from modeler.cli.commands import commands_of
 from modeler.cli.console import Json, say, say_lines
-from modeler.cli.options import ALL, METHODS, arguments_of, options_of, sorted_words
+from modeler.cli.options import ALL, METHODS, arguments_of, find_option, options_of
 from modeler.core.builtin import paper_names
 from modeler.core.estimators import ABOUT
 from modeler.effects import CATALOGUE as EFFECTS
@@ -96,16 +96,34 @@ def _joined(words: Sequence[str]) -> tuple[list[str], str]:
 
 
 def _of_command(parser: argparse.ArgumentParser, typed: Sequence[str], last: str) -> list[str]:
-    read = sorted_words(parser, typed)
     if last.startswith("-") and "--" not in typed:
         shown = options_of(parser).items()
         return _beginning(last, [name for name, a in shown if a.help != argparse.SUPPRESS])
-    if read.open is not None:
-        found = _values(parser, read.open, last)
-        if read.open.nargs not in ("+", "?"):
-            return found
-        return sorted({*found, *_argument(parser, len(read.arguments), last)})
-    return _argument(parser, len(read.arguments), last)
+    option, count = _position(parser, typed)
+    if option is None:
+        return _argument(parser, count, last)
+    found = _values(parser, option, last)
+    if option.nargs != "?":
+        return found
+    return sorted({*found, *_argument(parser, count, last)})
+
+
+def _position(
+    parser: argparse.ArgumentParser, typed: Sequence[str]
+) -> tuple[argparse.Action | None, int]:
+    """The option whose value the next word would be, and how many arguments there are."""
+    option, count, ended = None, 0, False
+    for word in typed:
+        action = None if ended else find_option(parser, word)
+        if word == "--" and not ended:
+            option, ended = None, True
+        elif action is not None:
+            option = action if "=" not in word and action.nargs != 0 else None
+        elif option is not None:
+            option = None
+        else:
+            count += 1
+    return option, count
 
 
 def _argument(parser: argparse.ArgumentParser, count: int, last: str) -> list[str]:

@@ -169,7 +169,7 @@ def _check_usage(args: argparse.Namespace) -> None:
     if args.choose is None and args.check is None and args.out is None:
         raise DataError("--out: missing; expected the file of the motion, .csv or .parquet")
     if args.choose is not None and not args.candidates:
-        raise DataError("--choose needs --from: --choose 2 --from a.csv b.csv c.csv")
+        raise DataError("--choose needs --from: --choose 1 --from a.csv --from b.csv")
     if args.candidates and args.choose is None and args.between is not None:
         raise DataError("--between: got it with --from, which adds to its logs; leave one out")
     names = ("out", "picture", "between", "encoder_counts", "position_noise")

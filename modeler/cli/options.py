@@ -1,9 +1,8 @@
-"""How arguments of commands are declared; the order of words; the usage line."""
+"""How arguments of commands are declared; the usage line."""
 
 import argparse
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import partial
 from importlib import import_module
@@ -135,15 +134,10 @@ def value(
     return Argument((name,), {"metavar": metavar, "type": kind, "help": text, **further})
 
 
-def repeated(name: str, metavar: str, kind: type[str], text: str) -> Argument:
-    """An option with one value, which may be given several times."""
-    return value(name, metavar, kind, text, action="append", default=[])
-
-
-def several(name: str, metavar: str, kind: type[str], text: str, **further: Any) -> Argument:
-    """An option that takes several words, and may be repeated; see below on where it ends."""
-    text = f"{text}; all words up to the next option or --; may be repeated"
-    return value(name, metavar, kind, text, nargs="+", action="extend", default=[], **further)
+def repeated(name: str, metavar: str, kind: type[str], text: str, **further: Any) -> Argument:
+    """An option with one value; a list is given by repeating it."""
+    text += "; may be repeated"
+    return value(name, metavar, kind, text, action="append", default=[], **further)
 
 
 def choice(name: str, choices: Sequence[str], text: str, default: str | None = None) -> Argument:
@@ -185,98 +179,6 @@ class Methods(Word):
         return self == ALL or "," in self
 
 
-# Words in any order: options before or after what they stand beside.
-#
-# By itself, argparse lets `--holdout LOG...` take every word up to the next option, and then misses
-# the arguments that these words were. Here such an option takes them too, but the last words go
-# back to arguments that would have none: `diagnose m.json --holdout b a` is `diagnose m.json a
-# --holdout b`. `--` ends every option.
-
-
-_NUMBER = re.compile(r"-\d+$|-\d*\.\d+$")  # what argparse takes for a negative number
-
-
-@dataclass
-class _Typed:
-    """An option as typed, and the places of the words that are its values."""
-
-    word: int
-    action: argparse.Action | None
-    values: list[int] = field(default_factory=list)
-    attached: bool = False
-
-    @property
-    def spare(self) -> int:
-        """Values that it can do without."""
-        if self.action is None or self.attached or self.action.nargs not in ("+", "?"):
-            return 0
-        return len(self.values) - (self.action.nargs == "+")
-
-
-@dataclass(frozen=True)
-class Sorted:
-    """Words as argparse understands them in one way only.
-
-    Attributes:
-        words: options with their values, `--`, then the arguments in order.
-        arguments: those.
-        told: how a doubtful line was read; "" where nothing was given back.
-        open: the option whose value the next word would be; None: it is an argument or an option.
-        unknown: what looks like an option and is none.
-        given: options that were typed, by the names of their values.
-    """
-
-    words: list[str]
-    arguments: list[str]
-    told: str
-    open: argparse.Action | None
-    unknown: list[str]
-    given: frozenset[str]
-
-
-def sorted_words(parser: argparse.ArgumentParser, words: Sequence[str]) -> Sorted:
-    """Options first, then what is no option; see above for options with several values.
-
-    Args:
-        parser: of one command.
-        words: as typed after the command.
-    """
-    taken, free, ended = _split(parser, words)
-    back = _given_back(parser, taken, len(free)) if not ended else []
-    free = sorted([*free, *back])
-    known = options_of(parser)
-    options = [
-        word
-        for each in taken
-        for word in (_whole(words[each.word], each.action, known), *(words[i] for i in each.values))
-    ]
-    arguments = [words[i] for i in free]
-    last = taken[-1] if taken else None
-    opened = last if last is not None and _may_take(last, words) and not ended else None
-    return Sorted(
-        words=[*options, *(["--", *arguments] if arguments or ended else [])],
-        arguments=arguments,
-        told=_told(parser, taken, words, arguments) if back else "",
-        open=None if opened is None else opened.action,
-        unknown=[
-            words[each.word]
-            for each in taken
-            if words[each.word].startswith("--")
-            and not any(name.startswith(words[each.word].partition("=")[0]) for name in known)
-        ],
-        given=frozenset(each.action.dest for each in taken if each.action is not None),
-    )
-
-
-def _whole(word: str, action: argparse.Action | None, known: Mapping[str, argparse.Action]) -> str:
-    """An option that was cut short, in full."""
-    name, equals, value = word.partition("=")
-    if action is None or name in known:
-        return word
-    full = next(full for full, each in known.items() if each is action and full.startswith(name))
-    return full + equals + value
-
-
 def options_of(parser: argparse.ArgumentParser) -> dict[str, argparse.Action]:
     """Every option by each of its names."""
     return {name: action for action in parser._actions for name in action.option_strings}
@@ -287,75 +189,13 @@ def arguments_of(parser: argparse.ArgumentParser) -> list[argparse.Action]:
     return [action for action in parser._actions if not action.option_strings]
 
 
-def _split(
-    parser: argparse.ArgumentParser, words: Sequence[str]
-) -> tuple[list[_Typed], list[int], bool]:
-    """Options with their values, places of all else, and whether `--` was among them."""
-    taken: list[_Typed] = []
-    free: list[int] = []
-    for i, word in enumerate(words):
-        if word == "--":
-            return taken, [*free, *range(i + 1, len(words))], True
-        if _is_option(word):
-            name, equals, _ = word.partition("=")
-            taken.append(_Typed(i, _action(parser, name), attached=bool(equals)))
-        elif taken and _may_take(taken[-1], words[:i]):
-            taken[-1].values.append(i)
-        else:
-            free.append(i)
-    return taken, free, False
-
-
-def _is_option(word: str) -> bool:
-    return len(word) > 1 and word[0] == "-" and not _NUMBER.match(word) and " " not in word
-
-
-def _action(parser: argparse.ArgumentParser, name: str) -> argparse.Action | None:
-    """The option of that name, or of names that begin so, if it is one option."""
-    known = options_of(parser)
+def find_option(parser: argparse.ArgumentParser, word: str) -> argparse.Action | None:
+    """The option that a word names, which may be cut short; None if it names none, or several."""
+    known, name = options_of(parser), word.partition("=")[0]
     if name in known:
         return known[name]
     meant = [known[full] for full in known if name.startswith("--") and full.startswith(name)]
-    return meant[0] if meant and all(action is meant[0] for action in meant) else None
-
-
-def _may_take(option: _Typed, words: Sequence[str]) -> bool:
-    """Whether the word after `words` is a value of this, the last option in them."""
-    if option.action is None or option.attached:
-        return False
-    if option.word + len(option.values) + 1 != len(words):
-        return False
-    nargs = option.action.nargs
-    most = nargs if isinstance(nargs, int) else {None: 1, "?": 1, "+": len(words)}.get(nargs, 0)
-    return len(option.values) < most
-
-
-def _given_back(parser: argparse.ArgumentParser, taken: Sequence[_Typed], free: int) -> list[int]:
-    """Takes from options what arguments would lack; one word is enough for each argument."""
-    missing = len(arguments_of(parser)) - free
-    back: list[int] = []
-    for option in reversed(taken):
-        for _ in range(min(option.spare, missing - len(back))):
-            back.append(option.values.pop())
-    return back
-
-
-def _told(
-    parser: argparse.ArgumentParser,
-    taken: Sequence[_Typed],
-    words: Sequence[str],
-    arguments: Sequence[str],
-) -> str:
-    several = [
-        " ".join([words[each.word], *(words[i] for i in each.values)])
-        for each in taken
-        if each.action is not None and each.action.nargs in ("+", "?")
-    ]
-    names = " ".join(str(action.metavar) for action in arguments_of(parser))
-    return (
-        f"read as {names} = {' '.join(arguments)} and {', '.join(several)}; for another reading "
-        f"put {names} first, or -- before it"
-    )
+    return meant[0] if len(meant) == 1 else None
 
 
 # The usage line of a command: arguments first, which works with every option after them.

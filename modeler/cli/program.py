@@ -90,11 +90,9 @@ def _answer(words: Sequence[str], phase: Phase) -> None:
 def _carried_out(args: "argparse.Namespace", phase: Phase, every_line: bool) -> None:
     with phase():
         from modeler.cli.browser import opened_page
-        from modeler.cli.console import clock, note, run_command, step
+        from modeler.cli.console import clock, run_command, step
         from modeler.cli.places import check_places
 
-    for line in args.read_as:
-        note(line)
     with opened_page(args):
         check_places(args)
         with phase(), step("loading"), clock("loading"):

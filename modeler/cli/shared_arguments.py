@@ -19,8 +19,8 @@ MODEL = value("model", "MODEL", places.ModelFile, "a model file of `modeler fit`
 MAP = repeated(
     "--map", "NAME=COLUMN[:UNIT]", places.MapWord,
     "which column of the logs is ours, as 'q<j>=position_{j}:deg', or FILE.toml with such lines; "
-    "may be given several times; auto: what `modeler log` suggests for all else; over [log] of the "
-    "robot file; kept in the model",
+    "auto: what `modeler log` suggests for all else; over [log] of the robot file; kept in the "
+    "model",
 )  # fmt: skip
 DASK = value(
     "--dask", "ADDRESS", places.Word,

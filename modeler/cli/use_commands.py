@@ -26,7 +26,7 @@ GENERATE = Command(
         flag("--structured-text", "also function blocks for a PLC, IEC 61131-3"),
         flag("--a2l", "also a description of the parameter set for calibration tools"),
         repeated("--frame", "NAME", places.Word,
-                 "also pose, Jacobian and twist of this row, or link of [frames]; may be repeated"),
+                 "also pose, Jacobian and twist of this row, or link of [frames]"),
         value("--only", "LIST", places.Word,
               'leave out what is not named: "inverse_dynamics,gravity"; with values and without; '
               "observation is that of many samples"),

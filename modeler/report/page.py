@@ -340,7 +340,7 @@ def after_compare(
         return _taken(model)
     if not held_out:
         return f"modeler diagnose {_listed([model, *logs])}"
-    return f"modeler diagnose {_listed([model, *fitted])} --holdout {_listed(logs)}"
+    return f"modeler diagnose {_listed([model, *fitted])}{_held(logs)}"
 
 
 def after_stated(robot: str, logs: Sequence[str], mapped: Sequence[str] = ()) -> str:
@@ -386,7 +386,7 @@ def after_add(
 
 
 def _held(holdout: Sequence[str]) -> str:
-    return f" --holdout {_listed(holdout)}" if holdout else ""
+    return "".join(f" --holdout {_listed([log])}" for log in holdout)
 
 
 def _taken(model: str) -> str:

@@ -252,12 +252,11 @@ def _options(task: Task) -> Iterator[str]:
         if name in _PLACES or value in ("", None, ()):
             continue
         if name == "held":
-            yield from (option, *(part.word for part in value))
+            value = tuple(part.word for part in value)
         elif name == "effects":
-            yield from (option, ",".join(value))
-        else:
-            for own in value if isinstance(value, tuple) else (value,):
-                yield from (option, f"{own:.12g}" if isinstance(own, float) else str(own))
+            value = ",".join(value)
+        for own in value if isinstance(value, tuple) else (value,):
+            yield from (option, f"{own:.12g}" if isinstance(own, float) else str(own))
 
 
 # What the values of a task may be, whoever wrote them.

@@ -13,6 +13,7 @@ import pytest
 
 from modeler.cli import console, main
 from modeler.cli.console import Loudness, clock, progress, using_loudness, working
+from modeler.robot import read_robot
 from tests.cli.running import run
 
 
@@ -52,12 +53,14 @@ def test_verbose_shows_warnings_of_libraries_and_quiet_does_not(monkeypatch, rec
 
 @pytest.mark.parametrize("words", ["-q {}", "{} --quiet"])
 def test_quiet_leaves_results_and_errors(capsys, tmp_path: Path, words: str) -> None:
-    """A line that was read in one way of two is told, unless quiet; an error always."""
-    (tmp_path / "m.json").write_text("{}")
-    line = f"diagnose {tmp_path / 'm.json'} --holdout b.csv a.csv"
+    """A note is told, unless quiet; an error always."""
+    robot = read_robot("two-link").text + '\n[fit]\nmethod = "robust"\n'
+    (tmp_path / "arm.toml").write_text(robot)
+    (tmp_path / "a.csv").write_text("no log\n")
+    line = f"fit {tmp_path / 'arm.toml'} {tmp_path / 'a.csv'} --out {tmp_path / 'm.json'}"
     _, _, usual = run(capsys, *line.split())
     _, _, err = run(capsys, *words.format(line).split())
-    assert usual.startswith("modeler: read as MODEL LOG = ")
+    assert usual.startswith("modeler: by [fit] of the robot file: ")
     assert usual.count("\n") == 2 and err.count("\n") == 1 and usual.endswith(err)
     assert run(capsys, *words.format("robots").split()) == run(capsys, "robots")
 

@@ -39,7 +39,7 @@ READING = {  # what each command reads; outputs come after it
     "convert": "convert arm.par --out new.toml",
     "new": "new new.toml",
     "simulate": "simulate arm.toml --out new.csv",
-    "excite": "excite arm.toml --choose 1 --from a.parquet b.csv",
+    "excite": "excite arm.toml --choose 1 --from a.parquet --from b.csv",
     "log": "log a.parquet --robot arm.toml --map names.toml",
     "fit": "fit arm.toml a.parquet b.csv@0:4 --payload-log load.parquet --out new.json",
     "compare": "compare m.json a.parquet@2:",

@@ -1,4 +1,4 @@
-"""Options with several values, before and after the arguments that they stand beside."""
+"""Options before and after the arguments that they stand beside; lists."""
 
 import argparse
 import re
@@ -14,6 +14,7 @@ from modeler.cli.options import arguments_of, options_of
 WORDS = {
     "model": ["m.json"], "logs": ["a.parquet", "b.csv"], "robot": ["wrist"], "effect": ["coulomb"],
     "source": ["wrist"], "file": ["x.par"], "paper": ["guegan-2003"], "shell": ["bash"],
+    "log": ["run.csv"], "folder": ["arm"],
 }  # fmt: skip
 VALUES = {"sets": ["3"], "cad": ["cad.toml"]}
 PARSERS = commands_of(parser())
@@ -28,20 +29,20 @@ def required(subparser: argparse.ArgumentParser) -> list[str]:
     return found
 
 
-SEVERAL = [
+WITH_VALUE = [
     (name, option)
     for name, subparser in PARSERS.items()
     for option, action in options_of(subparser).items()
-    if action.nargs in ("+", "*", "?")
+    if isinstance(action, argparse._AppendAction) or action.nargs == "?"
 ]
 
 
 def read(words: list[str]) -> dict[str, object]:
     found = vars(parsed(words)[0])
-    return {name: value for name, value in found.items() if name not in ("read_as", "load")}
+    return {name: value for name, value in found.items() if name != "load"}
 
 
-@pytest.mark.parametrize(("name", "option"), SEVERAL)
+@pytest.mark.parametrize(("name", "option"), WITH_VALUE)
 def test_the_order_does_not_matter(name: str, option: str) -> None:
     """After the arguments, before them, in their midst, repeated: the same is read."""
     subparser = PARSERS[name]
@@ -49,27 +50,26 @@ def test_the_order_does_not_matter(name: str, option: str) -> None:
     values = VALUES.get(action.dest, ["c.parquet", "d.parquet"])
     arguments = [WORDS[argument.dest][0] for argument in arguments_of(subparser)]
     rest = required(subparser)
-    after = read([name, *arguments, *rest, option, *values])
+    typed = [word for value in values for word in (option, value)]
+    after = read([name, *arguments, *rest, *typed])
     assert after[action.dest] in (values, values[0], 3)
     orders = [
-        [*rest, option, *values, *arguments],
-        [option, *values, *rest, *arguments],
-        [*rest, *arguments[:1], option, *values, *arguments[1:]],
-        [option, *values, *rest, "--", *arguments],
+        [*rest, *typed, *arguments],
+        [*typed, *rest, *arguments],
+        [*rest, *arguments[:1], *typed, *arguments[1:]],
+        [*typed[:2], *rest, *arguments, *typed[2:]],
+        [*typed, *rest, "--", *arguments],
     ]
-    if action.nargs == "+":
-        orders.append([option, values[0], *rest, option, values[1], *arguments])
     for words in orders:
         assert read([name, *words]) == after, words
 
 
-def test_what_was_given_back_is_told() -> None:
-    found, _ = parsed(shlex.split("diagnose m.json --holdout b a"))
-    assert (found.model, found.logs, found.holdout) == ("m.json", ["a"], ["b"])
-    assert found.read_as[0].startswith("read as MODEL LOG = m.json a and --holdout b; for another")
-    for words in ("diagnose m.json a --holdout b", "diagnose --holdout b c -- m.json a e"):
-        assert parsed(shlex.split(words))[0].read_as == []
-    assert parsed(shlex.split("diagnose --holdout b c -- m.json a e"))[0].logs == ["a", "e"]
+def test_a_list_is_given_by_repeating_the_option(capsys) -> None:
+    found, _ = parsed(shlex.split("diagnose --holdout b m.json a --holdout=c e"))
+    assert (found.model, found.logs, found.holdout) == ("m.json", ["a", "e"], ["b", "c"])
+    assert "holdout" in found.given and "logs" not in found.given
+    cut = parsed(shlex.split("fit emps a --meth robust --out m"))[0]
+    assert cut.method == "robust" and cut.given == {"method", "out"}
 
 
 @pytest.mark.parametrize(
@@ -78,7 +78,7 @@ def test_what_was_given_back_is_told() -> None:
      ("diagnose --holdout b", "MODEL, LOG"), ("physical --cad", "ROBOT|MODEL"),
      ("excite --from a", "ROBOT|MODEL"), ("fit emps --payload-log a --out m", "LOG")],
 )  # fmt: skip
-def test_what_is_missing_is_still_missed(capsys, words: str, missing: str) -> None:
+def test_what_is_missing_is_missed(capsys, words: str, missing: str) -> None:
     with pytest.raises(SystemExit) as stop:
         main(words.split())
     assert stop.value.code == 2

@@ -49,7 +49,7 @@ LINES = (  # what they write is looked into, or they run what no other test runs
     "excite two-link --check a.csv",
     "excite two-link --from a.csv --out e.csv --starts 1 --harmonics 3 --family bspline "
     "--clearance 0.01",
-    "excite two-link --choose 1 --from a.csv b.csv",
+    "excite two-link --choose 1 --from a.csv --from b.csv",
 )
 
 

@@ -100,7 +100,8 @@ def test_the_best_of_given_motions_is_chosen(capsys, folder, tmp_path):
     logs = [folder / "motion.csv", tmp_path / "short.parquet"]
     words = ("simulate", "demo-arm", "--duration", 2, "--rate", 200, "--out", logs[1])
     assert run(capsys, *words)[0] == 0
-    words = ("excite", "demo-arm", "--choose", 1, "--from", *logs, "--json", tmp_path / "c")
+    words = ("excite", "demo-arm", "--choose", 1, "--json", tmp_path / "c")
+    words = (*words, "--from", logs[0], "--from", logs[1])
     assert run(capsys, *words)[0] == 0
     raw = json.loads((tmp_path / "c").read_text())
     assert raw["chosen"] == [str(logs[0])]
