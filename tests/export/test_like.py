@@ -241,7 +241,7 @@ def test_only_changed_numbers_are_listed(urdf, tmp_path, capsys) -> None:
     ("a.xml", b'armature="0.05"', b'springdamper="1 1"', "springdamper makes damping"),
     ("a.xml", b'gear="2"', b'gear="2" armature="0.1"', "actuators state armature or damping"),
     ("a.txt", MJCF, b"<x/>", r"expected <robot> \(URDF\)"),
-    ("a.urdf", MJCF, URDF, "URDF, and to or the ending of out says mjcf"),
+    ("a.urdf", MJCF, URDF, "URDF, and --to or the ending of --out says mjcf"),
 ])  # fmt: skip
 def test_what_cannot_be_replaced_is_refused(mjcf, tmp_path, name, old, new, word) -> None:
     base = MJCF if new == URDF else MJCF.replace(b'fullinertia="0.0004 0.0004 0.0002 1e-5 0 0"',
@@ -261,7 +261,7 @@ def test_a_body_of_an_included_file_is_refused(tmp_path) -> None:
 
 def test_nothing_is_written_over_unasked(urdf, tmp_path) -> None:
     robot = other_values(urdf)
-    with pytest.raises(ModelerError, match="with force"):
+    with pytest.raises(ModelerError, match=r"\(force=True\)"):
         export(robot, urdf, like=urdf)
     export(robot, tmp_path / "new.urdf", like=urdf)
     refused("cannot be read", robot, tmp_path / "none.urdf")

@@ -83,12 +83,12 @@ def test_a_package_is_written_again(tmp_path, capsys) -> None:
 def test_what_is_refused(tmp_path) -> None:
     text = load("demo-arm").text
     robot = robot_from_text(text.replace("[effects]", HOT), "hot")
-    with pytest.raises(ModelerError, match="is for robot files, and to says casadi"):
+    with pytest.raises(ModelerError, match="is for robot files, and --to says casadi"):
         export(robot, to="casadi", like="arm.urdf")
     for to in ("ros2", "fmu"):
         with pytest.raises(ModelerError, match="its effects read temperature, which"):
             export(robot, tmp_path / "p", to=to)
         with pytest.raises(ModelerError, match="wrist: a robot without values; write"):
             export(load("wrist"), tmp_path / "p", to=to)
-        with pytest.raises(ModelerError, match=f"arm.urdf: is for robot files, and to says {to}"):
+        with pytest.raises(ModelerError, match=f"arm.urdf: is for robot files, and --to says {to}"):
             export(robot, tmp_path / "p", to=to, like="arm.urdf")

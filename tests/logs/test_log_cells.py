@@ -150,7 +150,7 @@ def test_episodes_are_segments(times, short, tmp_path):
     (log,) = read_logs(short.compiled, [path], ["auto", *rate, "topic=data/demo_9"])
     assert log.q == pytest.approx(joined(short.table, "q")[130:230])
     if not times:
-        with pytest.raises(DataError, match=r"no column time; .*mapping rate=HZ"):
+        with pytest.raises(DataError, match=r"no column time; .*--map rate=HZ"):
             read_logs(short.compiled, [path], ["auto"])
         path = episodes(tmp_path / "a.hdf5", short.table, (200, 200), "joint_{}/")
         names = [name for name, _ in read_columns(path, Wanted()).columns]  # which are no episodes

@@ -130,7 +130,7 @@ def test_rows_that_are_not_even_have_no_rate():
 def test_a_coarse_log_is_told_and_its_rate_works(step, case, tmp_path):
     table = {**case.table, "time": step * np.floor(case.table["time"] / step + 1e-9)}
     path = csv(tmp_path / "coarse.csv", table)
-    words = rf"times are rounded to {step:g} s and repeat; .* even: give mapping rate=1000$"
+    words = rf"times are rounded to {step:g} s and repeat; .* even: give --map rate=1000$"
     for mapping in ((), ["auto"]):
         with pytest.raises(DataError, match=words):
             case.check(path, mapping)

@@ -65,7 +65,7 @@ def test_other_topics_hold_their_last_message(short, tmp_path):
 
 def test_of_several_topics_one_is_chosen(short, tmp_path, run):
     path = writers.bag(tmp_path / "run", short.table, extra_topic="/other/joint_states")
-    with pytest.raises(DataError, match=r"2 topics may hold the motion: .*mapping topic=/"):
+    with pytest.raises(DataError, match=r"2 topics may hold the motion: .*--map topic=/"):
         read_logs(short.compiled, [path], ROS)
     short.check(path, {**ROS, "topic": "/joint_states"}, 1e-14)
     with pytest.raises(DataError, match="topic /x: no messages of it; the topics are /"):
