@@ -35,7 +35,9 @@ class _Parser(argparse.ArgumentParser):
     @property
     def usage(self) -> str | None:
         """Of a command; argparse writes that of all commands itself."""
-        return self._stated if self._subparsers is not None else usage_of(self)
+        if self._stated is None and self._subparsers is None:
+            return usage_of(self)
+        return self._stated
 
     @usage.setter
     def usage(self, text: str | None) -> None:
@@ -54,7 +56,7 @@ class _Parser(argparse.ArgumentParser):
             name = word.partition("=")[0]
             if name[:2] == "--" and not any(full.startswith(name) for full in options_of(self)):
                 self.error(self._unknown(word))
-        self._intermixed = True
+        self._intermixed, self.usage = True, usage_of(self)  # its arguments are hidden meanwhile
         try:  # options and arguments in any order
             found, rest = self.parse_known_intermixed_args(args, namespace)
         finally:

@@ -99,3 +99,11 @@ def test_the_usage_tells_an_order_that_works(name: str) -> None:
         if option.startswith("--") and action.help != argparse.SUPPRESS:
             named = any(name in flat for name in action.option_strings)  # by one of its names
             assert named or option in ("--help", "--quiet", "--verbose"), option
+
+
+def test_the_help_tells_which_arguments_are_several(capsys) -> None:
+    """While options are read, argparse hides the arguments."""
+    for name, shown in (("fit", "fit ROBOT LOG [LOG ...] [--out"), ("studio", "studio [FOLDER]")):
+        with pytest.raises(SystemExit):
+            main([name, "--help"])
+        assert f"usage: modeler {shown}" in capsys.readouterr().out
